@@ -129,8 +129,8 @@ class Auditor {
       thermal_ = false;
     }
     if (density > densest_matter) {
-      object(Verdict::not_usable, "reference density {:.4g} kg/m^3: no material at rest has more than {:g}", density,
-             densest_matter);
+      object(Verdict::not_usable, "reference density {:.4g} kg/m^3: no material at rest has more than {:g}",
+             density, densest_matter);
     }
     result_.condensed = std::abs(s.pressure) < condensed_pressure * stiffness();
     if (result_.condensed && std::abs(s.pressure) > resting_pressure * stiffness()) {

@@ -58,9 +58,9 @@ ChapmanJouguet chapman_jouguet(const Products& products, const Explosive& explos
     }
     below = density;
   }
-  throw StateError(
-      fmt::format("no detonation: the Rayleigh line touches the products' Hugoniot nowhere up to {:.6g} kg/m^3",
-                  densest));
+  throw StateError(fmt::format(
+      "no detonation: the Rayleigh line touches the products' Hugoniot nowhere up to {:.6g} kg/m^3",
+      densest));
 }
 
 ChapmanJouguet chapman_jouguet(const EquationOfState& products) {

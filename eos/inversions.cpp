@@ -77,9 +77,10 @@ State state_at_pressure_and_temperature(const EquationOfState& eos, double press
       return checked(found, found.pressure, pressure, stiffness(found), "pressure (Pa)");
     }
     if (!std::isfinite(next.pressure)) {
-      throw StateError(fmt::format("no state at {:.6g} Pa and {:.6g} K: the pressure of model {} at {:.6g} "
-                                   "kg/m^3 is not finite",
-                                   pressure, temperature, eos.model(), density));
+      throw StateError(
+          fmt::format("no state at {:.6g} Pa and {:.6g} K: the pressure of model {} at {:.6g} "
+                      "kg/m^3 is not finite",
+                      pressure, temperature, eos.model(), density));
     }
     if (compress && density >= eos.maximum_density()) {
       throw StateError(

@@ -61,7 +61,8 @@ class Diagram {
   }
   [[nodiscard]] double value_of(const State& state, const Column& column) const {
     const CurveRow cells = state_cells(state, *subject_->eos);
-    const auto place = std::ranges::find(state_columns(), column.name, &Column::name) - state_columns().begin();
+    const auto place =
+        std::ranges::find(state_columns(), column.name, &Column::name) - state_columns().begin();
     return std::get<double>(cells[static_cast<std::size_t>(place)]) / column.size;
   }
 
@@ -113,7 +114,8 @@ void shock_velocities(Figure& figure, const Subject& subject, int colour, double
 
 void volumes(Diagram& diagram, const EquationOfState& eos, double greatest) {
   const Hugoniot hugoniot(eos);
-  diagram.add("Hugoniot", LineStyle::solid, spaced(std::max(0.0, hugoniot.initial().pressure), greatest, curve_points),
+  diagram.add("Hugoniot", LineStyle::solid,
+              spaced(std::max(0.0, hugoniot.initial().pressure), greatest, curve_points),
               [&](double p) { return hugoniot.at_pressure(p).state; });
   if (!std::isfinite(eos.reference_temperature())) return;
   diagram.add("reference isotherm", LineStyle::dashed, spaced(0, greatest, curve_points),
@@ -156,7 +158,8 @@ void temperatures(Diagram& diagram, const EquationOfState& eos, double greatest,
                   const std::vector<double>& releases) {
   melting_lines(diagram, eos, greatest);
   const Hugoniot hugoniot(eos);
-  diagram.add("Hugoniot", LineStyle::solid, spaced(std::max(0.0, hugoniot.initial().pressure), greatest, curve_points),
+  diagram.add("Hugoniot", LineStyle::solid,
+              spaced(std::max(0.0, hugoniot.initial().pressure), greatest, curve_points),
               [&](double p) { return hugoniot.at_pressure(p).state; });
   diagram.add_isentrope("isentrope", LineStyle::dashdot,
                         spaced(std::max(0.0, hugoniot.initial().pressure), greatest, curve_points));
@@ -175,7 +178,8 @@ void densities(Diagram& diagram, const EquationOfState& eos, double greatest,
               geometric(std::max(lowest_pressure, hugoniot.initial().pressure), greatest, 2 * curve_points),
               [&](double p) { return hugoniot.at_pressure(p).state; });
   for (const double p : releases) {
-    diagram.add_release(LineStyle::thin, hugoniot.at_pressure(p).state, geometric(p, lowest_pressure, curve_points));
+    diagram.add_release(LineStyle::thin, hugoniot.at_pressure(p).state,
+                        geometric(p, lowest_pressure, curve_points));
   }
   const VapourDome* dome = eos.vapour_dome();
   if (dome == nullptr) return;

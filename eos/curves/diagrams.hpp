@@ -40,6 +40,7 @@ enum class DiagramKind {
 /// @param greatest  pressure (Pa) at which the curves end
 /// @param releases  shock pressures (Pa) to release from; empty: a quarter, a half and all of the greatest one
 /// @throws InputError if the greatest pressure is not positive
-Figure diagram(DiagramKind kind, const Subjects& subjects, double greatest, std::vector<double> releases = {});
+Figure diagram(DiagramKind kind, const Subjects& subjects, double greatest,
+               std::vector<double> releases = {});
 
 }  // namespace whipple::eos::curves

@@ -24,10 +24,10 @@ ImpactSide side(const EquationOfState& eos, const State& shocked) {
 
 }  // namespace
 
-PlanarImpact planar_impact(const EquationOfState& projectile, const EquationOfState& target, double velocity) {
+PlanarImpact planar_impact(const EquationOfState& projectile, const EquationOfState& target,
+                           double velocity) {
   const ImpedanceMatch match = match_impact(Hugoniot(projectile), Hugoniot(target), velocity);
-  return {match.pressure, match.velocity,
-          unless_beyond([&] {
+  return {match.pressure, match.velocity, unless_beyond([&] {
             return free_surface_velocity(target, {match.right, match.right_shock_velocity, match.velocity});
           }),
           side(projectile, match.left), side(target, match.right)};

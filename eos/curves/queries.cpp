@@ -28,15 +28,17 @@ State state_of(const EquationOfState& eos, const StateQuery& q) {
     return state_at_pressure_and_temperature(eos, *q.pressure, *q.temperature);
   }
   throw InputError(
-      "a state is named by two quantities: density with temperature, energy, pressure or entropy, or pressure with "
+      "a state is named by two quantities: density with temperature, energy, pressure or entropy, or "
+      "pressure with "
       "temperature");
 }
 
 Hugoniot hugoniot_of(const EquationOfState& eos, const HugoniotStart& start) {
   const double reference = eos.reference_density();
   if (start.initial_density && *start.initial_density > reference) {
-    throw InputError(fmt::format("the initial density of {:.6g} kg/m^3 is above the reference density of {:.6g} kg/m^3",
-                                 *start.initial_density, reference));
+    throw InputError(
+        fmt::format("the initial density of {:.6g} kg/m^3 is above the reference density of {:.6g} kg/m^3",
+                    *start.initial_density, reference));
   }
   const Hugoniot hugoniot = start.initial_density && *start.initial_density < reference
                                 ? Hugoniot::porous(eos, *start.initial_density)
@@ -61,14 +63,16 @@ ShockState required_shock(const EquationOfState& eos, const HugoniotStart& start
 
 std::vector<ImpedanceMatch> interfaces(const Subjects& subjects, double velocity) {
   if (subjects.size() < 2) {
-    throw InputError("an impact has two materials at least: the impactor, the target, and what lies behind it");
+    throw InputError(
+        "an impact has two materials at least: the impactor, the target, and what lies behind it");
   }
   if (!(velocity > 0.0)) throw InputError("an impact needs a velocity above zero");
   std::vector<ImpedanceMatch> matches = {
       match_impact(Hugoniot(*subjects[0].eos), Hugoniot(*subjects[1].eos), velocity)};
   for (std::size_t i = 2; i < subjects.size(); ++i) {
     const ImpedanceMatch& last = matches.back();
-    matches.push_back(match_shock(*subjects[i - 1].eos, {last.right, last.right_shock_velocity, last.velocity},
+    matches.push_back(match_shock(*subjects[i - 1].eos,
+                                  {last.right, last.right_shock_velocity, last.velocity},
                                   Hugoniot(*subjects[i].eos)));
   }
   return matches;

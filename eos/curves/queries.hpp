@@ -30,7 +30,7 @@ State state_of(const EquationOfState& eos, const StateQuery& query);
 
 /// Where a Hugoniot begins: at the reference state, at porous material, or at a state shocked before.
 struct HugoniotStart {
-  std::optional<double> initial_density = {};     ///< kg/m^3, of porous material; the reference density at most
+  std::optional<double> initial_density = {};  ///< kg/m^3, of porous material; the reference density at most
   std::optional<double> reflected_pressure = {};  ///< Pa: the Hugoniot begins at the state shocked to it
 };
 

@@ -12,11 +12,11 @@ namespace whipple::eos::curves {
 
 /// One quantity of a table: its names, and the unit that it is shown in.
 struct Column {
-  std::string name;         ///< with its unit, as in the CSV files of experiments: "P_GPa"
-  std::string unit;         ///< as printed: "GPa"; empty: none
-  double size = 1;          ///< of that unit in SI
-  std::string meaning;      ///< for the axes of figures and lists: "pressure"
-  bool in_curves = true;    ///< printed in the table of a curve; all columns go to the CSV
+  std::string name;       ///< with its unit, as in the CSV files of experiments: "P_GPa"
+  std::string unit;       ///< as printed: "GPa"; empty: none
+  double size = 1;        ///< of that unit in SI
+  std::string meaning;    ///< for the axes of figures and lists: "pressure"
+  bool in_curves = true;  ///< printed in the table of a curve; all columns go to the CSV
 };
 
 /// Makes a column; the size of its unit follows from the SI unit of its cells.

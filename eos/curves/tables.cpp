@@ -26,7 +26,8 @@ Column riemann_column() { return quantity_column("u_km_s", "km/s", "m/s", "Riema
 CurveTable table_of(const std::string& title, const Subjects& subjects, std::vector<Column> columns) {
   CurveTable table;
   table.title = title;
-  if (subjects.size() == 1) table.title += fmt::format(": {} ({})", subjects[0].name, subjects[0].eos->model());
+  if (subjects.size() == 1)
+    table.title += fmt::format(": {} ({})", subjects[0].name, subjects[0].eos->model());
   table.columns = std::move(columns);
   for (const Subject& subject : subjects) table.series.push_back({subject.name, {}});
   return table;
@@ -63,7 +64,8 @@ void fill(Series& series, const std::vector<double>& values, const Row& row) {
 }
 
 /// Adds an isentrope at equal ratios of density from its start.
-void add_isentrope(Series& series, const EquationOfState& eos, const State& start, double last_density, int points) {
+void add_isentrope(Series& series, const EquationOfState& eos, const State& start, double last_density,
+                   int points) {
   std::vector<double> densities;
   for (const double x : spaced(std::log(start.density), std::log(last_density), points)) {
     densities.push_back(std::exp(x));
@@ -98,9 +100,10 @@ CurveTable hugoniot_table(const Subjects& subjects, const HugoniotStart& start, 
   const bool over_pressure = variable == Variable::pressure;
   if (!over_pressure && !range.to) throw InputError("a Hugoniot over particle velocity needs its last one");
   const double first = range.from.value_or(0.0), last = range.to.value_or(200 * GPa);
-  if (first < 0 || last < 0) throw InputError("a shock compresses: a Hugoniot begins and ends at zero or above");
-  CurveTable table =
-      table_of(title_of(start), subjects, before_state({particle_velocity_column(), shock_velocity_column()}));
+  if (first < 0 || last < 0)
+    throw InputError("a shock compresses: a Hugoniot begins and ends at zero or above");
+  CurveTable table = table_of(title_of(start), subjects,
+                              before_state({particle_velocity_column(), shock_velocity_column()}));
   for (std::size_t i = 0; i < subjects.size(); ++i) {
     const EquationOfState& eos = *subjects[i].eos;
     const Hugoniot hugoniot = hugoniot_of(eos, start);
@@ -115,16 +118,18 @@ CurveTable hugoniot_table(const Subjects& subjects, const HugoniotStart& start, 
           fmt::format("the curve begins at {:.4g} {}, beyond its end at {:.4g} {}", begin, unit, last, unit));
     }
     fill(table.series[i], spaced(begin, last, range.points), [&](double value) {
-      return shock_row(eos, over_pressure ? hugoniot.at_pressure(value) : hugoniot.at_particle_velocity(value));
+      return shock_row(eos,
+                       over_pressure ? hugoniot.at_pressure(value) : hugoniot.at_particle_velocity(value));
     });
   }
   return table;
 }
 
-CurveTable isotherm_table(const Subjects& subjects, std::optional<double> temperature, const CurveRange& range) {
+CurveTable isotherm_table(const Subjects& subjects, std::optional<double> temperature,
+                          const CurveRange& range) {
   CurveTable table = table_of(
-      temperature ? fmt::format("Isotherm at {} K", *temperature) : "Isotherm at the reference temperature", subjects,
-      state_columns());
+      temperature ? fmt::format("Isotherm at {} K", *temperature) : "Isotherm at the reference temperature",
+      subjects, state_columns());
   const double first = range.from.value_or(0.0), last = range.to.value_or(100 * GPa);
   for (std::size_t i = 0; i < subjects.size(); ++i) {
     const EquationOfState& eos = *subjects[i].eos;
@@ -186,38 +191,40 @@ CurveTable cold_table(const Subjects& subjects, const CurveRange& range) {
 }
 
 CurveTable melt_table(const Subjects& subjects, const CurveRange& range) {
-  CurveTable table = table_of("Melting line", subjects,
-                              {pressure_column(), quantity_column("solidus_K", "K", "K", "temperature of the solidus"),
-                               quantity_column("liquidus_K", "K", "K", "temperature of the liquidus"),
-                               quantity_column("solid_kg_m3", "kg/m^3", "kg/m^3", "density of the solid"),
-                               quantity_column("liquid_kg_m3", "kg/m^3", "kg/m^3", "density of the liquid")});
+  CurveTable table =
+      table_of("Melting line", subjects,
+               {pressure_column(), quantity_column("solidus_K", "K", "K", "temperature of the solidus"),
+                quantity_column("liquidus_K", "K", "K", "temperature of the liquidus"),
+                quantity_column("solid_kg_m3", "kg/m^3", "kg/m^3", "density of the solid"),
+                quantity_column("liquid_kg_m3", "kg/m^3", "kg/m^3", "density of the liquid")});
   const double first = range.from.value_or(0.0), last = range.to.value_or(100 * GPa);
   for (std::size_t i = 0; i < subjects.size(); ++i) {
     const EquationOfState& eos = *subjects[i].eos;
     fill(table.series[i], spaced(first, last, range.points), [&](double pressure) {
       const auto melting = melting_point(eos, pressure);
-      if (!melting) throw StateError(fmt::format("model {} of {} does not melt", eos.model(), subjects[i].name));
-      return CurveRow{pressure, melting->solidus.temperature, melting->liquidus.temperature, melting->solidus.density,
-                      melting->liquidus.density};
+      if (!melting)
+        throw StateError(fmt::format("model {} of {} does not melt", eos.model(), subjects[i].name));
+      return CurveRow{pressure, melting->solidus.temperature, melting->liquidus.temperature,
+                      melting->solidus.density, melting->liquidus.density};
     });
   }
   return table;
 }
 
 CurveTable dome_table(const Subjects& subjects, const CurveRange& range) {
-  CurveTable table = table_of("Liquid and vapour in equilibrium", subjects,
-                              {quantity_column("P_MPa", "MPa", "Pa", "pressure"),
-                               quantity_column("T_K", "K", "K", "temperature"),
-                               quantity_column("liquid_kg_m3", "kg/m^3", "kg/m^3", "density of the liquid"),
-                               quantity_column("vapour_kg_m3", "kg/m^3", "kg/m^3", "density of the vapour"),
-                               quantity_column("latent_kJ_kg", "kJ/kg", "J/kg", "enthalpy of vaporisation")});
+  CurveTable table = table_of(
+      "Liquid and vapour in equilibrium", subjects,
+      {quantity_column("P_MPa", "MPa", "Pa", "pressure"), quantity_column("T_K", "K", "K", "temperature"),
+       quantity_column("liquid_kg_m3", "kg/m^3", "kg/m^3", "density of the liquid"),
+       quantity_column("vapour_kg_m3", "kg/m^3", "kg/m^3", "density of the vapour"),
+       quantity_column("latent_kJ_kg", "kJ/kg", "J/kg", "enthalpy of vaporisation")});
   const double lower = range.from.value_or(100.0);
   for (std::size_t i = 0; i < subjects.size(); ++i) {
     const EquationOfState& eos = *subjects[i].eos;
     const VapourDome* dome = eos.vapour_dome();
     if (dome == nullptr || !dome->at_pressure(lower)) {
-      throw InputError(fmt::format("model {} of {} has no liquid and vapour in equilibrium at {:.4g} Pa", eos.model(),
-                                   subjects[i].name, lower));
+      throw InputError(fmt::format("model {} of {} has no liquid and vapour in equilibrium at {:.4g} Pa",
+                                   eos.model(), subjects[i].name, lower));
     }
     const double top = 0.999 * dome->critical_point().pressure;
     const double last = std::min(top, range.to.value_or(top));
@@ -244,23 +251,25 @@ CurveTable match_table(const Subjects& subjects, double velocity) {
     const std::string arrow = std::isnan(m.left_shock_velocity) ? " (released)" : " (shocked)";
     table.series[0].rows.push_back(
         row_of(*subjects[i].eos, m.left, {subjects[i].name + arrow, m.velocity, m.left_shock_velocity}));
-    table.series[0].rows.push_back(row_of(*subjects[i + 1].eos, m.right,
-                                          {subjects[i + 1].name + " (shocked)", m.velocity, m.right_shock_velocity}));
+    table.series[0].rows.push_back(
+        row_of(*subjects[i + 1].eos, m.right,
+               {subjects[i + 1].name + " (shocked)", m.velocity, m.right_shock_velocity}));
   }
   return table;
 }
 
 CurveTable detonation_table(const Subjects& explosives) {
-  CurveTable table = table_of("Chapman-Jouguet state", explosives,
-                              before_state({quantity_column("D_km_s", "km/s", "m/s", "detonation velocity"),
-                                            particle_velocity_column(), plain_column("exponent", "adiabatic exponent"),
-                                            speed_column("gurney_km_s", "Gurney velocity, sevenfold volume")}));
+  CurveTable table =
+      table_of("Chapman-Jouguet state", explosives,
+               before_state({quantity_column("D_km_s", "km/s", "m/s", "detonation velocity"),
+                             particle_velocity_column(), plain_column("exponent", "adiabatic exponent"),
+                             speed_column("gurney_km_s", "Gurney velocity, sevenfold volume")}));
   for (std::size_t i = 0; i < explosives.size(); ++i) {
     const DetonationProducts products(*explosives[i].eos);
     const ChapmanJouguet& cj = products.chapman_jouguet();
-    table.series[i].rows.push_back(
-        row_of(*explosives[i].eos, cj.state, {cj.detonation_velocity, cj.particle_velocity,
-                                              products.adiabatic_exponent(), products.gurney_velocity()}));
+    table.series[i].rows.push_back(row_of(*explosives[i].eos, cj.state,
+                                          {cj.detonation_velocity, cj.particle_velocity,
+                                           products.adiabatic_exponent(), products.gurney_velocity()}));
   }
   return table;
 }
@@ -268,16 +277,17 @@ CurveTable detonation_table(const Subjects& explosives) {
 CurveTable products_table(const Subjects& explosives, Variable variable, const CurveRange& range) {
   if (variable == Variable::particle_velocity) throw InputError("an isentrope runs over pressure or density");
   constexpr double greatest_volume = 100;
-  CurveTable table = table_of("Isentrope of detonation products", explosives,
-                              before_state({riemann_column(), plain_column("energy_left",
-                                                                           "fraction of the energy left")}));
+  CurveTable table =
+      table_of("Isentrope of detonation products", explosives,
+               before_state({riemann_column(), plain_column("energy_left", "fraction of the energy left")}));
   for (std::size_t i = 0; i < explosives.size(); ++i) {
     const EquationOfState& eos = *explosives[i].eos;
     const DetonationProducts products(eos);
     const State& cj = products.chapman_jouguet().state;
     double last = eos.reference_density() / greatest_volume;
-    if (range.to) last = variable == Variable::density ? *range.to : isentrope_at_pressure(eos, cj,
-        *range.to).state.density;
+    if (range.to)
+      last =
+          variable == Variable::density ? *range.to : isentrope_at_pressure(eos, cj, *range.to).state.density;
     std::vector<double> volumes;
     for (const double x : spaced(std::log(cj.density), std::log(last), range.points)) {
       volumes.push_back(eos.reference_density() / std::exp(x));
@@ -295,10 +305,9 @@ CurveTable contact_table(const Subjects& subjects) {
   const DetonationProducts products(*subjects[0].eos);
   CurveTable table;
   table.title = fmt::format("Detonation of {} meets", subjects[0].name);
-  table.columns = before_state({plain_column("material", "material"), plain_column("wave",
-      "wave back into the products"),
-                                quantity_column("u_km_s", "km/s", "m/s", "velocity of the interface"),
-                                shock_velocity_column()});
+  table.columns = before_state(
+      {plain_column("material", "material"), plain_column("wave", "wave back into the products"),
+       quantity_column("u_km_s", "km/s", "m/s", "velocity of the interface"), shock_velocity_column()});
   table.series.push_back({"", {}});
   for (std::size_t i = 1; i < subjects.size(); ++i) {
     const ImpedanceMatch m = products.contact(Hugoniot(*subjects[i].eos));
@@ -314,13 +323,15 @@ CurveTable gurney_table(const Subjects& explosives, double volume, int points) {
   CurveTable table = table_of(fmt::format("Gurney speeds at {:.6g} volumes", volume), explosives,
                               {plain_column("metal_over_explosive", "mass of metal over that of explosive")});
   for (const auto& [word, shape] : gurney_shapes) {
-    table.columns.push_back(speed_column(std::string(word) + "_km_s", std::string("speed of the metal, ") + word));
+    table.columns.push_back(
+        speed_column(std::string(word) + "_km_s", std::string("speed of the metal, ") + word));
   }
   for (std::size_t i = 0; i < explosives.size(); ++i) {
     const double velocity = DetonationProducts(*explosives[i].eos).gurney_velocity(volume);
     for (const double x : spaced(std::log(0.1), std::log(10.0), points)) {
       CurveRow row = {std::exp(x)};
-      for (const auto& [word, shape] : gurney_shapes) row.emplace_back(gurney_speed(shape, velocity, std::exp(x)));
+      for (const auto& [word, shape] : gurney_shapes)
+        row.emplace_back(gurney_speed(shape, velocity, std::exp(x)));
       table.series[i].rows.push_back(std::move(row));
     }
   }
@@ -328,20 +339,21 @@ CurveTable gurney_table(const Subjects& explosives, double volume, int points) {
 }
 
 CurveTable cylinder_table(const Subjects& explosives, const CylinderTest& test, const CurveRange& range) {
-  CurveTable table = table_of(
-      fmt::format("Cylinder test, bore {:.4g} mm, wall {:.4g} mm of {:.6g} kg/m^3", 2e3 * test.inner_radius,
-                  1e3 * test.wall, test.wall_density),
-      explosives,
-      {quantity_column("R_R0_mm", "mm", "m", "displacement of the outer surface"),
-       speed_column("radial_km_s", "radial speed of the outer surface"),
-       speed_column("wall_km_s", "speed of the wall"), quantity_column("angle_degree", "degree", "rad",
-                                                                       "angle of the wall"),
-       plain_column("v", "relative volume of the products"), pressure_column()});
+  CurveTable table = table_of(fmt::format("Cylinder test, bore {:.4g} mm, wall {:.4g} mm of {:.6g} kg/m^3",
+                                          2e3 * test.inner_radius, 1e3 * test.wall, test.wall_density),
+                              explosives,
+                              {quantity_column("R_R0_mm", "mm", "m", "displacement of the outer surface"),
+                               speed_column("radial_km_s", "radial speed of the outer surface"),
+                               speed_column("wall_km_s", "speed of the wall"),
+                               quantity_column("angle_degree", "degree", "rad", "angle of the wall"),
+                               plain_column("v", "relative volume of the products"), pressure_column()});
   for (std::size_t i = 0; i < explosives.size(); ++i) {
     const DetonationProducts products(*explosives[i].eos);
-    const std::vector<double> displacements = spaced(range.from.value_or(1e-3), range.to.value_or(25e-3), range.points);
+    const std::vector<double> displacements =
+        spaced(range.from.value_or(1e-3), range.to.value_or(25e-3), range.points);
     for (const CylinderWall& w : cylinder_test(products, test, displacements)) {
-      table.series[i].rows.push_back({w.displacement, w.radial_speed, w.material_speed, w.angle, w.volume, w.pressure});
+      table.series[i].rows.push_back(
+          {w.displacement, w.radial_speed, w.material_speed, w.angle, w.volume, w.pressure});
     }
   }
   return table;

@@ -33,7 +33,8 @@ CurveTable hugoniot_table(const Subjects& subjects, const HugoniotStart& start, 
                           Variable variable, const CurveRange& range);
 /// Isotherms over pressure, from zero to 100 GPa.
 /// @param temperature  K; missing: the reference temperature of each model
-CurveTable isotherm_table(const Subjects& subjects, std::optional<double> temperature, const CurveRange& range);
+CurveTable isotherm_table(const Subjects& subjects, std::optional<double> temperature,
+                          const CurveRange& range);
 /// Isentropes from a state to a pressure (100 GPa) or a density, at equal ratios of density.
 CurveTable isentrope_table(const Subjects& subjects, const StateQuery& start, Variable variable,
                            const CurveRange& range);

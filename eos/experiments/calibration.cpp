@@ -27,8 +27,8 @@ double median(std::vector<double> values) {
 double scatter_about_quadratic(const std::vector<double>& x, const std::vector<double>& y) {
   constexpr std::size_t coefficients = 3;
   if (x.size() <= coefficients) {
-    throw InputError(
-        fmt::format("{} points are too few to tell their scatter: four, or a column of errors, are needed", x.size()));
+    throw InputError(fmt::format(
+        "{} points are too few to tell their scatter: four, or a column of errors, are needed", x.size()));
   }
   const double size = *std::ranges::max_element(x);
   Eigen::MatrixXd basis(static_cast<Eigen::Index>(x.size()), static_cast<Eigen::Index>(coefficients));
@@ -46,7 +46,8 @@ double scatter_about_quadratic(const std::vector<double>& x, const std::vector<d
 std::vector<double> measurement_errors(const Experiment& experiment, std::span<const double> slope) {
   std::vector<double> errors;
   if (experiment.ordinate_error.empty()) {
-    errors.assign(experiment.abscissa.size(), scatter_about_quadratic(experiment.abscissa, experiment.ordinate));
+    errors.assign(experiment.abscissa.size(),
+                  scatter_about_quadratic(experiment.abscissa, experiment.ordinate));
     return errors;
   }
   for (std::size_t i = 0; i < experiment.abscissa.size(); ++i) {
@@ -71,7 +72,8 @@ Calibration calibrate(const EquationOfState& eos, const State& initial,
   constexpr double step = 1e-3;
   const std::vector<double> before = values_of(eos, initial, 1.0 - step);
   std::vector<double> slope(count);
-  for (std::size_t i = 0; i < count; ++i) slope[i] = (result.model[i] - before[i]) / (step * experiment.abscissa[i]);
+  for (std::size_t i = 0; i < count; ++i)
+    slope[i] = (result.model[i] - before[i]) / (step * experiment.abscissa[i]);
   result.measurement_error = measurement_errors(experiment, slope);
 
   std::vector<double> sum(count, 0.0), squares(count, 0.0);
@@ -103,7 +105,8 @@ Calibration calibrate(const EquationOfState& eos, const State& initial,
     const double level = std::erf(std::abs(result.pull[i]) / std::numbers::sqrt2);
     for (std::size_t k = 0; k < coverage_levels.size(); ++k) within[k] += level <= coverage_levels[k] ? 1 : 0;
   }
-  for (std::size_t k = 0; k < within.size(); ++k) result.coverage[k] = static_cast<double>(within[k]) / result.points;
+  for (std::size_t k = 0; k < within.size(); ++k)
+    result.coverage[k] = static_cast<double>(within[k]) / result.points;
   result.coverage_of_band = static_cast<double>(within_band) / result.points;
   result.median_half_width = median(widths);
   result.median_error = median(errors);

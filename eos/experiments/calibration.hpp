@@ -23,9 +23,9 @@ struct Calibration {
   std::vector<double> pull;  ///< (model - measured) over both errors; NaN where the point does not count
   int points = 0;            ///< that count
   std::array<double, coverage_levels.size()> coverage{};  ///< fraction of |pull| within each level
-  double coverage_of_band = 0.0;  ///< within the 95 % band of the model alone
-  double median_half_width = 0.0;  ///< of that band, relative to the measured ordinate
-  double median_error = 0.0;       ///< of the measurement, relative to the measured ordinate
+  double coverage_of_band = 0.0;                          ///< within the 95 % band of the model alone
+  double median_half_width = 0.0;                         ///< of that band, relative to the measured ordinate
+  double median_error = 0.0;  ///< of the measurement, relative to the measured ordinate
 };
 
 /// One standard deviation of each ordinate: where the file states errors, these (with the error of the abscissa by the
@@ -38,6 +38,7 @@ std::vector<double> measurement_errors(const Experiment& experiment, std::span<c
 /// state and more than half of the samples have a state there.
 /// @param samples  with their initial states, two or more
 Calibration calibrate(const EquationOfState& eos, const State& initial,
-                      std::span<const std::pair<const EquationOfState*, State>> samples, const Experiment& experiment);
+                      std::span<const std::pair<const EquationOfState*, State>> samples,
+                      const Experiment& experiment);
 
 }  // namespace whipple::eos::experiments

@@ -80,7 +80,8 @@ ModelEntry sesame_entry(const fs::path& folder) {
         const fs::path path = resolved(folder, constants.file);
         const std::optional<int> number =
             constants.material == 0 ? std::nullopt : std::optional(static_cast<int>(constants.material));
-        return std::make_unique<Sesame>(read_sesame(path, number), constants.reference_temperature, path.string());
+        return std::make_unique<Sesame>(read_sesame(path, number), constants.reference_temperature,
+                                        path.string());
       },
       companions_of<SesameConstants>);
 }

@@ -29,7 +29,7 @@ constexpr std::int64_t format_version = 4;
 /// The numbers of a table, one attribute each.
 struct Number {
   const char* name;
-  double TableData::*member;
+  double TableData::* member;
 };
 constexpr Number numbers[] = {
     {"requested_error", &TableData::requested_error},
@@ -45,7 +45,7 @@ constexpr Number numbers[] = {
 
 struct ErrorNumber {
   const char* name;
-  double TableError::*member;
+  double TableError::* member;
 };
 constexpr ErrorNumber error_numbers[] = {
     {"temperature", &TableError::temperature}, {"pressure", &TableError::pressure},

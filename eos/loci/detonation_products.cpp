@@ -19,8 +19,10 @@ constexpr double least_explosion = 1e8;  // Pa
 
 ChapmanJouguet wave_of(const EquationOfState& eos) {
   // Air has a pressure in its reference state, and would expand; it holds nothing to set free.
-  if (eos.condensed() || eos.state(eos.reference_density(), eos.reference_energy()).pressure < least_explosion) {
-    throw InputError(fmt::format("model {} describes no explosive: expected detonation products (jwl)", eos.model()));
+  if (eos.condensed() ||
+      eos.state(eos.reference_density(), eos.reference_energy()).pressure < least_explosion) {
+    throw InputError(
+        fmt::format("model {} describes no explosive: expected detonation products (jwl)", eos.model()));
   }
   return chapman_jouguet(eos);
 }
@@ -40,9 +42,10 @@ std::vector<IsentropeState> DetonationProducts::expansion(const std::vector<doub
   double last = chapman_jouguet_volume() * (1 - 1e-9);
   for (const double v : volumes) {
     if (!(v >= last)) {
-      throw InputError(fmt::format("the products' relative volume {:.6g} is below {:.6g}: expected rising volumes from "
-                                   "that of the Chapman-Jouguet state on",
-                                   v, last));
+      throw InputError(
+          fmt::format("the products' relative volume {:.6g} is below {:.6g}: expected rising volumes from "
+                      "that of the Chapman-Jouguet state on",
+                      v, last));
     }
     densities.push_back(eos_->reference_density() / v);
     last = v;
@@ -53,7 +56,8 @@ std::vector<IsentropeState> DetonationProducts::expansion(const std::vector<doub
 double DetonationProducts::gurney_velocity(double volume) const {
   const double energy = energy_given_off(expansion({volume}).front().state);
   if (!(energy > 0)) {
-    throw InputError(fmt::format("products at the relative volume {:.6g} have given off no energy yet", volume));
+    throw InputError(
+        fmt::format("products at the relative volume {:.6g} have given off no energy yet", volume));
   }
   return std::sqrt(2 * energy);
 }
@@ -66,13 +70,15 @@ ImpedanceMatch DetonationProducts::contact(const Hugoniot& inert) const {
   // Expansion: gases reach zero pressure nowhere, so the search follows the isentrope down instead of starting there.
   const auto products = [&](double p) { return isentrope_at_pressure(*eos_, incident.state, p); };
   const auto residual = [&](double p) {
-    return inert.at_pressure(p).particle_velocity - (incident.particle_velocity - products(p).riemann_velocity);
+    return inert.at_pressure(p).particle_velocity -
+           (incident.particle_velocity - products(p).riemann_velocity);
   };
   double upper = incident.state.pressure, lower = 0.5 * upper;
   while (residual(lower) > 0) {
     upper = lower;
     lower *= 0.5;
-    if (lower <= inert.initial().pressure) throw StateError("products and inert material agree at no pressure");
+    if (lower <= inert.initial().pressure)
+      throw StateError("products and inert material agree at no pressure");
   }
   const double p = find_root(residual, lower, upper, "pressure of the interface");
   const ShockState right = inert.at_pressure(p);
@@ -85,10 +91,14 @@ double gurney_speed(GurneyShape shape, double gurney_velocity, double m) {
                                  gurney_velocity, m));
   }
   switch (shape) {
-    case GurneyShape::cylinder: return gurney_velocity / std::sqrt(m + 0.5);
-    case GurneyShape::sphere: return gurney_velocity / std::sqrt(m + 0.6);
-    case GurneyShape::symmetric_sandwich: return gurney_velocity / std::sqrt(m + 1.0 / 3);
-    case GurneyShape::open_face: break;
+    case GurneyShape::cylinder:
+      return gurney_velocity / std::sqrt(m + 0.5);
+    case GurneyShape::sphere:
+      return gurney_velocity / std::sqrt(m + 0.6);
+    case GurneyShape::symmetric_sandwich:
+      return gurney_velocity / std::sqrt(m + 1.0 / 3);
+    case GurneyShape::open_face:
+      break;
   }
   return gurney_velocity / std::sqrt(((1 + 2 * m) * square(1 + 2 * m) + 1) / (6 * (1 + m)) + m);
 }
@@ -107,8 +117,8 @@ std::vector<CylinderWall> cylinder_test(const DetonationProducts& products, cons
   const double mass = test.wall_density * (ro2 - ri2) + 0.5 * rho0 * ri2;
 
   std::vector<double> volumes;
-  for (int i = 0; i <= points; ++i) volumes.push_back(v0 * std::pow(greatest_volume / v0,
-                                                                    static_cast<double>(i) / points));
+  for (int i = 0; i <= points; ++i)
+    volumes.push_back(v0 * std::pow(greatest_volume / v0, static_cast<double>(i) / points));
   const std::vector<IsentropeState> states = products.expansion(volumes);
   const auto enthalpy = [](const State& s) { return s.specific_internal_energy + s.pressure / s.density; };
   const State& cj = products.chapman_jouguet().state;
@@ -117,8 +127,8 @@ std::vector<CylinderWall> cylinder_test(const DetonationProducts& products, cons
   std::vector<double> section, turned;  // A/A0, 1 - cos(theta)
   for (const IsentropeState& s : states) {
     const double A = rho0 * D / (s.state.density * std::sqrt(2 * (head - enthalpy(s.state))));
-    const double before = section.empty() ? A : section.back(), p_before = section.empty() ? cj.pressure
-        : states[section.size() - 1].state.pressure;
+    const double before = section.empty() ? A : section.back(),
+                 p_before = section.empty() ? cj.pressure : states[section.size() - 1].state.pressure;
     const double work = 0.5 * (s.state.pressure + p_before) * (A - before) * ri2 / (square(D) * mass);
     turned.push_back(turned.empty() ? 0.0 : turned.back() + work);
     section.push_back(A);
@@ -135,9 +145,9 @@ std::vector<CylinderWall> cylinder_test(const DetonationProducts& products, cons
     const double part = std::clamp((A - section[i - 1]) / (section[i] - section[i - 1]), 0.0, 1.0);
     const auto between = [&](double a, double b) { return a + part * (b - a); };
     const double turn = between(turned[i - 1], turned[i]), angle = std::acos(1 - turn);
-    walls.push_back({x, D * std::tan(angle) * std::sqrt(inner2 / outer2), 2 * D * std::sin(0.5 * angle), angle,
-                     between(volumes[i - 1], volumes[i]), between(states[i - 1].state.pressure,
-                                                                  states[i].state.pressure)});
+    walls.push_back({x, D * std::tan(angle) * std::sqrt(inner2 / outer2), 2 * D * std::sin(0.5 * angle),
+                     angle, between(volumes[i - 1], volumes[i]),
+                     between(states[i - 1].state.pressure, states[i].state.pressure)});
   }
   return walls;
 }

@@ -25,11 +25,15 @@ class DetonationProducts {
   [[nodiscard]] const EquationOfState& equation_of_state() const { return *eos_; }
   [[nodiscard]] const ChapmanJouguet& chapman_jouguet() const { return cj_; }
   /// v of the Chapman-Jouguet state.
-  [[nodiscard]] double chapman_jouguet_volume() const { return eos_->reference_density() / cj_.state.density; }
+  [[nodiscard]] double chapman_jouguet_volume() const {
+    return eos_->reference_density() / cj_.state.density;
+  }
   /// Adiabatic exponent rho c^2/p of the Chapman-Jouguet state, which is rho0 D^2/p - 1.
   [[nodiscard]] double adiabatic_exponent() const;
   /// The detonation wave as a shock that moves with D into the explosive at rest.
-  [[nodiscard]] ShockState wave() const { return {cj_.state, cj_.detonation_velocity, cj_.particle_velocity}; }
+  [[nodiscard]] ShockState wave() const {
+    return {cj_.state, cj_.detonation_velocity, cj_.particle_velocity};
+  }
 
   /// States on the isentrope through CJ at relative volumes, each of the list above the one before and above that
   /// of CJ.
@@ -84,12 +88,12 @@ struct CylinderTest {
 
 /// One instant of the wall of a cylinder test.
 struct CylinderWall {
-  double displacement = 0;   ///< of the outer surface, m
-  double radial_speed = 0;   ///< of the outer surface in the plane of the streak camera, m/s
-  double material_speed = 0; ///< of the wall, 2 D sin(theta/2), m/s
-  double angle = 0;          ///< theta between wall and axis
-  double volume = 0;         ///< v of the products
-  double pressure = 0;       ///< of the products, Pa
+  double displacement = 0;    ///< of the outer surface, m
+  double radial_speed = 0;    ///< of the outer surface in the plane of the streak camera, m/s
+  double material_speed = 0;  ///< of the wall, 2 D sin(theta/2), m/s
+  double angle = 0;           ///< theta between wall and axis
+  double volume = 0;          ///< v of the products
+  double pressure = 0;        ///< of the products, Pa
 };
 
 /// Wall of a cylinder test at displacements of its outer surface, by steady flow in the frame of the wave: products

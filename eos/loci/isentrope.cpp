@@ -119,8 +119,8 @@ IsentropeState isentrope_at_pressure(const EquationOfState& eos, const State& st
                       pressure, state.pressure, state.density));
     }
     if (!std::isfinite(state.pressure) || state.density > 1e9 * eos.reference_density()) {
-      throw StateError(fmt::format("the isentrope does not reach {:.6g} Pa: it ends at {:.6g} kg/m^3", pressure,
-                                   state.density));
+      throw StateError(fmt::format("the isentrope does not reach {:.6g} Pa: it ends at {:.6g} kg/m^3",
+                                   pressure, state.density));
     }
     if (state.density < 1e-9 * eos.reference_density()) {
       throw StateError(fmt::format(

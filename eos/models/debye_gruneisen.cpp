@@ -35,8 +35,7 @@ ParameterTable<DebyeGruneisenConstants> DebyeGruneisen::parameters() {
            "K0' = dK_T/dp of that isotherm at rho0"),
       real("debye_temperature", &C::debye_temperature, "K", range::positive(), "theta0 at rho0"),
       real("gruneisen", &C::gruneisen, "", range::positive(), "gamma0 of the lattice at rho0"),
-      choice("gruneisen_law", &C::gruneisen_law, "gamma0 (V/V0)^q, or gamma0 - a (1 - V/V0)")
-          .optional(),
+      choice("gruneisen_law", &C::gruneisen_law, "gamma0 (V/V0)^q, or gamma0 - a (1 - V/V0)").optional(),
       real("gruneisen_exponent", &C::gruneisen_exponent, "", range::between(-3.0, 5.0),
            "q of the law \"power\"")
           .optional(),

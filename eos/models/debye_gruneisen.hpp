@@ -27,19 +27,19 @@ constexpr std::array<Word<LatticeGruneisenLaw>, 2> words(LatticeGruneisenLaw) {
 }
 
 struct DebyeGruneisenConstants {
-  double molar_mass = 0;                     ///< kg per mole of atoms
-  double reference_density = 0;              ///< rho0 = 1/V0 at T0 and zero pressure, kg/m^3
+  double molar_mass = 0;         ///< kg per mole of atoms
+  double reference_density = 0;  ///< rho0 = 1/V0 at T0 and zero pressure, kg/m^3
   IsothermForm isotherm = IsothermForm::vinet;
-  double bulk_modulus = 0;                   ///< K0, isothermal, at T0 and V0, Pa
-  double bulk_modulus_slope = 0;             ///< K0' = dK_T/dp at T0 and V0
-  double debye_temperature = 0;              ///< theta0, at V0, K
-  double gruneisen = 0;                      ///< gamma0, of the lattice, at V0
+  double bulk_modulus = 0;        ///< K0, isothermal, at T0 and V0, Pa
+  double bulk_modulus_slope = 0;  ///< K0' = dK_T/dp at T0 and V0
+  double debye_temperature = 0;   ///< theta0, at V0, K
+  double gruneisen = 0;           ///< gamma0, of the lattice, at V0
   LatticeGruneisenLaw gruneisen_law = LatticeGruneisenLaw::power;
-  double gruneisen_exponent = 1.0;           ///< q
-  double gruneisen_slope = 0.0;              ///< a
-  double electronic_heat_coefficient = 0.0;  ///< g_e at V0, J/(mol K^2)
-  double electronic_gruneisen = 2.0 / 3.0;   ///< gamma_e
-  double reference_temperature = 300.0;      ///< T0, K
+  double gruneisen_exponent = 1.0;                                       ///< q
+  double gruneisen_slope = 0.0;                                          ///< a
+  double electronic_heat_coefficient = 0.0;                              ///< g_e at V0, J/(mol K^2)
+  double electronic_gruneisen = 2.0 / 3.0;                               ///< gamma_e
+  double reference_temperature = 300.0;                                  ///< T0, K
   double melting_temperature = std::numeric_limits<double>::infinity();  ///< T_m0 on the isochore V0, K
 };
 

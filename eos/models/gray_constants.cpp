@@ -96,7 +96,8 @@ GrayConstants resolved(GrayConstants c) {
   }
   const auto require = [&](VapourCondition vapour, const char* name, double value) {
     if (c.vapour == vapour && !std::isfinite(value)) {
-      throw InputError(fmt::format("gray: vapour = \"{}\" needs {}, which is missing", word_of(vapour), name));
+      throw InputError(
+          fmt::format("gray: vapour = \"{}\" needs {}, which is missing", word_of(vapour), name));
     }
   };
   require(VapourCondition::attraction, "vapour_attraction", c.vapour_attraction);

@@ -136,10 +136,10 @@ class GruneisenSolid {
     const double rho0 = state_.density, heat = state_.heat_capacity;
     const auto require_compression = [&](const char* what, double end) {  // of the volume
       if (end >= 1 - 1 / 1.01) return;
-      throw InputError(
-          fmt::format("{}: {} at {:.4g} kg/m^3, at no compression to speak of; check the constants of the curve "
-                      "and of the Grueneisen parameter",
-                      name, what, rho0 / (1 - end)));
+      throw InputError(fmt::format(
+          "{}: {} at {:.4g} kg/m^3, at no compression to speak of; check the constants of the curve "
+          "and of the Grueneisen parameter",
+          name, what, rho0 / (1 - end)));
     };
     require_compression("the curve ends", greatest_x);
     const auto mu = [](double x) { return x / (1 - x); };

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "eos/models/ideal_gas.hpp"
-#include "eos/constant_heat_capacity_batch.hpp"
 
 #include <cmath>
+
+#include "eos/constant_heat_capacity_batch.hpp"
 
 namespace whipple::eos {
 

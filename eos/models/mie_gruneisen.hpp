@@ -24,16 +24,16 @@ constexpr std::array<Word<CompressedGruneisenLaw>, 3> words(CompressedGruneisenL
 }
 
 struct MieGruneisenConstants {
-  double reference_density = 0;                    ///< rho0, kg/m^3
-  double hugoniot_intercept = 0;                   ///< c0 of the shock Hugoniot, m/s
-  double hugoniot_slope = 0;                       ///< S1
-  double hugoniot_quadratic = 0;                   ///< S2
-  double hugoniot_cubic = 0;                       ///< S3
-  double gruneisen = 0;                            ///< Gamma0, at rho0
+  double reference_density = 0;   ///< rho0, kg/m^3
+  double hugoniot_intercept = 0;  ///< c0 of the shock Hugoniot, m/s
+  double hugoniot_slope = 0;      ///< S1
+  double hugoniot_quadratic = 0;  ///< S2
+  double hugoniot_cubic = 0;      ///< S3
+  double gruneisen = 0;           ///< Gamma0, at rho0
   CompressedGruneisenLaw gruneisen_law = CompressedGruneisenLaw::constant_product;
-  double gruneisen_slope = 0;                      ///< b of rho Gamma = rho0 (Gamma0 + b mu)
-  double heat_capacity = 0;                        ///< c_v, J/(kg K)
-  double reference_temperature = 300.0;            ///< K
+  double gruneisen_slope = 0;            ///< b of rho Gamma = rho0 (Gamma0 + b mu)
+  double heat_capacity = 0;              ///< c_v, J/(kg K)
+  double reference_temperature = 300.0;  ///< K
 };
 
 /// Mie-Grueneisen equation of state on a shock Hugoniot (docs/theory/equations_of_state.md, section 2.2):

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "eos/models/murnaghan.hpp"
+
 #include "eos/constant_heat_capacity_batch.hpp"
 
 namespace whipple::eos {

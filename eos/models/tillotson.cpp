@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Equation numbers: docs/theory/equations_of_state.md.
 #include "eos/models/tillotson.hpp"
-#include "eos/constant_heat_capacity_batch.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "eos/constant_heat_capacity_batch.hpp"
 
 namespace whipple::eos {
 

@@ -73,7 +73,9 @@ TableData tabulate(const EquationOfState& eos, const TableRequest& request, cons
                                  std::isfinite(reference.temperature) ? "entropy" : "temperature"));
   }
   if (eos.initial_distension() != 1.0) {
-    throw InputError("table: the state of porous material depends on its history, which a table of density and energy cannot represent");
+    throw InputError(
+        "table: the state of porous material depends on its history, which a table of density and energy "
+        "cannot represent");
   }
   TableData data;
   data.condensed = eos.condensed() ? 1.0 : 0.0;

@@ -57,7 +57,9 @@ SesameVaporisation vaporisation_of(const VapourDome& dome) {
 
 SesameMaterial sesame_of(const EquationOfState& eos, const SesameRequest& request) {
   if (eos.initial_distension() != 1.0) {
-    throw InputError("SESAME table: the state of porous material depends on its history, which a table of density and temperature cannot represent");
+    throw InputError(
+        "SESAME table: the state of porous material depends on its history, which a table of density and "
+        "temperature cannot represent");
   }
   const double rho0 = eos.reference_density(), T0 = eos.reference_temperature();
   const double thinnest = request.minimum_density > 0 ? request.minimum_density : default_thinness * rho0;

@@ -88,9 +88,8 @@ int compare() {
 int main(int argc, char** argv) {
   MPI_Init(&argc, &argv);
   whipple::parallel::set_threads(1);
-  whipple::log::set_sink([](whipple::log::Kind, const std::string& message) {
-    std::printf("log: %s\n", message.c_str());
-  });
+  whipple::log::set_sink(
+      [](whipple::log::Kind, const std::string& message) { std::printf("log: %s\n", message.c_str()); });
   int code = 1;
   try {
     code = compare();

@@ -16,11 +16,14 @@ constexpr std::array<Word<CrystalStructure>, 3> words(CrystalStructure) {
 }
 
 /// Returns the number of atoms in the cubic cell; for hcp in the orthogonal one.
-constexpr int atoms_per_cell(CrystalStructure structure) { return structure == CrystalStructure::bcc ? 2 : 4; }
+constexpr int atoms_per_cell(CrystalStructure structure) {
+  return structure == CrystalStructure::bcc ? 2 : 4;
+}
 
 /// Returns the distance of nearest neighbours in a cubic crystal, in the unit of its lattice constant.
 inline double nearest_neighbour(CrystalStructure structure, double lattice_constant) {
-  return structure == CrystalStructure::fcc ? lattice_constant * std::sqrt(0.5) : lattice_constant * std::sqrt(0.75);
+  return structure == CrystalStructure::fcc ? lattice_constant * std::sqrt(0.5)
+                                            : lattice_constant * std::sqrt(0.75);
 }
 
 }  // namespace whipple::md

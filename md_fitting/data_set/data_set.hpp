@@ -54,7 +54,7 @@ constexpr std::array<Word<PointStatus>, 2> words(PointStatus) {
 /// docs/theory/molecular_dynamics.md.
 struct PointRecord {
   std::string key;  ///< SHA-256 (hexadecimal) of everything the point depends on; its identity in the store
-  std::string protocol;                      ///< "lattice", "isotherm", "hugoniot", ...
+  std::string protocol;  ///< "lattice", "isotherm", "hugoniot", ...
   PointStatus status = PointStatus::not_tried;
   std::string message;                       ///< why it failed; remarks of a point that is done
   std::map<std::string, double> conditions;  ///< SI

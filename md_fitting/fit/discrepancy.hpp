@@ -23,6 +23,7 @@ struct Discrepancy {
 
 /// Adds the covariance of a deviation to the rows of its states.
 /// @param rows  row of each state in `covariance`
-void add_discrepancy(const Discrepancy& deviation, std::span<const Eigen::Index> rows, Eigen::MatrixXd& covariance);
+void add_discrepancy(const Discrepancy& deviation, std::span<const Eigen::Index> rows,
+                     Eigen::MatrixXd& covariance);
 
 }  // namespace whipple::fit

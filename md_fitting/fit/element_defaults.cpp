@@ -19,7 +19,8 @@ constexpr std::string_view sommerfeld =
     "calorimetry at low temperature: Kittel, Introduction to Solid State Physics, 8th ed. (2005), chapter 6, "
     "table 2";
 constexpr std::string_view not_when_hot =
-    "the coefficient of low temperature does not hold at thousands of kelvin (docs/manual/materials.md, section 2)";
+    "the coefficient of low temperature does not hold at thousands of kelvin (docs/manual/materials.md, "
+    "section 2)";
 constexpr std::string_view boiling = "CRC Handbook of Chemistry and Physics, 95th ed. (2014)";
 constexpr std::string_view debye =
     "Kittel, Introduction to Solid State Physics, 8th ed. (2005), chapter 5, table 1";
@@ -87,8 +88,9 @@ constexpr auto aluminium_constants = constants_of_metal(
     {"join_volume_ratio", "critical", 1.3,
      "chosen with the attraction below: critical temperature near 6600 K (docs/theory/gray.md)"},
     {"vapour_attraction", "critical", 3600.0,
-     "as in the aluminium of the library: critical temperature near 6600 K (docs/theory/gray.md)", Evidence::chosen,
-     3600.0 * 800.0 / 6700.0, "critical temperature 6700 +- 800 K, Int. J. Thermophys. 30 (2009) 1853; a_y goes as T_c"});
+     "as in the aluminium of the library: critical temperature near 6600 K (docs/theory/gray.md)",
+     Evidence::chosen, 3600.0 * 800.0 / 6700.0,
+     "critical temperature 6700 +- 800 K, Int. J. Thermophys. 30 (2009) 1853; a_y goes as T_c"});
 constexpr auto lead_constants = boiling_metal(1.2, 2022.0);
 constexpr auto nickel_constants = boiling_metal(1.15, 3186.0);
 constexpr auto tantalum_constants = boiling_metal(1.25, 5728.0);
@@ -101,15 +103,17 @@ constexpr std::array elements = {
         NamedDefault{"melting_temperature", "Steinberg 1996", 1790.0,
                      "OFHC copper of Steinberg, UCRL-MA-106439 (1996); not from molecular dynamics",
                      Evidence::chosen, 38.0,
-                     "measured melting line at 10 GPa, the pressure of T_m0: T_m = 1355(5) + 44.5(31) P - 0.61(21) P^2, "
+                     "measured melting line at 10 GPa, the pressure of T_m0: T_m = 1355(5) + 44.5(31) P - "
+                     "0.61(21) P^2, "
                      "Brand et al., High Press. Res. 26 (2006) 185 (eos/data/cu_melting.csv)"},
         copper_constants, VapourCondition::attraction, kittel(343.0)},
-    ElementDefaults{"Al", "aluminium", 933.47, aluminium_electronic,
-                    NamedDefault{"melting_temperature", "Steinberg 1996", 1220.0, steinberg_metals, Evidence::chosen,
-                                 115.0,
-                                 "half the error bars of the measured melting line, Boehler & Ross, Earth Planet. Sci. "
-                                 "Lett. 153 (1997) 223 (eos/data/al_melting_boehler_ross1997.csv)"},
-                    aluminium_constants, VapourCondition::attraction, kittel(428.0)},
+    ElementDefaults{
+        "Al", "aluminium", 933.47, aluminium_electronic,
+        NamedDefault{"melting_temperature", "Steinberg 1996", 1220.0, steinberg_metals, Evidence::chosen,
+                     115.0,
+                     "half the error bars of the measured melting line, Boehler & Ross, Earth Planet. Sci. "
+                     "Lett. 153 (1997) 223 (eos/data/al_melting_boehler_ross1997.csv)"},
+        aluminium_constants, VapourCondition::attraction, kittel(428.0)},
     ElementDefaults{"Pb", "lead", 600.61, lead_electronic, steinberg(760.0), lead_constants,
                     VapourCondition::boiling, kittel(105.0)},
     ElementDefaults{"Ni", "nickel", 1728.0, nickel_electronic, steinberg(2330.0), nickel_constants,
@@ -124,20 +128,23 @@ constexpr std::string_view liu2013 = "Liu, Wang & Zhang, Int. J. Mech. Mater. De
 constexpr std::string_view steinberg1996 = "Steinberg, UCRL-MA-106439 (1996)";
 
 constexpr std::array rows = {
-    PublishedRow{"experiment (Liu et al. 2013)", "Cu", liu2013, 0.1118e-3, 3940.0, 1.489, 1.97, 1.5, 4.9e-4, 1790.0},
+    PublishedRow{"experiment (Liu et al. 2013)", "Cu", liu2013, 0.1118e-3, 3940.0, 1.489, 1.97, 1.5, 4.9e-4,
+                 1790.0},
     PublishedRow{"MD (Liu et al. 2013)", "Cu", liu2013, 0.1119e-3, 3980.0, 1.301, 1.86, 1.7, 8.3e-4, 2006.0},
-    PublishedRow{"experiment (Steinberg 1996)", "Al", steinberg1996, 1e-3 / 2.707, 5386.0, 1.339, 1.97, 1.5, 1.35e-3,
-                 1220.0},
+    PublishedRow{"experiment (Steinberg 1996)", "Al", steinberg1996, 1e-3 / 2.707, 5386.0, 1.339, 1.97, 1.5,
+                 1.35e-3, 1220.0},
     // Steinberg's shock curve of lead is a cubic: the straight line is another one.
     PublishedRow{
         "experiment (Anderson et al. 1990; Steinberg 1996)", "Pb",
         "lead, C and S: Anderson, Trucano & Mullin, Int. J. Impact Eng. 9 (1990) 89, as typed in the public "
         "input of MPM3D-F90",
         1e-3 / 11.34, 2092.0, 1.45, 2.74, 2.2, 2.98e-3, 760.0},
-    PublishedRow{"experiment (Steinberg 1996)", "Ni", steinberg1996, 1e-3 / 8.9, 4650.0, 1.445, 1.93, 1.4, 0.0, 2330.0},
-    PublishedRow{"experiment (Steinberg 1996)", "Ta", steinberg1996, 1e-3 / 16.69, 3410.0, 1.2, 1.67, 1.3, 0.0, 4340.0},
-    PublishedRow{"experiment (Steinberg 1996)", "W", steinberg1996, 1e-3 / 19.3, 4030.0, 1.237, 1.67, 1.3, 1.3e-3,
-                 4520.0},
+    PublishedRow{"experiment (Steinberg 1996)", "Ni", steinberg1996, 1e-3 / 8.9, 4650.0, 1.445, 1.93, 1.4,
+                 0.0, 2330.0},
+    PublishedRow{"experiment (Steinberg 1996)", "Ta", steinberg1996, 1e-3 / 16.69, 3410.0, 1.2, 1.67, 1.3,
+                 0.0, 4340.0},
+    PublishedRow{"experiment (Steinberg 1996)", "W", steinberg1996, 1e-3 / 19.3, 4030.0, 1.237, 1.67, 1.3,
+                 1.3e-3, 4520.0},
 };
 
 }  // namespace

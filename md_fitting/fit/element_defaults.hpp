@@ -18,7 +18,7 @@ struct NamedDefault {
   double value;                ///< SI
   std::string_view source;
   Evidence evidence = Evidence::chosen;
-  double error = 0.0;                ///< SI, one standard deviation; 0: the source gives none
+  double error = 0.0;               ///< SI, one standard deviation; 0: the source gives none
   std::string_view error_source{};  ///< of the error
 };
 

@@ -19,7 +19,8 @@ using md::PointRecord;
 /// Geometric mean of sigma/scale (cells x steps)^1/2 over the points of a protocol that state an error; 0 if
 /// none does.
 template <class Scale>
-double coefficient(std::span<const PointRecord> points, md::PointKind protocol, const char* quantity, Scale scale) {
+double coefficient(std::span<const PointRecord> points, md::PointKind protocol, const char* quantity,
+                   Scale scale) {
   double sum = 0.0;
   int count = 0;
   for (const PointRecord& point : points) {

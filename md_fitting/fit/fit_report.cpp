@@ -91,7 +91,8 @@ Row published_cells(const PublishedRow& row) {
                            row.gruneisen_slope, row.heat_coefficient,   row.melting_temperature};
   Row cells = {std::string(row.name)};
   for (std::size_t i = 0; i < std::size(values); ++i) {
-    cells.push_back(fmt::format("{:.{}f}", values[i] / columns(FitModel::gray)[i].size, columns(FitModel::gray)[i].decimals));
+    cells.push_back(fmt::format("{:.{}f}", values[i] / columns(FitModel::gray)[i].size,
+                                columns(FitModel::gray)[i].decimals));
   }
   cells.emplace_back();
   return cells;
@@ -135,7 +136,8 @@ std::string bootstrap_text(const Fit& fit) {
 
 std::string unknown_to_classical_nuclei(const Fit& fit) {
   std::string text =
-      "\neffects that classical nuclei do not include: electrons (heat, pressure), zero-point motion, and the fall of "
+      "\neffects that classical nuclei do not include: electrons (heat, pressure), zero-point motion, and "
+      "the fall of "
       "the heat "
       "capacity below the Debye temperature\n";
   const auto find = [&](const char* name) {
@@ -161,10 +163,12 @@ std::string unknown_to_classical_nuclei(const Fit& fit) {
 
 std::string windows_text(const Fit& fit) {
   std::string text =
-      "\nwindow of particle velocities (km/s), states, weight in the mean, C (km/s), S: the first is the fit's own\n";
+      "\nwindow of particle velocities (km/s), states, weight in the mean, C (km/s), S: the first is the "
+      "fit's own\n";
   for (const WindowResult& window : fit.windows) {
-    text += fmt::format("  {:.2f} ... {:.2f}  {:3d}  {:.2f}  {:.3f}  {:.3f}\n", window.least * 1e-3,
-                        window.most * 1e-3, window.states, window.weight, window.intercept * 1e-3, window.slope);
+    text +=
+        fmt::format("  {:.2f} ... {:.2f}  {:3d}  {:.2f}  {:.3f}  {:.3f}\n", window.least * 1e-3,
+                    window.most * 1e-3, window.states, window.weight, window.intercept * 1e-3, window.slope);
   }
   const auto [least_c, most_c] =
       std::minmax_element(fit.windows.begin(), fit.windows.end(),
@@ -203,7 +207,9 @@ std::string constants_table(std::span<const NamedFit> fits) {
     }
   }
   std::string text = text_table(rows, "lr");
-  text += "errors: one standard deviation from noise, model error and windows, in brackets from the noise alone\n";
+  text +=
+      "errors: one standard deviation from noise, model error and windows, in brackets from the noise "
+      "alone\n";
   if (model == FitModel::gray) text += "g: fitted rows the anharmonic coefficient of classical nuclei";
   if (!sources.empty()) {
     text += fmt::format("; published rows that of the electrons, or the sum\npublished rows: {}", sources);
@@ -220,19 +226,20 @@ std::string sources_table(const Fit& fit) {
     } else if (constant.origin == Origin::given) {
       error = "-";
     }
-    rows.push_back({constant.name, practical_quantity(constant.value, constant.unit, 6), error, source_word(constant)});
+    rows.push_back(
+        {constant.name, practical_quantity(constant.value, constant.unit, 6), error, source_word(constant)});
   }
   return text_table(rows, "lrrl");
 }
 
 std::string fit_details(const Fit& fit) {
   std::string text;
-  text += fmt::format("model {}; potential {}; chi^2 = {:.1f} for {} degrees of freedom: {:.2f}\n", name_of(fit.model),
-                      fit.potential, fit.chi_squared, fit.degrees_of_freedom,
+  text += fmt::format("model {}; potential {}; chi^2 = {:.1f} for {} degrees of freedom: {:.2f}\n",
+                      name_of(fit.model), fit.potential, fit.chi_squared, fit.degrees_of_freedom,
                       fit.chi_squared / fit.degrees_of_freedom);
   for (const ChiSquaredPart& part : fit.chi_squared_parts) {
-    text += fmt::format("  {}: {:.1f} from {} data, model error times {:.2f}\n", part.quantity, part.chi_squared,
-                        part.data, part.inflation);
+    text += fmt::format("  {}: {:.1f} from {} data, model error times {:.2f}\n", part.quantity,
+                        part.chi_squared, part.data, part.inflation);
   }
   if (fit.superheated_states > 0) {
     text += fmt::format("  {} isochore states above T_m(V) left out (superheated solid)\n",
@@ -277,7 +284,8 @@ std::string fit_details(const Fit& fit) {
         fmt::format("  {} = {}  {} {}\n", constant.name, practical_quantity(constant.value, constant.unit),
                     constant.origin == Origin::given ? "given:" : "default", constant.source);
     if (constant.error > 0.0) {
-      text += fmt::format("    +- {}: {}\n", practical_quantity(constant.error, constant.unit, 2), constant.error_source);
+      text += fmt::format("    +- {}: {}\n", practical_quantity(constant.error, constant.unit, 2),
+                          constant.error_source);
     }
   }
   text += "\ncomplete model of the material less simulations: points, rms, mean, largest\n";

@@ -28,7 +28,8 @@ struct Constant {
   std::string meaning;
   double value = 0.0;  ///< SI
   Origin origin = Origin::by_default;
-  double error = 0.0;  ///< 1 sigma: of a fitted constant from noise and model error, else of its source; 0: not known
+  double error =
+      0.0;  ///< 1 sigma: of a fitted constant from noise and model error, else of its source; 0: not known
   double statistical_error = 0.0;  ///< 1 sigma from the noise alone
   std::string source;              ///< of a constant that is not fitted: name of the default, and its source
   Evidence evidence = Evidence::chosen;  ///< of a constant that is not fitted
@@ -86,7 +87,9 @@ constexpr std::array<std::pair<std::string_view, FitModel>, 3> fit_models = {
     {{"gray", FitModel::gray},
      {"mie_gruneisen", FitModel::mie_gruneisen},
      {"debye_gruneisen", FitModel::debye_gruneisen}}};
-constexpr std::string_view name_of(FitModel model) { return fit_models[static_cast<std::size_t>(model)].first; }
+constexpr std::string_view name_of(FitModel model) {
+  return fit_models[static_cast<std::size_t>(model)].first;
+}
 
 struct Fit {
   FitModel model = FitModel::gray;

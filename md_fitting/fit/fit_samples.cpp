@@ -69,7 +69,8 @@ Drawn drawn_from(const Fit& fit, ErrorTier tier, const std::optional<PotentialSp
       const Eigen::Index row = row_of(spread->names[i]);
       const Eigen::Index column = row_of(spread->names[k]);
       if (row >= fitted || column >= fitted) continue;
-      drawn.covariance(row, column) += spread->covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
+      drawn.covariance(row, column) +=
+          spread->covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
     }
   }
   return drawn;

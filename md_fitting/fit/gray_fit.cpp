@@ -90,9 +90,10 @@ void append(GrayFit& fit, const VapourFit& vapour) {
     number_of(fit.gray, vapour.names[k]) = vapour.values[static_cast<Index>(k)];
     fit.fitted_names.push_back(vapour.names[k]);
   }
-  fit.chi_squared_parts.push_back({.quantity = "saturated densities",
-                                   .chi_squared = vapour.chi_squared,
-                                   .data = vapour.degrees_of_freedom + static_cast<int>(vapour.names.size())});
+  fit.chi_squared_parts.push_back(
+      {.quantity = "saturated densities",
+       .chi_squared = vapour.chi_squared,
+       .data = vapour.degrees_of_freedom + static_cast<int>(vapour.names.size())});
   if (!vapour.remark.empty()) fit.remarks.push_back(vapour.remark);
 }
 

@@ -37,18 +37,22 @@ std::string combination(const Fit& fit, const VectorXd& vector) {
   for (const Index k : order) {
     const double part = sign * vector[k];
     if (std::abs(part) < least_part) break;
-    text += fmt::format("{}{:.2f} {}", text.empty() ? "" : part < 0.0 ? " - " : " + ", std::abs(part),
-                        fit.fitted_names[static_cast<std::size_t>(k)]);
+    text += fmt::format("{}{:.2f} {}",
+                        text.empty() ? ""
+                        : part < 0.0 ? " - "
+                                     : " + ",
+                        std::abs(part), fit.fitted_names[static_cast<std::size_t>(k)]);
   }
   return text;
 }
 
 /// What the data say of a constant, in words.
 std::string verdict(const Fit& fit, const Determination& one) {
-  constexpr double two_errors = 0.5;         // relative error of a constant that may as well be zero
-  constexpr double in_combination = 0.95;    // correlation
-  std::string text = one.relative_error > two_errors ? std::string("not distinguished from zero")
-                                                     : fmt::format("known to {:.2g} %", 100.0 * one.relative_error);
+  constexpr double two_errors = 0.5;       // relative error of a constant that may as well be zero
+  constexpr double in_combination = 0.95;  // correlation
+  std::string text = one.relative_error > two_errors
+                         ? std::string("not distinguished from zero")
+                         : fmt::format("known to {:.2g} %", 100.0 * one.relative_error);
   if (std::abs(one.correlation) > in_combination) {
     text += fmt::format(", mostly with {}", fit.fitted_names[one.partner]);
   }
@@ -59,7 +63,8 @@ std::string verdict(const Fit& fit, const Determination& one) {
 
 Identifiability identifiability(const Fit& fit) {
   const VectorXd size = sizes(fit);
-  const MatrixXd scaled = size.cwiseInverse().asDiagonal() * fit.covariance * size.cwiseInverse().asDiagonal();
+  const MatrixXd scaled =
+      size.cwiseInverse().asDiagonal() * fit.covariance * size.cwiseInverse().asDiagonal();
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(scaled);
   if (!(eigen.eigenvalues()[0] > 0.0)) throw StateError("the covariance of the fitted constants is singular");
   Identifiability result;
@@ -86,16 +91,18 @@ Identifiability identifiability(const Fit& fit) {
 std::string identifiability_text(const Fit& fit) {
   const Identifiability result = identifiability(fit);
   std::string text =
-      "\ninformation of the data: eigenvalues of the Fisher matrix (constants in units of themselves, or of their "
+      "\ninformation of the data: eigenvalues of the Fisher matrix (constants in units of themselves, or of "
+      "their "
       "errors where larger), and the combination that is known to eigenvalue^(-1/2)\n";
   for (Index k = 0; k < result.eigenvalues.size(); ++k) {
     text += fmt::format("  {:.3g}: {}\n", result.eigenvalues[k], combination(fit, result.vectors.col(k)));
   }
-  text += "identifiability: constant, total error over the error with all others known, largest correlation\n";
+  text +=
+      "identifiability: constant, total error over the error with all others known, largest correlation\n";
   for (std::size_t k = 0; k < result.constants.size(); ++k) {
     const Determination& one = result.constants[k];
-    text += fmt::format("  {}: {:.1f}, {:+.2f} with {}; {}\n", fit.fitted_names[k], one.inflation, one.correlation,
-                        fit.fitted_names[one.partner], verdict(fit, one));
+    text += fmt::format("  {}: {:.1f}, {:+.2f} with {}; {}\n", fit.fitted_names[k], one.inflation,
+                        one.correlation, fit.fitted_names[one.partner], verdict(fit, one));
   }
   return text;
 }

@@ -36,7 +36,8 @@ std::filesystem::path default_template(const std::string& element);
 /// its default beside it; [covariance] with the correlations; [provenance]; [defaults]; [strength] and
 /// [[failure]] of the template.
 /// @param spread  over the potentials of the element: the table [potential_spread]
-std::string material_text(const Fit& fit, const StoreOrigin& origin, const std::filesystem::path& template_file,
+std::string material_text(const Fit& fit, const StoreOrigin& origin,
+                          const std::filesystem::path& template_file,
                           const std::optional<PotentialSpread>& spread = std::nullopt);
 
 /// Writes a file as a whole (temporary name, then renamed).

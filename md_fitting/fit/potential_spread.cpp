@@ -32,7 +32,8 @@ std::optional<PotentialSpread> potential_spread(std::span<const Fit* const> fits
   spread.values.resize(rows, columns);
   for (Index i = 0; i < rows; ++i) {
     for (Index k = 0; k < columns; ++k) {
-      spread.values(i, k) = fits[static_cast<std::size_t>(i)]->value(spread.names[static_cast<std::size_t>(k)]);
+      spread.values(i, k) =
+          fits[static_cast<std::size_t>(i)]->value(spread.names[static_cast<std::size_t>(k)]);
     }
   }
   spread.mean = spread.values.colwise().mean();
@@ -57,7 +58,8 @@ std::string spread_text(const PotentialSpread& spread) {
   add("mean", spread.mean);
   add("standard deviation", spread.covariance.diagonal().cwiseSqrt());
   return fmt::format(
-      "\nsecond tier: scatter over {} potentials of {}, not part of the errors above (constants that all determine)\n{}",
+      "\nsecond tier: scatter over {} potentials of {}, not part of the errors above (constants that all "
+      "determine)\n{}",
       spread.potentials.size(), spread.element, text_table(rows, "lr"));
 }
 

@@ -28,7 +28,8 @@ ModelScale next_scale(const SolidProblem& problem, const LeastSquaresProblem& we
     const MatrixXd rows = solution.jacobian.middleRows(datum.begin, datum.rows);
     chi_squared[kind] += solution.whitened.segment(datum.begin, datum.rows).squaredNorm();
     model[kind] += weights.model.diagonal().segment(datum.begin, datum.rows).sum();
-    redundancy[kind] += static_cast<double>(datum.rows) - (rows * solution.covariance * rows.transpose()).trace();
+    redundancy[kind] +=
+        static_cast<double>(datum.rows) - (rows * solution.covariance * rows.transpose()).trace();
   }
   ModelScale next = scale;
   for (std::size_t k = 0; k < data_kinds; ++k) {
@@ -40,7 +41,8 @@ ModelScale next_scale(const SolidProblem& problem, const LeastSquaresProblem& we
 
 double largest_change(const ModelScale& a, const ModelScale& b) {
   double change = 0.0;
-  for (std::size_t k = 0; k < data_kinds; ++k) change = std::max(change, std::abs(b.factor[k] / a.factor[k] - 1.0));
+  for (std::size_t k = 0; k < data_kinds; ++k)
+    change = std::max(change, std::abs(b.factor[k] / a.factor[k] - 1.0));
   return change;
 }
 
@@ -87,7 +89,8 @@ ScaledFit fit_scaled(const Observations& data, const SolidModel& model, const Fi
     const SolidProblem problem(data, settings, model, fit.constants, fit.scale);
     const LeastSquaresProblem weights = problem.least_squares();
     const LeastSquaresSolution solution = solve(weights);
-    const ModelScale next = settings.inflation ? next_scale(problem, weights, solution, fit.scale) : fit.scale;
+    const ModelScale next =
+        settings.inflation ? next_scale(problem, weights, solution, fit.scale) : fit.scale;
     if (largest_change(fit.scale, next) < settled) {
       fit.constants = problem.constants_at(solution.parameters);
       fit.covariance = constants_covariance(problem, solution, solution.covariance);
@@ -99,8 +102,8 @@ ScaledFit fit_scaled(const Observations& data, const SolidModel& model, const Fi
   throw StateError("the amplitudes of the model errors do not settle");
 }
 
-std::vector<WindowFit> fit_windows(const Observations& data, const SolidModel& model, const FitSettings& settings,
-                                   const ScaledFit& own) {
+std::vector<WindowFit> fit_windows(const Observations& data, const SolidModel& model,
+                                   const FitSettings& settings, const ScaledFit& own) {
   constexpr std::array<std::pair<double, double>, 6> others = {
       {{0.0, 1000.0}, {0.0, 1500.0}, {0.0, 2000.0}, {0.0, 3000.0}, {300.0, 1500.0}, {1000.0, 3000.0}}};
   std::vector<WindowFit> windows;
@@ -108,7 +111,8 @@ std::vector<WindowFit> fit_windows(const Observations& data, const SolidModel& m
   const auto states_of = [&](const FitSettings& window) {
     return SolidProblem(data, window, model, own.constants).window();
   };
-  const auto add = [&](const FitSettings& window, const std::vector<HugoniotState>& states, const ScaledFit& fit) {
+  const auto add = [&](const FitSettings& window, const std::vector<HugoniotState>& states,
+                       const ScaledFit& fit) {
     taken.emplace_back(states.front().particle_velocity, states.back().particle_velocity);
     windows.push_back({window.least_particle_velocity, window.most_particle_velocity,
                        static_cast<int>(states.size()), 0.0, fit});
@@ -125,7 +129,8 @@ std::vector<WindowFit> fit_windows(const Observations& data, const SolidModel& m
     add(window, states, fit_scaled(data, model, window, own.constants));
   }
   const bool averaged = settings.windows == WindowChoice::averaged;
-  for (WindowFit& window : windows) window.weight = averaged ? 1.0 / static_cast<double>(windows.size()) : 0.0;
+  for (WindowFit& window : windows)
+    window.weight = averaged ? 1.0 / static_cast<double>(windows.size()) : 0.0;
   if (!averaged) windows.front().weight = 1.0;
   return windows;
 }
@@ -135,7 +140,8 @@ ScaledFit mean_of(const std::vector<WindowFit>& windows, const SolidModel& model
   const auto count = static_cast<Index>(model.free.size());
   const auto values = [&](const WindowFit& window) {
     VectorXd p(count);
-    for (Index k = 0; k < count; ++k) p[k] = at(window.fit.constants, model.free[static_cast<std::size_t>(k)]);
+    for (Index k = 0; k < count; ++k)
+      p[k] = at(window.fit.constants, model.free[static_cast<std::size_t>(k)]);
     return p;
   };
   VectorXd centre = VectorXd::Zero(count);

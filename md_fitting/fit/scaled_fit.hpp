@@ -45,8 +45,8 @@ struct WindowFit {
 
 /// Fits the window of the settings and those of the list {0-1, 0-1.5, 0-2, 0-3, 0.3-1.5, 1-3 km/s} that hold three
 /// states or more; windows of the same states count once. Equal weights, with WindowChoice::single all to the first.
-std::vector<WindowFit> fit_windows(const Observations& data, const SolidModel& model, const FitSettings& settings,
-                                   const ScaledFit& own);
+std::vector<WindowFit> fit_windows(const Observations& data, const SolidModel& model,
+                                   const FitSettings& settings, const ScaledFit& own);
 
 /// Mean over windows with their weights w: constants sum w p, covariances sum w (C + (p - mean)(p - mean)^T), the
 /// part of the noise without the second term.

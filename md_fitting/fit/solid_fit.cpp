@@ -167,8 +167,8 @@ std::vector<Residual> residual_rows(const SolidProblem& problem, const SolidMode
   return rows;
 }
 
-std::vector<ChiSquaredPart> chi_squared_parts(const SolidProblem& problem, const LeastSquaresSolution& solution,
-                                              const ModelScale& scale) {
+std::vector<ChiSquaredPart> chi_squared_parts(const SolidProblem& problem,
+                                              const LeastSquaresSolution& solution, const ModelScale& scale) {
   std::vector<ChiSquaredPart> parts;
   for (const Datum& datum : problem.data()) {
     if (parts.empty() || parts.back().quantity != datum.quantity) {
@@ -249,8 +249,8 @@ SolidFit fit_solid(Observations data, const SolidModel& model, const SolidConsta
     result = mean_of(windows, model);
     for (const WindowFit& window : windows) {
       const GrayConstants& gray = window.fit.constants.gray;
-      fit.report.windows.push_back({window.least, window.most, window.states, window.weight, gray.hugoniot_intercept,
-                                    gray.hugoniot_slope});
+      fit.report.windows.push_back({window.least, window.most, window.states, window.weight,
+                                    gray.hugoniot_intercept, gray.hugoniot_slope});
     }
   }
   fit.constants = result.constants;

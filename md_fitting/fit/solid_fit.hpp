@@ -19,7 +19,7 @@ struct SolidFit {
   Observations data;  ///< without superheated states
   SolidModel model;
   SolidConstants constants;
-  ModelScale scale;  ///< of the model errors, in the window of the settings
+  ModelScale scale;                                    ///< of the model errors, in the window of the settings
   Eigen::MatrixXd covariance, statistical_covariance;  ///< of `model.free`, SI
   Fit report;  ///< everything but constants and words, with GRAY's names; covariances of `model.free`
 };

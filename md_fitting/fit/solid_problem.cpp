@@ -53,7 +53,8 @@ void SolidProblem::list_data() {
     size_ += rows;
   };
   const double v0 = observations_.reference_volume.value;
-  add(DataKind::volume, "volume at zero pressure", fmt::format("T = {:.0f} K", observations_.reference_temperature));
+  add(DataKind::volume, "volume at zero pressure",
+      fmt::format("T = {:.0f} K", observations_.reference_temperature));
   for (const HugoniotState& state : window_) {
     add(DataKind::shock, "shock velocity", fmt::format("up = {:.3g} km/s", 1e-3 * state.particle_velocity));
   }

@@ -76,8 +76,8 @@ void SolidProblem::weigh_model(MatrixXd& model) const {
   };
 
   Index row = 0;
-  model(row, row) =
-      square(scale_.of(DataKind::volume) * errors.zero_pressure_volume * observations_.reference_volume.value);
+  model(row, row) = square(scale_.of(DataKind::volume) * errors.zero_pressure_volume *
+                           observations_.reference_volume.value);
   ++row;
 
   std::vector<double> size, place;
@@ -91,15 +91,17 @@ void SolidProblem::weigh_model(MatrixXd& model) const {
   if (model_.isotherm) {
     size.clear(), place.clear();
     for (const IsothermState& state : observations_.isotherm) {
-      size.push_back(scale_.of(DataKind::isotherm) * std::hypot(errors.isotherm_pressure * state.pressure.value,
-                                                                errors.isotherm_volume * start_.bulk_modulus));
+      size.push_back(scale_.of(DataKind::isotherm) *
+                     std::hypot(errors.isotherm_pressure * state.pressure.value,
+                                errors.isotherm_volume * start_.bulk_modulus));
       place.push_back(state.volume / v0);
     }
     row = along(row, size, place, settings_.lengths.volume_ratio);
   }
 
   weigh_isochores(row, model);
-  for (const Isochore& isochore : observations_.isochores) row += 2 * static_cast<Index>(isochore.states.size());
+  for (const Isochore& isochore : observations_.isochores)
+    row += 2 * static_cast<Index>(isochore.states.size());
 
   size.clear(), place.clear();
   for (const MeltingPoint* point : melting_) {
@@ -134,7 +136,8 @@ void SolidProblem::weigh_isochores(Index begin, MatrixXd& model) const {
       temperature.push_back(state.temperature);
       gruneisen.push_back(scale * errors.gruneisen * k * heat);
       thermal_pressure.push_back(scale * errors.thermal_pressure * k * heat);
-      anharmonic.push_back(scale * errors.anharmonic * (square(state.temperature) - square(cold.temperature)) /
+      anharmonic.push_back(scale * errors.anharmonic *
+                           (square(state.temperature) - square(cold.temperature)) /
                            (2.0 * observations_.molar_mass));
       energy.push_back(scale * errors.energy * heat);
     }

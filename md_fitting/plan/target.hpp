@@ -22,9 +22,11 @@ struct Target {
 
 /// Returns the table of a section with the keys of its runs and of their target error at its end.
 template <class Section>
-ParameterTable<Section> with_run(ParameterTable<Section> own, RunSize Section::* size, Target Section::* target,
-                                 const std::string& unit, const std::string& meaning) {
-  return with_part(with_part(std::move(own), size, RunSize::parameters()), target, Target::parameters(unit, meaning));
+ParameterTable<Section> with_run(ParameterTable<Section> own, RunSize Section::* size,
+                                 Target Section::* target, const std::string& unit,
+                                 const std::string& meaning) {
+  return with_part(with_part(std::move(own), size, RunSize::parameters()), target,
+                   Target::parameters(unit, meaning));
 }
 
 }  // namespace whipple::md

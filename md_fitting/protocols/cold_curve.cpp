@@ -44,8 +44,9 @@ double relax_axial_ratio(Crystal& crystal, double volume_per_cell) {
     ratio += step;
     if (!(std::abs(ratio / ideal - 1.0) < 0.2)) break;
   }
-  throw StateError(fmt::format("hcp has no energy minimum over the axial ratio near {:.3f} at {:.2f} A^3 per atom",
-                               ideal, volume_per_cell / 4.0));
+  throw StateError(
+      fmt::format("hcp has no energy minimum over the axial ratio near {:.3f} at {:.2f} A^3 per atom", ideal,
+                  volume_per_cell / 4.0));
 }
 
 }  // namespace
@@ -91,7 +92,8 @@ void add_cold_curve(const Plan& plan, TaskList& list) {
                  const std::string prefix = own ? "" : fmt::format("{}_", word);
                  result.results[prefix + "pressure"] = {state.pressure, 0.0};
                  result.results[prefix + "specific_internal_energy"] = {state.specific_internal_energy, 0.0};
-                 if (structure == CrystalStructure::hcp) result.results["hcp_axial_ratio"] = {state.axial_ratio, 0.0};
+                 if (structure == CrystalStructure::hcp)
+                   result.results["hcp_axial_ratio"] = {state.axial_ratio, 0.0};
                }
                return result;
              });

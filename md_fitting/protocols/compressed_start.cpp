@@ -28,8 +28,8 @@ CompressedStart compressed_start(const Potential& potential, double pressure) {
   double low = std::cbrt(0.4);
   double high = small;
   if (!reaches(low)) {
-    throw StateError(fmt::format("the static crystal of {} does not reach {:.4g} GPa at V/V0 = 0.4", potential.name(),
-                                 1e-9 * pressure));
+    throw StateError(fmt::format("the static crystal of {} does not reach {:.4g} GPa at V/V0 = 0.4",
+                                 potential.name(), 1e-9 * pressure));
   }
   while (high - low > resolution) {
     const double middle = 0.5 * (low + high);

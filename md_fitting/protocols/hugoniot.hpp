@@ -21,10 +21,11 @@ struct ReferenceState {
 ReferenceState reference_state(const PointRecord& zero_pressure);
 
 struct HugoniotSearch {
-  double first_temperature = 0.0;       ///< K; any guess, a good one saves runs
-  double specific_heat = 0.0;           ///< J/(kg K) of the first Newton steps, about 3R
-  double gruneisen = 2.0;               ///< of the first Newton steps
-  double temperature_tolerance = 0.02;  ///< the final run is made when two temperatures agree to this fraction
+  double first_temperature = 0.0;  ///< K; any guess, a good one saves runs
+  double specific_heat = 0.0;      ///< J/(kg K) of the first Newton steps, about 3R
+  double gruneisen = 2.0;          ///< of the first Newton steps
+  double temperature_tolerance =
+      0.02;  ///< the final run is made when two temperatures agree to this fraction
   int most_runs = 8;
 };
 

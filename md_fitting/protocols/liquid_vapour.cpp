@@ -186,11 +186,11 @@ ReplicaSet measure_liquid_vapour(const Potential& potential, double temperature,
   const double atoms = set.mean(vapour_atoms).value;
   set.values.erase(vapour_atoms);
   if (atoms < least_vapour_atoms) {
-    throw StateError(
-        fmt::format("the vapour holds {:.1f} atoms on average next to an interface of {:.1f} A width: too few "
-                    "below about 0.7 "
-                    "of the critical temperature, or in so small a box",
-                    atoms, set.mean("interface_width").value / metal::angstrom));
+    throw StateError(fmt::format(
+        "the vapour holds {:.1f} atoms on average next to an interface of {:.1f} A width: too few "
+        "below about 0.7 "
+        "of the critical temperature, or in so small a box",
+        atoms, set.mean("interface_width").value / metal::angstrom));
   }
   return set;
 }

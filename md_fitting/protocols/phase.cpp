@@ -23,7 +23,8 @@ void make_melt(Crystal& crystal, double temperature, double dt, std::int64_t see
 
 Phase measure_phase(const Potential& potential, bool liquid, double pressure, double temperature,
                     const RunSize& size, double dt, std::int64_t seed, std::string& transcript) {
-  Crystal crystal(potential, 1.02 * compressed_start(potential, pressure).lattice_constant, size.cells, size.cells, size.cells);
+  Crystal crystal(potential, 1.02 * compressed_start(potential, pressure).lattice_constant, size.cells,
+                  size.cells, size.cells);
   Lammps& lammps = crystal.lammps();
   if (liquid) {
     make_melt(crystal, temperature, dt, seed);

@@ -52,8 +52,8 @@ void require_stable(bool solid, const Estimate& energy, double cold_energy, doub
       fmt::format("the {} crystal of {} ({}) is unstable: its potential energy of {:.4f} eV per atom at {} K "
                   "lies below that of the "
                   "static crystal, {:.4f} eV",
-                  word_of(potential.structure()), potential.element(), potential.name(), potential_energy, temperature,
-                  cold_energy));
+                  word_of(potential.structure()), potential.element(), potential.name(), potential_energy,
+                  temperature, cold_energy));
 }
 
 }  // namespace whipple::md

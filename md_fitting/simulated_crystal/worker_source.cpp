@@ -58,10 +58,11 @@ std::string WorkerSource::plan_of(std::span<const double> volume_ratios) const {
   text += fmt::format("[cold_curve]\nvolume_ratio = [{}]\n", fmt::join(volume_ratios, ", "));
   for (const double ratio : volume_ratios) {
     text += fmt::format(
-        "[[isochore]]\nvolume_ratio = {}\ntemperature = [\"{} K\"]\ncells = {}\nequilibration_steps = {}\nsteps = "
+        "[[isochore]]\nvolume_ratio = {}\ntemperature = [\"{} K\"]\ncells = {}\nequilibration_steps = "
+        "{}\nsteps = "
         "{}\n",
-        ratio, fmt::join(constants_.temperature, " K\", \""), constants_.cells, constants_.equilibration_steps,
-        constants_.steps);
+        ratio, fmt::join(constants_.temperature, " K\", \""), constants_.cells,
+        constants_.equilibration_steps, constants_.steps);
   }
   return text;
 }
@@ -162,8 +163,8 @@ std::unique_ptr<eos::IsochoreSource> worker_source(const eos::SimulatedConstants
   const std::filesystem::path store =
       constants.store.empty() ? default_store(constants) : std::filesystem::path(constants.store);
   if (!store.is_absolute()) {
-    throw InputError(
-        fmt::format("store = \"{}\": expected an absolute path: copies of the material share it", constants.store));
+    throw InputError(fmt::format("store = \"{}\": expected an absolute path: copies of the material share it",
+                                 constants.store));
   }
   return std::make_unique<WorkerSource>(constants, store);
 }

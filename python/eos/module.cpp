@@ -18,8 +18,12 @@ struct Evaluation {
   Shape shape;
 
   explicit Evaluation(const Shape& shape_)
-      : pressure(shape_), temperature(shape_), sound_speed(shape_), melted_fraction(shape_),
-        vaporised_fraction(shape_), shape(shape_) {}
+      : pressure(shape_),
+        temperature(shape_),
+        sound_speed(shape_),
+        melted_fraction(shape_),
+        vaporised_fraction(shape_),
+        shape(shape_) {}
 
   [[nodiscard]] std::array<Numbers*, 5> columns() {
     return {&pressure, &temperature, &sound_speed, &melted_fraction, &vaporised_fraction};
@@ -29,13 +33,13 @@ struct Evaluation {
 /// Evaluates points one by one where some of a batch have no state, and makes those NaN.
 void skip_points_out_of_range(const eos::EquationOfState& eos, const eos::Batch& batch) {
   for (std::size_t i = 0; i < batch.density.size(); ++i) {
-    const eos::Batch one{batch.density.subspan(i, 1),         batch.specific_internal_energy.subspan(i, 1),
-                         batch.pressure.subspan(i, 1),        batch.temperature.subspan(i, 1),
-                         batch.sound_speed.subspan(i, 1),     batch.melted_fraction.subspan(i, 1),
+    const eos::Batch one{batch.density.subspan(i, 1),           batch.specific_internal_energy.subspan(i, 1),
+                         batch.pressure.subspan(i, 1),          batch.temperature.subspan(i, 1),
+                         batch.sound_speed.subspan(i, 1),       batch.melted_fraction.subspan(i, 1),
                          batch.vaporised_fraction.subspan(i, 1)};
     if (eos.evaluate(one).out_of_range == 0) continue;
-    for (const std::span<double> column : {one.pressure, one.temperature, one.sound_speed, one.melted_fraction,
-                                           one.vaporised_fraction}) {
+    for (const std::span<double> column :
+         {one.pressure, one.temperature, one.sound_speed, one.melted_fraction, one.vaporised_fraction}) {
       column[0] = eos::State::unknown;
     }
   }
@@ -49,18 +53,20 @@ Evaluation evaluate(const Material& material, const Numbers& density, const Numb
   }
   Evaluation result = out != nullptr ? *out : Evaluation(points.shape);
   std::array<std::span<double>, 5> columns;
-  for (std::size_t k = 0; k < columns.size(); ++k) columns[k] = {result.columns()[k]->mutable_data(), points.size};
-  const eos::Batch batch{points.column(0), points.column(1), columns[0], columns[1], columns[2], columns[3],
-                         columns[4]};
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    columns[k] = {result.columns()[k]->mutable_data(), points.size};
+  const eos::Batch batch{points.column(0), points.column(1), columns[0], columns[1],
+                         columns[2],       columns[3],       columns[4]};
   py::gil_scoped_release unlocked;
   const eos::RangeReport report = material.eos->evaluate(batch);
   if (report.out_of_range > 0) {
     if (!skip_invalid) {
       const std::size_t i = report.first;
-      throw StateError(fmt::format("{} of {} points are out of the range of model {} ({}); the first is {}: {:.6g} "
-                                   "kg/m^3, {:.6g} J/kg",
-                                   report.out_of_range, points.size, material.eos->model(), report.bound, i,
-                                   points.column(0)[i], points.column(1)[i]));
+      throw StateError(
+          fmt::format("{} of {} points are out of the range of model {} ({}); the first is {}: {:.6g} "
+                      "kg/m^3, {:.6g} J/kg",
+                      report.out_of_range, points.size, material.eos->model(), report.bound, i,
+                      points.column(0)[i], points.column(1)[i]));
     }
     skip_points_out_of_range(*material.eos, batch);
   }
@@ -105,15 +111,14 @@ void add_sources(py::dict& sources, const std::string& name, const py::handle& i
 }
 
 py::dict sources(const Material& material) {
-  const py::object text = py::module_::import("pathlib").attr("Path")(material.file).attr("read_text")("utf-8");
+  const py::object text =
+      py::module_::import("pathlib").attr("Path")(material.file).attr("read_text")("utf-8");
   py::dict result;
   add_sources(result, "", py::module_::import("tomllib").attr("loads")(text));
   return result;
 }
 
-States reference(const Material& material) {
-  return {material.eos, {}, {material.reference}};
-}
+States reference(const Material& material) { return {material.eos, {}, {material.reference}}; }
 
 Material read(const std::filesystem::path& name, const std::map<std::string, std::string>& changes) {
   const std::filesystem::path file = find_material(name);
@@ -122,7 +127,8 @@ Material read(const std::filesystem::path& name, const std::map<std::string, std
   return read_changed_material(file, list);
 }
 
-Material tabulated(const Material& material, double error, const std::optional<std::pair<double, double>>& densities,
+Material tabulated(const Material& material, double error,
+                   const std::optional<std::pair<double, double>>& densities,
                    const std::optional<std::pair<double, double>>& temperatures,
                    const std::optional<std::filesystem::path>& file) {
   if (!(error >= 1e-8 && error <= 0.05)) {
@@ -133,7 +139,8 @@ Material tabulated(const Material& material, double error, const std::optional<s
   if (densities) std::tie(request.minimum_density, request.maximum_density) = *densities;
   if (temperatures) std::tie(request.least_temperature, request.greatest_temperature) = *temperatures;
   py::gil_scoped_release unlocked;
-  eos::TableFile table{eos::tabulate(*material.eos, request, eos::serial(), [](double) { check_signals(); }), {}};
+  eos::TableFile table{eos::tabulate(*material.eos, request, eos::serial(), [](double) { check_signals(); }),
+                       {}};
   if (file) eos::write_table(*file, table);
   return with_eos(material, std::make_shared<eos::Table>(std::move(table.data)));
 }
@@ -143,7 +150,9 @@ void pass_messages_to_python() {
   log::set_sink([](log::Kind kind, const std::string& message) {
     if (Py_IsInitialized() == 0) return;
     py::gil_scoped_acquire locked;
-    const char* level = kind == log::Kind::warning ? "warning" : kind == log::Kind::information ? "info" : "debug";
+    const char* level = kind == log::Kind::warning       ? "warning"
+                        : kind == log::Kind::information ? "info"
+                                                         : "debug";
     py::module_::import("logging").attr("getLogger")("whipple").attr(level)("%s", message);
   });
 }
@@ -163,7 +172,8 @@ void raise(const InputError& error, const py::handle& kind) {
 
 void add_errors(py::module_& module) {
   // Lives as long as the process, like the translator that refers to it.
-  static const py::handle input_error = py::exception<InputError>(module, "InputError", PyExc_ValueError).release();
+  static const py::handle input_error =
+      py::exception<InputError>(module, "InputError", PyExc_ValueError).release();
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       std::rethrow_exception(thrown);
@@ -172,7 +182,8 @@ void add_errors(py::module_& module) {
     }
   });
   input_error.doc() =
-      "Wrong input: a material that does not exist, constants that contradict each other, quantities that name no\n"
+      "Wrong input: a material that does not exist, constants that contradict each other, quantities that "
+      "name no\n"
       "state. faults: list of dictionaries with file, line, column, key and text.";
   py::register_exception<StateError>(module, "StateError", PyExc_ArithmeticError).doc() =
       "A state out of the range of its model.";
@@ -184,114 +195,137 @@ void add_validity(py::module_& module) {
   py::class_<eos::Audit>(module, "Audit", "Whether and where an equation of state describes its material.")
       .def_property_readonly("summary", &eos::Audit::summary,
                              "\"sound\", \"sound with reservations: ...\" or \"not usable: ...\".")
-      .def_property_readonly("usable", [](const eos::Audit& a) { return a.verdict() != eos::Verdict::not_usable; },
-                             "False if the constants describe no material.")
+      .def_property_readonly(
+          "usable", [](const eos::Audit& a) { return a.verdict() != eos::Verdict::not_usable; },
+          "False if the constants describe no material.")
       .def_property_readonly("range", &eos::Audit::range_text, "The range of validity in words, with units.")
-      .def_property_readonly("densities",
-                             [](const eos::Audit& a) { return std::pair(a.range.least_density,
-                                                                        a.range.greatest_density); },
-                             "Least and greatest density, kg/m^3.")
-      .def_property_readonly("temperatures",
-                             [](const eos::Audit& a) { return std::pair(a.range.least_temperature,
-                                                                        a.range.greatest_temperature); },
-                             "Least and greatest temperature, K, on the isochore of the reference state.")
-      .def_property_readonly("strongest_shock",
-                             [](const eos::Audit& a) { return a.range.strongest_shock.state.pressure; },
-                             "Pressure of the strongest shock from the reference state, Pa.")
-      .def_property_readonly("findings",
-                             [](const eos::Audit& a) {
-                               std::vector<std::string> texts;
-                               for (const eos::Finding& finding : a.findings) texts.push_back(finding.text);
-                               return texts;
-                             },
-                             "What the audit objects to, with the numbers and the limits.");
+      .def_property_readonly(
+          "densities",
+          [](const eos::Audit& a) { return std::pair(a.range.least_density, a.range.greatest_density); },
+          "Least and greatest density, kg/m^3.")
+      .def_property_readonly(
+          "temperatures",
+          [](const eos::Audit& a) {
+            return std::pair(a.range.least_temperature, a.range.greatest_temperature);
+          },
+          "Least and greatest temperature, K, on the isochore of the reference state.")
+      .def_property_readonly(
+          "strongest_shock", [](const eos::Audit& a) { return a.range.strongest_shock.state.pressure; },
+          "Pressure of the strongest shock from the reference state, Pa.")
+      .def_property_readonly(
+          "findings",
+          [](const eos::Audit& a) {
+            std::vector<std::string> texts;
+            for (const eos::Finding& finding : a.findings) texts.push_back(finding.text);
+            return texts;
+          },
+          "What the audit objects to, with the numbers and the limits.");
 }
 
 void add_material(py::module_& module, py::class_<Material>& material) {
   py::class_<Evaluation>(module, "Evaluation",
                          "What a simulation asks of an equation of state, as arrays of one shape (SI).")
-      .def_property_readonly("pressure", [](const Evaluation& e) { return number_or_array(e.pressure); },
-                             "Pressure, Pa.")
-      .def_property_readonly("temperature", [](const Evaluation& e) { return number_or_array(e.temperature); },
-                             "Temperature, K.")
-      .def_property_readonly("sound_speed", [](const Evaluation& e) { return number_or_array(e.sound_speed); },
-                             "Isentropic (bulk) sound speed, m/s.")
-      .def_property_readonly("melted_fraction", [](const Evaluation& e) { return number_or_array(e.melted_fraction); },
-                             "Mass fraction of liquid and vapour, 0 to 1.")
-      .def_property_readonly("vaporised_fraction",
-                             [](const Evaluation& e) { return number_or_array(e.vaporised_fraction); },
-                             "Mass fraction of vapour, 0 to 1.")
-      .def_property_readonly("shape", [](const Evaluation& e) { return py::tuple(py::cast(e.shape)); },
-                             "Shape of the arrays.");
+      .def_property_readonly(
+          "pressure", [](const Evaluation& e) { return number_or_array(e.pressure); }, "Pressure, Pa.")
+      .def_property_readonly(
+          "temperature", [](const Evaluation& e) { return number_or_array(e.temperature); },
+          "Temperature, K.")
+      .def_property_readonly(
+          "sound_speed", [](const Evaluation& e) { return number_or_array(e.sound_speed); },
+          "Isentropic (bulk) sound speed, m/s.")
+      .def_property_readonly(
+          "melted_fraction", [](const Evaluation& e) { return number_or_array(e.melted_fraction); },
+          "Mass fraction of liquid and vapour, 0 to 1.")
+      .def_property_readonly(
+          "vaporised_fraction", [](const Evaluation& e) { return number_or_array(e.vaporised_fraction); },
+          "Mass fraction of vapour, 0 to 1.")
+      .def_property_readonly(
+          "shape", [](const Evaluation& e) { return py::tuple(py::cast(e.shape)); }, "Shape of the arrays.");
 
   material.def_readonly("name", &Material::name, "Name of the material.")
-      .def_property_readonly("file", [](const Material& m) { return m.file.string(); },
-                             "The file that it was read from.")
+      .def_property_readonly(
+          "file", [](const Material& m) { return m.file.string(); }, "The file that it was read from.")
       .def_readonly("source", &Material::source, "Where its constants come from.")
-      .def_property_readonly("sources", &sources,
-                             "Sources of the file and of each of its tables by name: \"file\", \"eos\", \"failure.0\".")
+      .def_property_readonly(
+          "sources", &sources,
+          "Sources of the file and of each of its tables by name: \"file\", \"eos\", \"failure.0\".")
       .def_readonly("note", &Material::note, "Purpose or limits in one line.")
       .def_readonly("group", &Material::group, "Where the library lists it: \"metals\", \"explosives\", ...")
-      .def_property_readonly("model", [](const Material& m) { return std::string(m.eos->model()); },
-                             "Name of its equation of state.")
+      .def_property_readonly(
+          "model", [](const Material& m) { return std::string(m.eos->model()); },
+          "Name of its equation of state.")
       .def_property_readonly("constants", &Material::constants,
                              "The material as a material file (TOML), every default written out, with units.")
-      .def_property_readonly("measured_melting_point", [](const Material& m) { return m.measured.melting_point; },
-                             "Measured melting point (of an alloy: solidus) at 1 atm, K; NaN: not known.")
-      .def_property_readonly("measured_boiling_point", [](const Material& m) { return m.measured.boiling_point; },
-                             "Measured boiling point at 1 atm, K; NaN: not known.")
+      .def_property_readonly(
+          "measured_melting_point", [](const Material& m) { return m.measured.melting_point; },
+          "Measured melting point (of an alloy: solidus) at 1 atm, K; NaN: not known.")
+      .def_property_readonly(
+          "measured_boiling_point", [](const Material& m) { return m.measured.boiling_point; },
+          "Measured boiling point at 1 atm, K; NaN: not known.")
       .def_property_readonly("reference", &reference,
                              "The state that bodies start from: zero pressure at the reference temperature.")
-      .def("audit", [](const Material& m, bool full) { return eos::audit(*m.eos, full ? eos::AuditDepth::full
-                                                                         : eos::AuditDepth::brief); },
-           py::arg("full") = false, py::call_guard<py::gil_scoped_release>(),
-           "Examine whether and where the equation of state is valid.\n\n"
-           "full: also stability and thermodynamic identities over density and temperature (seconds).")
-      .def("evaluate", &evaluate, py::arg("density"), py::arg("energy"), py::kw_only(), py::arg("out") = nullptr,
-           py::arg("skip_invalid") = false,
-           "Compute pressure, temperature, sound speed and phase fractions of many points as a simulation does.\n\n"
+      .def(
+          "audit",
+          [](const Material& m, bool full) {
+            return eos::audit(*m.eos, full ? eos::AuditDepth::full : eos::AuditDepth::brief);
+          },
+          py::arg("full") = false, py::call_guard<py::gil_scoped_release>(),
+          "Examine whether and where the equation of state is valid.\n\n"
+          "full: also stability and thermodynamic identities over density and temperature (seconds).")
+      .def("evaluate", &evaluate, py::arg("density"), py::arg("energy"), py::kw_only(),
+           py::arg("out") = nullptr, py::arg("skip_invalid") = false,
+           "Compute pressure, temperature, sound speed and phase fractions of many points as a simulation "
+           "does.\n\n"
            "density: kg/m^3; energy: specific internal energy, J/kg; arrays that numpy can broadcast.\n"
            "out: an earlier result of the same shape, whose arrays are overwritten.\n"
            "skip_invalid: points out of the range of the model become NaN; else they raise StateError.\n"
            "Points colder than the least temperature of the model are held there, as in a simulation.")
-      .def("states", &states, py::kw_only(), py::arg("density") = py::none(), py::arg("temperature") = py::none(),
-           py::arg("energy") = py::none(), py::arg("pressure") = py::none(), py::arg("entropy") = py::none(),
-           py::arg("skip_invalid") = false,
+      .def("states", &states, py::kw_only(), py::arg("density") = py::none(),
+           py::arg("temperature") = py::none(), py::arg("energy") = py::none(),
+           py::arg("pressure") = py::none(), py::arg("entropy") = py::none(), py::arg("skip_invalid") = false,
            "Compute states with all quantities that the model knows.\n\n"
-           "Two quantities name a state: density (kg/m^3) with temperature (K), energy (J/kg), pressure (Pa) or\n"
-           "entropy (J/(kg K)), or pressure with temperature; none: the reference state. Arrays that numpy can\n"
+           "Two quantities name a state: density (kg/m^3) with temperature (K), energy (J/kg), pressure (Pa) "
+           "or\n"
+           "entropy (J/(kg K)), or pressure with temperature; none: the reference state. Arrays that numpy "
+           "can\n"
            "broadcast.\n"
-           "skip_invalid: points without a state become NaN; else they raise StateError. Raises InputError for other\n"
+           "skip_invalid: points without a state become NaN; else they raise StateError. Raises InputError "
+           "for other\n"
            "combinations of quantities.")
       .def("table", &tabulated, py::arg("error") = 1e-4, py::kw_only(), py::arg("densities") = py::none(),
            py::arg("temperatures") = py::none(), py::arg("file") = py::none(),
            "Return the material with its equation of state tabulated.\n\n"
            "error: relative error of temperature and pressure, 1e-8 to 0.05.\n"
-           "densities, temperatures: least and greatest, kg/m^3 and K; default: those of `whipple eos table`.\n"
+           "densities, temperatures: least and greatest, kg/m^3 and K; default: those of `whipple eos "
+           "table`.\n"
            "file: also written there (NAME.eos.h5). Raises InputError if the model knows no entropy.")
-      .def("__repr__", [](const Material& m) { return fmt::format("<material '{}', model {}>", m.name,
-                                                                  m.eos->model()); });
+      .def("__repr__", [](const Material& m) {
+        return fmt::format("<material '{}', model {}>", m.name, m.eos->model());
+      });
 }
 
 void add_library(py::module_& module) {
   py::class_<LibraryMaterial>(module, "LibraryMaterial", "A material of the library.")
-      .def_property_readonly("key", [](const LibraryMaterial& m) { return m.file.stem().string(); },
-                             "The name that `material` takes.")
+      .def_property_readonly(
+          "key", [](const LibraryMaterial& m) { return m.file.stem().string(); },
+          "The name that `material` takes.")
       .def_readonly("name", &LibraryMaterial::name, "Name of the material.")
-      .def_property_readonly("file", [](const LibraryMaterial& m) { return m.file.string(); }, "Its file.")
+      .def_property_readonly(
+          "file", [](const LibraryMaterial& m) { return m.file.string(); }, "Its file.")
       .def_readonly("note", &LibraryMaterial::note, "Purpose or limits in one line.")
       .def_readonly("group", &LibraryMaterial::group, "\"metals\", \"explosives\", \"polymers\", ...")
-      .def("__repr__", [](const LibraryMaterial& m) { return fmt::format("<{}: {}>", m.file.stem().string(),
-                                                                         m.note); });
+      .def("__repr__",
+           [](const LibraryMaterial& m) { return fmt::format("<{}: {}>", m.file.stem().string(), m.note); });
   module.def("materials", &library_materials, "List the materials of the library.");
-  module.def("samples",
-             [](const std::filesystem::path& name, int count, std::uint64_t seed) {
-               py::gil_scoped_release unlocked;
-               return sample_material(name, count, seed).materials;
-             },
-             py::arg("name"), py::arg("count"), py::arg("seed") = 1,
-             "Draw materials from the covariance of a fitted one, written by `whipple fit`.\n\n"
-             "Raises InputError if the file has no covariance.");
+  module.def(
+      "samples",
+      [](const std::filesystem::path& name, int count, std::uint64_t seed) {
+        py::gil_scoped_release unlocked;
+        return sample_material(name, count, seed).materials;
+      },
+      py::arg("name"), py::arg("count"), py::arg("seed") = 1,
+      "Draw materials from the covariance of a fitted one, written by `whipple fit`.\n\n"
+      "Raises InputError if the file has no covariance.");
   module.def("material", &read, py::arg("name"), py::arg("changes") = std::map<std::string, std::string>(),
              "Read a material.\n\n"
              "name: of the library (\"copper\"), or the path of a material file.\n"
@@ -304,11 +338,13 @@ void add_library(py::module_& module) {
 
 PYBIND11_MODULE(eos, module) {
   using namespace whipple::python;
-  module.doc() = "Equations of state: materials, states, loci, mixtures and tables over numpy arrays. SI units.";
+  module.doc() =
+      "Equations of state: materials, states, loci, mixtures and tables over numpy arrays. SI units.";
   add_errors(module);
   add_states(module);
   add_validity(module);
-  py::class_<whipple::Material> material(module, "Material", "A material with its equation of state (SI units).");
+  py::class_<whipple::Material> material(module, "Material",
+                                         "A material with its equation of state (SI units).");
   add_material(module, material);
   add_library(module);
   add_loci(module, material);

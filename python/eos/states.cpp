@@ -18,16 +18,19 @@ constexpr Property properties[] = {
     {"sound_speed", &eos::State::sound_speed, "Isentropic (bulk) sound speed, m/s."},
     {"entropy", &eos::State::specific_entropy, "Specific entropy, J/(kg K)."},
     {"heat_capacity", &eos::State::heat_capacity, "Heat capacity at constant volume, J/(kg K)."},
-    {"isobaric_heat_capacity", &eos::State::isobaric_heat_capacity, "Heat capacity at constant pressure, J/(kg K)."},
+    {"isobaric_heat_capacity", &eos::State::isobaric_heat_capacity,
+     "Heat capacity at constant pressure, J/(kg K)."},
     {"gruneisen", &eos::State::gruneisen, "Grueneisen parameter V (dp/de)_V, without unit."},
     {"isothermal_bulk_modulus", &eos::State::isothermal_bulk_modulus, "Isothermal bulk modulus, Pa."},
     {"isentropic_bulk_modulus", &eos::State::isentropic_bulk_modulus, "Isentropic bulk modulus rho c^2, Pa."},
-    {"thermal_expansion", &eos::State::thermal_expansion, "Volumetric thermal expansion at constant pressure, 1/K."},
+    {"thermal_expansion", &eos::State::thermal_expansion,
+     "Volumetric thermal expansion at constant pressure, 1/K."},
     {"helmholtz_energy", &eos::State::helmholtz_energy, "Specific Helmholtz energy e - T s, J/kg."},
     {"gibbs_energy", &eos::State::gibbs_energy, "Specific Gibbs energy e - T s + p/rho, J/kg."},
     {"melted_fraction", &eos::State::melted_fraction, "Mass fraction of liquid and vapour, 0 to 1."},
     {"vaporised_fraction", &eos::State::vaporised_fraction, "Mass fraction of vapour, 0 to 1."},
-    {"distension", &eos::State::distension, "Volume over that of the material without its pores, without unit."},
+    {"distension", &eos::State::distension,
+     "Volume over that of the material without its pores, without unit."},
 };
 
 /// A view of one member of all states: no copy, owned by the Python object that holds the states.
@@ -58,8 +61,9 @@ py::object phases(const States& s) {
 template <class Kind>
 Kind subset(const Kind& s, const py::object& index) {
   const py::module_ numpy = py::module_::import("numpy");
-  const py::object places = numpy.attr("arange")(s.states.size()).attr("reshape")(s.shape).attr("__getitem__")(index);
-  const auto chosen = py::array_t<std::size_t, py::array::c_style | py::array::forcecast>::ensure(places);
+  const py::object places =
+      numpy.attr("arange")(s.states.size()).attr("reshape")(s.shape).attr("__getitem__")(index);
+  const auto chosen = py::array_t < std::size_t, py::array::c_style | py::array::forcecast > ::ensure(places);
   if (!chosen) throw py::error_already_set();
   Kind result;
   result.eos = s.eos;
@@ -95,9 +99,7 @@ Points broadcast(std::initializer_list<OptionalNumbers> given) {
   return points;
 }
 
-py::object number_or_array(const py::array& array) {
-  return array.attr("__getitem__")(py::tuple());
-}
+py::object number_or_array(const py::array& array) { return array.attr("__getitem__")(py::tuple()); }
 
 py::object array_of(const Shape& shape, const std::vector<double>& values) {
   return number_or_array(Numbers(shape, values.data()));
@@ -116,37 +118,51 @@ void check_signals() {
 }
 
 void add_states(py::module_& module) {
-  py::class_<States> states(module, "States",
-                            "States of a material over an array of points.\n\n"
-                            "Each property is a read-only numpy array of the shape of the points, or a number for a\n"
-                            "single point, in SI units; NaN where the model does not carry the quantity.\n"
-                            "`states[index]` chooses points as numpy does.");
+  py::class_<States> states(
+      module, "States",
+      "States of a material over an array of points.\n\n"
+      "Each property is a read-only numpy array of the shape of the points, or a number for a\n"
+      "single point, in SI units; NaN where the model does not carry the quantity.\n"
+      "`states[index]` chooses points as numpy does.");
   for (const Property& p : properties) {
     const auto get = [member = p.member](const py::object& self) { return view(self, member); };
     states.def_property_readonly(p.name, py::cpp_function(get), p.meaning);
   }
-  states.def_property_readonly("phase", &phases,
-                               "Names of the phases: \"solid\", \"melting\", \"liquid\", \"vapour\", ...")
+  states
+      .def_property_readonly("phase", &phases,
+                             "Names of the phases: \"solid\", \"melting\", \"liquid\", \"vapour\", ...")
       .def_property_readonly(
           "shape", [](const States& s) { return py::tuple(py::cast(s.shape)); }, "Shape of the arrays.")
-      .def("__getitem__", &subset<States>, py::arg("index"), "Choose points by an index, slice or mask of numpy.")
-      .def("__repr__", [](const States& s) { return fmt::format("<{} states of model {}>", s.states.size(),
-                                                                s.eos->model()); });
-  const auto velocity = [](std::size_t place) { return [place](const States& s) { return further(s, place); }; };
-  py::class_<Shocks, States>(module, "Shocks", "States behind steady shocks, with the velocities of the shocks.")
-      .def_property_readonly("shock_velocity", velocity(0), "Velocity of the shock against the material ahead, m/s.")
-      .def_property_readonly("particle_velocity", velocity(1), "Velocity of the material behind the shock, m/s.")
-      .def("__getitem__", &subset<Shocks>, py::arg("index"), "Choose points by an index, slice or mask of numpy.");
+      .def("__getitem__", &subset<States>, py::arg("index"),
+           "Choose points by an index, slice or mask of numpy.")
+      .def("__repr__", [](const States& s) {
+        return fmt::format("<{} states of model {}>", s.states.size(), s.eos->model());
+      });
+  const auto velocity = [](std::size_t place) {
+    return [place](const States& s) { return further(s, place); };
+  };
+  py::class_<Shocks, States>(module, "Shocks",
+                             "States behind steady shocks, with the velocities of the shocks.")
+      .def_property_readonly("shock_velocity", velocity(0),
+                             "Velocity of the shock against the material ahead, m/s.")
+      .def_property_readonly("particle_velocity", velocity(1),
+                             "Velocity of the material behind the shock, m/s.")
+      .def("__getitem__", &subset<Shocks>, py::arg("index"),
+           "Choose points by an index, slice or mask of numpy.");
   py::class_<Isentropes, States>(module, "Isentropes", "States on an isentrope.")
-      .def_property_readonly("riemann_velocity", velocity(0),
-                             "Integral of c d(rho)/rho from the start of the isentrope, m/s; negative on expansion.")
-      .def("__getitem__", &subset<Isentropes>, py::arg("index"), "Choose points by an index, slice or mask of numpy.");
+      .def_property_readonly(
+          "riemann_velocity", velocity(0),
+          "Integral of c d(rho)/rho from the start of the isentrope, m/s; negative on expansion.")
+      .def("__getitem__", &subset<Isentropes>, py::arg("index"),
+           "Choose points by an index, slice or mask of numpy.");
   py::class_<Releases, States>(module, "Releases", "States after release to a pressure.")
-      .def_property_readonly("riemann_velocity", velocity(0),
-                             "Integral of c d(rho)/rho from the start, m/s; NaN of liquid and vapour in equilibrium.")
+      .def_property_readonly(
+          "riemann_velocity", velocity(0),
+          "Integral of c d(rho)/rho from the start, m/s; NaN of liquid and vapour in equilibrium.")
       .def_property_readonly("in_equilibrium", velocity(1),
                              "1 where the end is an equilibrium mixture of liquid and vapour, else 0.")
-      .def("__getitem__", &subset<Releases>, py::arg("index"), "Choose points by an index, slice or mask of numpy.");
+      .def("__getitem__", &subset<Releases>, py::arg("index"),
+           "Choose points by an index, slice or mask of numpy.");
 }
 
 }  // namespace whipple::python

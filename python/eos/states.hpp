@@ -103,13 +103,14 @@ void for_each_point(const Points& points, const Keep& keep, const Refuse* refuse
     try {
       for (std::size_t k = 0; k < inputs.size(); ++k) {
         inputs[k] = points.column(k)[i];
-        if (!std::isfinite(inputs[k])) throw StateError(fmt::format("no state of a quantity that is {}", inputs[k]));
+        if (!std::isfinite(inputs[k]))
+          throw StateError(fmt::format("no state of a quantity that is {}", inputs[k]));
       }
       keep(i, inputs);
     } catch (const StateError& error) {
       if (refuse == nullptr) {
-        throw StateError(points.size == 1 ? error.what() : fmt::format("point {} of {}: {}", i, points.size,
-                                                                       error.what()));
+        throw StateError(points.size == 1 ? error.what()
+                                          : fmt::format("point {} of {}: {}", i, points.size, error.what()));
       }
       (*refuse)(i);
     }
@@ -121,9 +122,12 @@ template <class Function>
 States states_of(std::shared_ptr<const eos::EquationOfState> eos, const Points& points, bool skip_invalid,
                  const Function& function) {
   States result{std::move(eos), points.shape, std::vector<eos::State>(points.size)};
-  const auto keep = [&](std::size_t i, const std::vector<double>& inputs) { result.states[i] = function(inputs); };
-  const auto refuse = [&](std::size_t i) { result.states[i].melted_fraction = result.states[i].vaporised_fraction =
-      eos::State::unknown; };
+  const auto keep = [&](std::size_t i, const std::vector<double>& inputs) {
+    result.states[i] = function(inputs);
+  };
+  const auto refuse = [&](std::size_t i) {
+    result.states[i].melted_fraction = result.states[i].vaporised_fraction = eos::State::unknown;
+  };
   for_each_point(points, keep, skip_invalid ? &refuse : nullptr);
   return result;
 }

@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include "src/fem/hexahedron.hpp"
 #include "src/core/parallel/threads.hpp"
+#include "src/fem/hexahedron.hpp"
 
 namespace whipple::afemp {
 namespace {

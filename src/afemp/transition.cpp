@@ -7,10 +7,10 @@
 
 #include "src/core/base/marks.hpp"
 #include "src/core/base/vector_math.hpp"
-#include "src/grid/block_grid.hpp"
-#include "src/grid/block_table.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/parallel/threads.hpp"
+#include "src/grid/block_grid.hpp"
+#include "src/grid/block_table.hpp"
 
 namespace whipple::afemp {
 namespace {

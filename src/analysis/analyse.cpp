@@ -45,7 +45,8 @@ struct Start {
 
 /// Returns whether all bodies fill the section of the domain, as in a planar impact.
 bool is_planar(const Run& run, const Snapshot& first, const Frame& frame) {
-  std::vector<Vector3> lower(run.bodies.size(), Vector3::Constant(std::numeric_limits<double>::infinity())), upper;
+  std::vector<Vector3> lower(run.bodies.size(), Vector3::Constant(std::numeric_limits<double>::infinity())),
+      upper;
   for (const Vector3& corner : lower) upper.push_back(-corner);
   for (std::size_t i = 0; i < first.size(); ++i) {
     const std::uint16_t b = first.body[i];
@@ -135,9 +136,9 @@ Quantities surface_measures(const Run& run, Start& start, const Snapshot& snapsh
     const Quantities wall = start.walls[b]->measure(snapshot);
     const bool open = wall.front().value == 1.0;
     if (b == *start.target) perforated = wall.front().value;
-    const Crater crater =
-        open ? Crater{.depth = nan, .radius = nan}
-             : measure_crater(snapshot, start.walls[b]->frame(), b, extent.lower, extent.upper, run.cell_size);
+    const Crater crater = open ? Crater{.depth = nan, .radius = nan}
+                               : measure_crater(snapshot, start.walls[b]->frame(), b, extent.lower,
+                                                extent.upper, run.cell_size);
     const std::string reason = open ? "the body is perforated" : "";
     append(row, {measured("crater_depth", name, crater.depth, reason),
                  measured("crater_radius", name, crater.radius, reason),
@@ -166,7 +167,8 @@ Quantities measure(const Run& run, Start& start, const Options& options, const O
   const Frame& frame = start.frame;
   Quantities row = {measured("time", snapshot.time)};
   append(row, cloud_measures(snapshot, frame,
-                             start.target ? std::optional(start.extents[*start.target]) : std::nullopt, run.bodies));
+                             start.target ? std::optional(start.extents[*start.target]) : std::nullopt,
+                             run.bodies));
   for (std::size_t b = 0; b < run.bodies.size(); ++b) {
     append(row, body_measures(snapshot, frame, b, run.bodies[b], outflow.at(b, snapshot.time)));
     append(row, bar_measures(snapshot, frame, b, run.bodies[b], run.cell_size, options.diameter_at,
@@ -198,7 +200,8 @@ void end_at_the_border(const Run& run, const Frame& frame, Table& series) {
   for (const int a : frame.transverse) {
     if (frame.is_planar() && a == 2) continue;
     side = std::min(side, run.upper[a] - frame.centre[a] - run.cell_size);
-    if (!frame.mirrored(a) && frame.dimension != grid::Dimension::axisymmetric) side = std::min(side, frame.centre[a] - run.lower[a] - run.cell_size);
+    if (!frame.mirrored(a) && frame.dimension != grid::Dimension::axisymmetric)
+      side = std::min(side, frame.centre[a] - run.lower[a] - run.cell_size);
   }
   cut("outermost", {"radius", "outermost", "cloud_length_over_width"}, side);
 }
@@ -291,14 +294,16 @@ Quantities final_values(const Table& series, const Quantities& last, const Run& 
   const auto of = [&](const char* name) { return std::ranges::find(row, name, &Quantity::name); };
   for (const auto& [position, speed] : analysis::speeds) {
     // A speed without the position that it belongs to would be one of the past.
-    const double slope = std::isfinite(of(position)->value) ? final_slope(series["time"], series[position]) : nan;
+    const double slope =
+        std::isfinite(of(position)->value) ? final_slope(series["time"], series[position]) : nan;
     *of(speed) = measured(speed, slope);
   }
   const Frame& frame = start.frame;
   const double speed = frame.impact_speed > 0.0 ? frame.impact_speed : nan;
-  append(row, {measured("impact_speed", speed), measured("impact_angle", speed > 0.0 ? frame.impact_angle : nan),
-               measured("front_speed_over_impact_speed", of("front_speed")->value / speed),
-               measured("radial_speed_over_impact_speed", of("radial_speed")->value / speed)});
+  append(row,
+         {measured("impact_speed", speed), measured("impact_angle", speed > 0.0 ? frame.impact_angle : nan),
+          measured("front_speed_over_impact_speed", of("front_speed")->value / speed),
+          measured("radial_speed_over_impact_speed", of("radial_speed")->value / speed)});
   const BodyInput& projectile = run.bodies[frame.projectile];
   row.push_back(measured("projectile_size", projectile.velocity.isZero(0.0) ? nan : projectile.size));
   for (const BodyInput& body : run.bodies) {
@@ -325,8 +330,9 @@ void explain_phases(const Run& run) {
     if (!body.phases) names.push_back(body.name);
   }
   if (names.empty()) return;
-  log::info("the equations of state of {} have no phases: these bodies count in no mass or fraction of a phase",
-            fmt::join(names, ", "));
+  log::info(
+      "the equations of state of {} have no phases: these bodies count in no mass or fraction of a phase",
+      fmt::join(names, ", "));
 }
 
 void require_bodies(const Run& run, const Options& options) {

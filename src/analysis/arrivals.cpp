@@ -31,7 +31,8 @@ void Arrivals::add(const Snapshot& snapshot) {
 
 Loads Arrivals::loads(double ring) const {
   constexpr int times = 50;
-  Loads result = tabulate(hits_, frame_, "loads", "the plane, of what has passed it until the end", ring, times);
+  Loads result =
+      tabulate(hits_, frame_, "loads", "the plane, of what has passed it until the end", ring, times);
   double under_way = 0.0;
   for (const std::uint32_t i : debris(before_, frame_)) {
     const bool before = frame_.axial(before_.position[i]) < position_ && before_.body[i] != wall_;

@@ -29,7 +29,7 @@ class Arrivals {
   Frame frame_;
   double position_;
   std::optional<std::size_t> wall_;
-  Snapshot before_;  // the snapshot before, without its fields
+  Snapshot before_;                           // the snapshot before, without its fields
   std::unordered_set<std::uint64_t> beyond_;  // particles that have been beyond the plane
   std::vector<Hit> hits_;
 };

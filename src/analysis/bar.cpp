@@ -105,15 +105,17 @@ Quantities bar_measures(const Snapshot& snapshot, const Frame& frame, std::size_
   const auto [d, foot] = diameters(snapshot, frame, body, size, lower, face, true, !held);
   const double length = foot - extent.lower;
   const std::size_t n = d.size();
-  Quantities row = {measured("length", input.name, length),
-                    measured("foot_diameter", input.name,
-                             n < 3 ? nan : (15.0 * d[n - 1] - 10.0 * d[n - 2] + 3.0 * d[n - 3]) / 8.0)};  // parabola
+  Quantities row = {
+      measured("length", input.name, length),
+      measured("foot_diameter", input.name,
+               n < 3 ? nan : (15.0 * d[n - 1] - 10.0 * d[n - 2] + 3.0 * d[n - 3]) / 8.0)};  // parabola
   if (diameter_at > 0.0) {
     const double x = diameter_at / size - 0.5;  // in layers from the impact end
     const double k = std::clamp(std::floor(x), 0.0, static_cast<double>(n) - 2.0);
     const auto at = static_cast<std::size_t>(k);
-    row.push_back(measured("diameter_at", input.name,
-                           diameter_at < length ? d[n - 1 - at] + (x - k) * (d[n - 2 - at] - d[n - 1 - at]) : nan));
+    row.push_back(
+        measured("diameter_at", input.name,
+                 diameter_at < length ? d[n - 1 - at] + (x - k) * (d[n - 2 - at] - d[n - 1 - at]) : nan));
   }
   const auto foot_mean = [&](const char* field, const char* measure) {
     const std::vector<double>* values = snapshot.scalar(field);
@@ -144,7 +146,8 @@ Quantities spall_measures(const Snapshot& first, const Snapshot& last, const Fra
   }
   if (material.size() < 2 || !planar) {
     const char* reason = "not all bodies fill the section of the domain: the impact is not planar";
-    return {measured("spall_thickness", input.name, nan, reason), measured("largest_gap", input.name, nan, reason)};
+    return {measured("spall_thickness", input.name, nan, reason),
+            measured("largest_gap", input.name, nan, reason)};
   }
   std::sort(material.begin(), material.end());
   const double length = axial_extent(first, frame, body, input.spacing).length();
@@ -166,8 +169,10 @@ Quantities spall_measures(const Snapshot& first, const Snapshot& last, const Fra
   }
   // Metal often parts on several planes at once; the layer that flies off ends at the foremost.
   constexpr double is_open = 0.5;  // of the largest gap
-  const auto foremost = std::ranges::find_if(gaps, [&](const Gap& gap) { return gap.width >= is_open * largest; });
-  return {measured("spall_thickness", input.name, foremost == gaps.end() ? nan : length * foremost->ahead / total),
+  const auto foremost =
+      std::ranges::find_if(gaps, [&](const Gap& gap) { return gap.width >= is_open * largest; });
+  return {measured("spall_thickness", input.name,
+                   foremost == gaps.end() ? nan : length * foremost->ahead / total),
           measured("largest_gap", input.name, gaps.empty() ? 0.0 : largest + input.spacing)};
 }
 

@@ -15,14 +15,17 @@ constexpr double ambient = 0.42;  // fraction of the light that comes from every
 Vector3 light_direction() { return {-0.4, 0.55, 0.73}; }
 
 /// Light of a surface with a unit normal.
-double lit(const Vector3& normal) { return ambient + (1.0 - ambient) * std::max(0.0, normal.dot(light_direction())); }
+double lit(const Vector3& normal) {
+  return ambient + (1.0 - ambient) * std::max(0.0, normal.dot(light_direction()));
+}
 
 }  // namespace
 
 std::vector<Face> surface_faces(std::span<const Corners> elements) {
   constexpr std::array<std::array<std::size_t, 4>, 6> faces_of_hexahedron = {
       {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
-  using Key = std::array<std::uint32_t, 4>;  // corners in ascending order: the same for both elements of a face
+  using Key =
+      std::array<std::uint32_t, 4>;  // corners in ascending order: the same for both elements of a face
   std::vector<Face> all;
   std::vector<std::pair<Key, std::uint32_t>> keys;
   for (std::uint32_t e = 0; e < elements.size(); ++e) {
@@ -52,7 +55,8 @@ Canvas::Canvas(std::size_t rows, std::size_t columns)
       depth_(rows * columns, -std::numeric_limits<double>::infinity()) {}
 
 void Canvas::put(double column, double row, double depth, std::uint32_t label, double light) {
-  if (!(column >= 0.0 && row >= 0.0 && column < static_cast<double>(columns_) && row < static_cast<double>(rows_)))
+  if (!(column >= 0.0 && row >= 0.0 && column < static_cast<double>(columns_) &&
+        row < static_cast<double>(rows_)))
     return;
   const std::size_t pixel = static_cast<std::size_t>(row) * columns_ + static_cast<std::size_t>(column);
   if (!(depth > depth_[pixel])) return;
@@ -62,7 +66,8 @@ void Canvas::put(double column, double row, double depth, std::uint32_t label, d
 }
 
 void Canvas::sphere(const Vector3& centre, double radius, std::uint32_t label) {
-  constexpr double largest = 40.0;  // pixels: particles of coarse models touch, and single ones do not hide the others
+  constexpr double largest =
+      40.0;  // pixels: particles of coarse models touch, and single ones do not hide the others
   const double r = std::clamp(std::nearbyint(radius), 1.0, largest);
   const double reach = r + 0.45;  // rounds the outline; the smallest have no gaps between them
   const double column = std::floor(centre[0]), row = std::floor(centre[1]);
@@ -94,8 +99,8 @@ void Canvas::faces(std::span<const std::array<Vector3, 4>> corners, std::span<co
 /// The edges p-q and q-r are those of an element, r-p is the diagonal of its face.
 void Canvas::triangle(const Vector3& p, const Vector3& q, const Vector3& r, std::uint32_t label, bool edged) {
   const Vector3 normal = (q - p).cross(r - p);
-  const double twice = normal[2];            // area in the picture
-  if (!(std::abs(twice) > 1e-9)) return;     // seen edge-on
+  const double twice = normal[2];         // area in the picture
+  if (!(std::abs(twice) > 1e-9)) return;  // seen edge-on
   const double light = lit(std::copysign(1.0 / normal.norm(), twice) * normal);
   const auto height = [&](const Vector3& a, const Vector3& b) {  // of the triangle above an edge, pixels
     return std::abs(twice) / std::max(std::hypot(b[0] - a[0], b[1] - a[1]), 1e-300);
@@ -121,8 +126,9 @@ void Canvas::triangle(const Vector3& p, const Vector3& q, const Vector3& r, std:
 }
 
 void Canvas::shade(double fading) {
-  constexpr double slope = 24.0, strength = 0.6;  // pixels of depth over which a neighbour takes light; of all of them
-  constexpr std::ptrdiff_t reach = 2;            // pixels to the neighbours
+  constexpr double slope = 24.0,
+                   strength = 0.6;     // pixels of depth over which a neighbour takes light; of all of them
+  constexpr std::ptrdiff_t reach = 2;  // pixels to the neighbours
   double nearest = -std::numeric_limits<double>::infinity(), farthest = -nearest;
   for (std::size_t pixel = 0; pixel < seen_.size(); ++pixel) {
     if (seen_[pixel] == nothing) continue;
@@ -135,8 +141,9 @@ void Canvas::shade(double fading) {
       const std::size_t pixel = static_cast<std::size_t>(row * columns + column);
       if (seen_[pixel] == nothing) continue;
       double hidden = 0.0;
-      for (const auto& [dy, dx] : {std::pair{-reach, std::ptrdiff_t{0}}, std::pair{reach, std::ptrdiff_t{0}},
-                                   std::pair{std::ptrdiff_t{0}, -reach}, std::pair{std::ptrdiff_t{0}, reach}}) {
+      for (const auto& [dy, dx] :
+           {std::pair{-reach, std::ptrdiff_t{0}}, std::pair{reach, std::ptrdiff_t{0}},
+            std::pair{std::ptrdiff_t{0}, -reach}, std::pair{std::ptrdiff_t{0}, reach}}) {
         const std::ptrdiff_t y = row + dy, x = column + dx;
         if (y < 0 || x < 0 || y >= rows || x >= columns) continue;
         const double nearer = depth_[static_cast<std::size_t>(y * columns + x)] - depth_[pixel];

@@ -174,8 +174,8 @@ Quantities cloud_measures(const Snapshot& snapshot, const Frame& frame, const st
   const auto append_phase = [&](const std::string& phase, double of_all, double of_debris) {
     row.push_back(measured(phase + "_mass", all.phased > 0.0 ? frame.copies() * of_all : nan));
     row.push_back(measured(phase + "_fraction", all.phased > 0.0 ? of_all / all.phased : nan));
-    row.push_back(
-        measured(fmt::format("debris_{}_fraction", phase), flying.phased > 0.0 ? of_debris / flying.phased : nan));
+    row.push_back(measured(fmt::format("debris_{}_fraction", phase),
+                           flying.phased > 0.0 ? of_debris / flying.phased : nan));
   };
   if (fields.melted != nullptr) append_phase("melted", all.melted, flying.melted);
   if (fields.vaporised != nullptr) append_phase("vaporised", all.vaporised, flying.vaporised);
@@ -216,8 +216,9 @@ Quantities body_measures(const Snapshot& snapshot, const Frame& frame, std::size
   const Fields fields{snapshot};
   const Sums sums = sum(fields, frame, [&](std::size_t i) { return snapshot.body[i] == body; });
   const Quantity left = measured("outflow_mass", input.name, frame.copies() * outflow.mass);
-  const Quantity mean = measured("mean_velocity", input.name,
-                                 (sums.momentum + frame.axial(outflow.momentum)) / (sums.mass + outflow.mass));
+  const Quantity mean =
+      measured("mean_velocity", input.name,
+               (sums.momentum + frame.axial(outflow.momentum)) / (sums.mass + outflow.mass));
   if (!(sums.mass > 0.0)) return outflow.mass > 0.0 ? Quantities{mean, left} : Quantities{};
   const Extent extent = axial_extent(snapshot, frame, body, input.spacing);
   // Particles whose centre lies within one spacing of the foremost one: its outermost layer.
@@ -236,7 +237,8 @@ Quantities body_measures(const Snapshot& snapshot, const Frame& frame, std::size
       if (snapshot.body[i] == body) all.emplace_back((*fields.melted)[i], snapshot.mass[i]);
     }
     row.push_back(measured("melted_fraction", input.name, input.phases ? sums.melted / sums.mass : nan));
-    row.push_back(measured("median_melted_fraction", input.name, input.phases ? weighted_quantile(all, 0.5) : nan));
+    row.push_back(
+        measured("median_melted_fraction", input.name, input.phases ? weighted_quantile(all, 0.5) : nan));
   }
   return row;
 }

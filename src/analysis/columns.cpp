@@ -74,7 +74,8 @@ Columns::Columns(const Snapshot& first, const Frame& frame, std::size_t body, do
 
 /// Distributes the volume of a particle over the four nearest columns, by its distance from their centres.
 template <class Chosen>
-std::vector<double> Columns::thickness(const Snapshot& snapshot, const Vector3& shift, Chosen&& chosen) const {
+std::vector<double> Columns::thickness(const Snapshot& snapshot, const Vector3& shift,
+                                       Chosen&& chosen) const {
   std::vector<double> result(static_cast<std::size_t>(count_[0] * count_[1]), 0.0);
   const std::vector<double> volumes = snapshot.volumes();
   for (std::size_t i = 0; i < snapshot.size(); ++i) {

@@ -31,7 +31,9 @@ class Columns {
   /// Returns whether any column counts.
   [[nodiscard]] bool any() const;
   /// Returns whether the model ends at a mirror plane at the lower (0) or upper (1) end of a transverse direction.
-  [[nodiscard]] bool mirrored(std::size_t direction, std::size_t end) const { return mirrored_[direction][end]; }
+  [[nodiscard]] bool mirrored(std::size_t direction, std::size_t end) const {
+    return mirrored_[direction][end];
+  }
   /// Returns the lower corner of the face (m), and its widths.
   [[nodiscard]] const std::array<double, 2>& lower() const { return lower_; }
   [[nodiscard]] std::array<double, 2> widths() const {
@@ -40,7 +42,8 @@ class Columns {
 
  private:
   template <class Chosen>
-  [[nodiscard]] std::vector<double> thickness(const Snapshot& snapshot, const Vector3& shift, Chosen&& chosen) const;
+  [[nodiscard]] std::vector<double> thickness(const Snapshot& snapshot, const Vector3& shift,
+                                              Chosen&& chosen) const;
   [[nodiscard]] std::size_t index(std::ptrdiff_t i, std::ptrdiff_t j) const {
     return static_cast<std::size_t>(i * count_[1] + j);
   }
@@ -48,11 +51,11 @@ class Columns {
   Frame frame_;
   std::array<int, 2> transverse_;
   double size_;
-  std::array<double, 2> lower_{};                // of the face
-  std::array<std::ptrdiff_t, 2> count_{};        // of columns
+  std::array<double, 2> lower_{};          // of the face
+  std::array<std::ptrdiff_t, 2> count_{};  // of columns
   std::array<std::array<bool, 2>, 2> mirrored_{};
-  std::vector<double> initial_;                  // m
-  std::vector<std::uint8_t> counts_;             // 1: farther from the rim than the margin
+  std::vector<double> initial_;       // m
+  std::vector<std::uint8_t> counts_;  // 1: farther from the rim than the margin
 };
 
 }  // namespace whipple::analysis

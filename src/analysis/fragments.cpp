@@ -214,25 +214,25 @@ Table fragment_table(const std::vector<Fragment>& fragments, const Frame& frame)
               .columns = {}};
   for (const Fragment& f : fragments) {
     const Vector3 offset = f.position - frame.centre;
-    table.append(
-        {{"mass", "kg", "of one fragment, completed at mirror planes; in axisymmetry of the whole ring", f.mass},
-         {"copies", "1", "such fragments in the full problem", f.copies},
-         {"particles", "1", "particles in the model", static_cast<double>(f.particles)},
-         {"body", "1", "body of the largest fraction of the mass", static_cast<double>(f.body)},
-         {"debris", "1", "1: faster forward than 5 % of the impact speed", f.debris ? 1.0 : 0.0},
-         {"axial", "m", "axial coordinate of the centre of mass", frame.axial(offset)},
-         {"radius", "m", "distance of the centre of mass from the axis", frame.radius(f.position)},
-         {"x", "m", "centre of mass", f.position.x()},
-         {"y", "m", "centre of mass", f.position.y()},
-         {"z", "m", "centre of mass", f.position.z()},
-         {"velocity_x", "m/s", "velocity of the centre of mass", f.velocity.x()},
-         {"velocity_y", "m/s", "velocity of the centre of mass", f.velocity.y()},
-         {"velocity_z", "m/s", "velocity of the centre of mass", f.velocity.z()},
-         {"diameter", "m", "of the sphere of the same volume", 
-          frame.is_planar() ? nan : 2.0 * std::cbrt(f.volume * 0.238732414637843)},
-         {"temperature", "K", "mean by mass", f.temperature},
-         {"melted_fraction", "1", "mass fraction of liquid and vapour", f.melted_fraction},
-         {"internal_energy", "J/kg", "mean by mass", f.internal_energy}});
+    table.append({{"mass", "kg",
+                   "of one fragment, completed at mirror planes; in axisymmetry of the whole ring", f.mass},
+                  {"copies", "1", "such fragments in the full problem", f.copies},
+                  {"particles", "1", "particles in the model", static_cast<double>(f.particles)},
+                  {"body", "1", "body of the largest fraction of the mass", static_cast<double>(f.body)},
+                  {"debris", "1", "1: faster forward than 5 % of the impact speed", f.debris ? 1.0 : 0.0},
+                  {"axial", "m", "axial coordinate of the centre of mass", frame.axial(offset)},
+                  {"radius", "m", "distance of the centre of mass from the axis", frame.radius(f.position)},
+                  {"x", "m", "centre of mass", f.position.x()},
+                  {"y", "m", "centre of mass", f.position.y()},
+                  {"z", "m", "centre of mass", f.position.z()},
+                  {"velocity_x", "m/s", "velocity of the centre of mass", f.velocity.x()},
+                  {"velocity_y", "m/s", "velocity of the centre of mass", f.velocity.y()},
+                  {"velocity_z", "m/s", "velocity of the centre of mass", f.velocity.z()},
+                  {"diameter", "m", "of the sphere of the same volume",
+                   frame.is_planar() ? nan : 2.0 * std::cbrt(f.volume * 0.238732414637843)},
+                  {"temperature", "K", "mean by mass", f.temperature},
+                  {"melted_fraction", "1", "mass fraction of liquid and vapour", f.melted_fraction},
+                  {"internal_energy", "J/kg", "mean by mass", f.internal_energy}});
   }
   return table;
 }

@@ -38,7 +38,8 @@ Frame Frame::at_face(double coordinate) const {
 }
 
 double Frame::depth(const Vector3& position) const {
-  return dimension == grid::Dimension::plane_strain ? grid::unit_depth : 2.0 * std::numbers::pi * radius(position);
+  return dimension == grid::Dimension::plane_strain ? grid::unit_depth
+                                                    : 2.0 * std::numbers::pi * radius(position);
 }
 
 double Frame::edge(double volume, const Vector3& position) const {
@@ -131,7 +132,8 @@ Frame find_frame(const Run& run, const Snapshot& first, std::optional<int> axis,
     const std::optional<double>& plane = run.mirror_planes[static_cast<std::size_t>(a)];
     if (a == frame.axis) {
       // The projectile flies against it: the face of a wall, not of a model cut in halves.
-      const std::optional<Run::Wall>& ahead = run.walls[static_cast<std::size_t>(a)][frame.sign > 0.0 ? 1 : 0];
+      const std::optional<Run::Wall>& ahead =
+          run.walls[static_cast<std::size_t>(a)][frame.sign > 0.0 ? 1 : 0];
       if (ahead && !at_rest && frame.sign * ahead->position > frame.start) {
         frame.wall = frame.sign * ahead->position;
         frame.wall_holds = ahead->holds;
@@ -143,7 +145,8 @@ Frame find_frame(const Run& run, const Snapshot& first, std::optional<int> axis,
     frame.planes.push_back({a, *plane});
     frame.centre[a] = *plane;
   }
-  if (run.dimension == grid::Dimension::axisymmetric) frame.centre[1] = 0.0;  // not that of the sections of rings
+  if (run.dimension == grid::Dimension::axisymmetric)
+    frame.centre[1] = 0.0;  // not that of the sections of rings
   // A half model is seen across its mirror plane, which may hold an oblique flight.
   other.insert(other.end(), mirrored.begin(), mirrored.end());
   frame.transverse = {other[0], other[1]};

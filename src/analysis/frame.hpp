@@ -21,13 +21,14 @@ struct Frame {
   Vector3 centre = Vector3::Zero();  ///< a point of the axis; its axial coordinate is 0
   double start = 0.0;                ///< axial coordinate of the projectile when its centre is there
   std::vector<Plane> planes;         ///< mirror planes that cut the model out of the full problem
-  std::optional<double> wall;        ///< axial coordinate of a wall or mirror plane that the projectile flies against
-  bool wall_holds = true;            ///< it is a mirror plane: what touches it stays there
-  std::size_t projectile = 0;        ///< the fastest body
+  std::optional<double>
+      wall;                ///< axial coordinate of a wall or mirror plane that the projectile flies against
+  bool wall_holds = true;  ///< it is a mirror plane: what touches it stays there
+  std::size_t projectile = 0;  ///< the fastest body
   double impact_speed = 0.0;   ///< relative speed of the fastest and the slowest body, m/s
   double parting_speed = 0.0;  ///< where nothing moves at the start: of the fastest body at the end, m/s
-  double impact_angle = 0.0;  ///< of their relative velocity with the axis, rad; 0: a normal impact
-  Vector3 direction = Vector3::Zero();  ///< of the flight: relative velocity over its axial component
+  double impact_angle = 0.0;   ///< of their relative velocity with the axis, rad; 0: a normal impact
+  Vector3 direction = Vector3::Zero();     ///< of the flight: relative velocity over its axial component
   std::array<int, 2> transverse = {0, 1};  ///< upward in pictures; sight, across the only mirror plane
 
   [[nodiscard]] bool is_planar() const { return dimension != grid::Dimension::space; }

@@ -25,8 +25,8 @@ Hit hit_of(const Frame& frame, const Vector3& place, double time, double mass, c
   return {frame.radius(place), time, m, m * frame.axial(velocity), 0.5 * m * velocity.squaredNorm()};
 }
 
-Loads tabulate(const std::vector<Hit>& hits, const Frame& frame, const std::string& name, const std::string& plane,
-               double ring, int times) {
+Loads tabulate(const std::vector<Hit>& hits, const Frame& frame, const std::string& name,
+               const std::string& plane, double ring, int times) {
   Sum total;
   double widest = 0.0, first = std::numeric_limits<double>::infinity(), last = -first;
   for (const Hit& hit : hits) {
@@ -47,7 +47,8 @@ Loads tabulate(const std::vector<Hit>& hits, const Frame& frame, const std::stri
                 .labels = {},
                 .columns = {}};
   loads.totals = {measured(name + "_mass", total.mass), measured(name + "_momentum", total.momentum),
-                  measured(name + "_energy", total.energy), measured(name + "_first", hits.empty() ? nan : first),
+                  measured(name + "_energy", total.energy),
+                  measured(name + "_first", hits.empty() ? nan : first),
                   measured(name + "_last", hits.empty() ? nan : last)};
   if (hits.empty()) return loads;
 

@@ -12,8 +12,8 @@ namespace whipple::analysis {
 
 /// A particle that hits a plane, counted as often as in the full problem.
 struct Hit {
-  double radius = 0.0;                             ///< distance from the axis, m
-  double time = 0.0;                               ///< s
+  double radius = 0.0;                              ///< distance from the axis, m
+  double time = 0.0;                                ///< s
   double mass = 0.0, momentum = 0.0, energy = 0.0;  ///< kg, axial kg m/s, kinetic J
 };
 
@@ -32,7 +32,7 @@ struct Loads {
 /// @param plane  what is hit, for the descriptions of the tables
 /// @param ring   width of the rings, m
 /// @param times  number of intervals between first and last hit
-Loads tabulate(const std::vector<Hit>& hits, const Frame& frame, const std::string& name, const std::string& plane,
-               double ring, int times);
+Loads tabulate(const std::vector<Hit>& hits, const Frame& frame, const std::string& name,
+               const std::string& plane, double ring, int times);
 
 }  // namespace whipple::analysis

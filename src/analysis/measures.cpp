@@ -163,7 +163,8 @@ std::string measures_as_markdown() {
 void write_quantities(const Quantities& values, const std::filesystem::path& folder) {
   std::string text = "quantity,value,unit,meaning,reason\n";
   for (const Quantity& q : values) {
-    text += fmt::format("{},{},{},{},{}\n", csv_cell(q.name), q.value, q.unit, csv_cell(q.meaning), csv_cell(q.reason));
+    text += fmt::format("{},{},{},{},{}\n", csv_cell(q.name), q.value, q.unit, csv_cell(q.meaning),
+                        csv_cell(q.reason));
   }
   write_text_atomically(folder / "quantities.csv", text);
 }

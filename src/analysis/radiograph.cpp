@@ -119,8 +119,10 @@ Radiograph take_radiograph(const Snapshot& snapshot, const Frame& frame, const P
     };
     if (frame.dimension == grid::Dimension::axisymmetric) {
       // A ring by points a pixel apart at equal angles, of which each stands for those before and behind the axis.
-      const int points = static_cast<int>(std::ceil(std::numbers::pi * std::abs(up) / (edge * options.pixel))) + 1;
-      for (int k = 0; k < points; ++k) add(up * std::cos(std::numbers::pi * (k + 0.5) / points), 1.0 / points);
+      const int points =
+          static_cast<int>(std::ceil(std::numbers::pi * std::abs(up) / (edge * options.pixel))) + 1;
+      for (int k = 0; k < points; ++k)
+        add(up * std::cos(std::numbers::pi * (k + 0.5) / points), 1.0 / points);
     } else {
       add(up, 1.0);
       if (reflect) add(-up, 1.0);

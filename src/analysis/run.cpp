@@ -40,7 +40,8 @@ void take_domain(const cases::Domain& domain, Run& run) {
       run.walls[a][side] = {.position = (side == 0 ? domain.lower : domain.upper)[axis],
                             .holds = face == grid::Boundary::symmetry};
     }
-    if ((domain.dimension == grid::Dimension::axisymmetric && a == 1) || (domain.is_planar() && a == 2)) continue;
+    if ((domain.dimension == grid::Dimension::axisymmetric && a == 1) || (domain.is_planar() && a == 2))
+      continue;
     if (faces[2 * a + 1] == grid::Boundary::symmetry) run.mirror_planes[a] = domain.upper[axis];
     if (faces[2 * a] == grid::Boundary::symmetry) run.mirror_planes[a] = domain.lower[axis];
   }
@@ -219,13 +220,15 @@ void append_elements(const fs::path& path, Snapshot& snapshot) {
   const auto points = positions.read_all<float>({nodes, 3});
   const auto velocities = vtk.open_group("PointData").open_dataset("velocity").read_all<float>({nodes, 3});
   const auto body = data.open_dataset("body").read_all<std::uint16_t>({id.size(), 1});
-  if (!std::ranges::all_of(corners, [&](std::int64_t node) { return node >= 0 && node < std::int64_t(nodes); }))
+  if (!std::ranges::all_of(corners,
+                           [&](std::int64_t node) { return node >= 0 && node < std::int64_t(nodes); }))
     fail("Connectivity names points that are not there");
   for (std::int64_t node = 0; node < std::int64_t(nodes); ++node) {
     snapshot.nodes.push_back(Eigen::Map<const Eigen::Vector3f>(points.data() + 3 * node).cast<double>());
   }
   // A node that ranks share is one of them from here on.
-  const auto node_id = vtk.open_group("PointData").open_dataset("node_id").read_all<std::uint64_t>({nodes, 1});
+  const auto node_id =
+      vtk.open_group("PointData").open_dataset("node_id").read_all<std::uint64_t>({nodes, 1});
   std::unordered_map<std::uint64_t, std::uint32_t> first_of_node;
   for (std::uint32_t node = 0; node < nodes; ++node) first_of_node.emplace(node_id[node], node);
   const std::vector<double> mass = as_reals(data, "mass", order);
@@ -320,7 +323,8 @@ Snapshot read_snapshot(const SnapshotEntry& entry) {
     if (std::ranges::find(read_above, name) != read_above.end()) continue;
     if (data.open_dataset(name).shape().size() == 1) snapshot.scalars[name] = as_reals(data, name, order);
   }
-  if (const fs::path with_elements = elements_file(entry); !with_elements.empty() && fs::exists(with_elements)) {
+  if (const fs::path with_elements = elements_file(entry);
+      !with_elements.empty() && fs::exists(with_elements)) {
     append_elements(with_elements, snapshot);
     sort_by_number(snapshot);
   }

@@ -21,7 +21,7 @@ struct BodyInput {
   std::string name;
   Vector3 velocity = Vector3::Zero();  ///< initial, m/s
   double spacing = 0.0;                ///< initial distance of the particles, m
-  double size = 0.0;      ///< smallest extent by its shape, m; NaN if the shape states none
+  double size = 0.0;                   ///< smallest extent by its shape, m; NaN if the shape states none
   bool phases = true;     ///< its equation of state knows phases; otherwise all of it counts as solid
   bool condensed = true;  ///< it begins as condensed material, not as a gas
 };

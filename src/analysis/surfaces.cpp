@@ -88,8 +88,8 @@ double first_surface(const std::vector<double>& fractions, double size) {
   return nan;
 }
 
-Crater measure_crater(const Snapshot& snapshot, const Frame& frame, std::size_t body, double face, double rear,
-                      double cell_size) {
+Crater measure_crater(const Snapshot& snapshot, const Frame& frame, std::size_t body, double face,
+                      double rear, double cell_size) {
   const auto mine = [&](std::size_t i) { return snapshot.body[i] == body; };
   double outermost = 0.0;
   for (std::size_t i = 0; i < snapshot.size(); ++i) {

@@ -53,12 +53,13 @@ struct Crater {
 
 /// Measures the crater in a body that reached from the axial coordinate `face` to `rear`. Other bodies' material, such
 /// as the remains of the projectile, is no part of its floor.
-Crater measure_crater(const Snapshot& snapshot, const Frame& frame, std::size_t body, double face, double rear,
-                      double cell_size);
+Crater measure_crater(const Snapshot& snapshot, const Frame& frame, std::size_t body, double face,
+                      double rear, double cell_size);
 
 /// Measures how deep (m) a body has come below the axial coordinate `face`: 0.1 % of its mass lies deeper. 0 before it
 /// arrives, NaN if nothing of it is left.
-double penetration_depth(const Snapshot& snapshot, const Frame& frame, std::size_t body, double spacing, double face);
+double penetration_depth(const Snapshot& snapshot, const Frame& frame, std::size_t body, double spacing,
+                         double face);
 
 struct Hole {
   double diameter = 0.0;      ///< within which less than half of the plate is left in the line of flight, m

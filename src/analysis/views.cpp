@@ -18,7 +18,7 @@ namespace whipple::analysis {
 namespace {
 
 constexpr const char* density = "density";
-constexpr double fading = 0.3;           // of the light, from the nearest to the farthest of what is seen
+constexpr double fading = 0.3;             // of the light, from the nearest to the farthest of what is seen
 constexpr double beyond_the_scale = 0.02;  // fraction of the mass that moves, at each end
 
 /// A field of the views. Its values are those of the points; of an element the mean of its points.
@@ -55,7 +55,8 @@ const ShownField fields[] = {
 Snapshot read_shown(const SnapshotEntry& entry) {
   Snapshot snapshot = read_snapshot(entry);
   std::erase_if(snapshot.scalars, [](const auto& scalar) {
-    return scalar.first != density && std::ranges::find(fields, scalar.first, &ShownField::name) == std::end(fields);
+    return scalar.first != density &&
+           std::ranges::find(fields, scalar.first, &ShownField::name) == std::end(fields);
   });
   return snapshot;
 }
@@ -69,7 +70,8 @@ struct Scene {
   explicit Scene(const Snapshot& of) : snapshot(of) {
     std::vector<bool> is_part(of.size(), false);
     for (const Hexahedron& element : of.hexahedra) {
-      const auto first = static_cast<std::size_t>(std::ranges::lower_bound(of.id, element.first) - of.id.begin());
+      const auto first =
+          static_cast<std::size_t>(std::ranges::lower_bound(of.id, element.first) - of.id.begin());
       elements.push_back(first);
       for (std::size_t k = 0; k < 8; ++k) is_part[first + k] = true;
     }
@@ -125,14 +127,16 @@ Projection projection_of(const Frame& frame, const std::vector<Snapshot>& snapsh
   limits.upper_up += pad;
   projection.columns = columns;
   projection.pixel = (limits.upper_axial - limits.lower_axial) / static_cast<double>(columns);
-  projection.rows = static_cast<std::size_t>(std::ceil((limits.upper_up - limits.lower_up) / projection.pixel));
+  projection.rows =
+      static_cast<std::size_t>(std::ceil((limits.upper_up - limits.lower_up) / projection.pixel));
   return projection;
 }
 
 /// Counts points in the cells of a cubic lattice.
 class CellCounts {
  public:
-  CellCounts(const std::vector<Vector3>& positions, double width, bool planar) : width_(width), deep_(planar ? 0 : 1) {
+  CellCounts(const std::vector<Vector3>& positions, double width, bool planar)
+      : width_(width), deep_(planar ? 0 : 1) {
     for (const Vector3& x : positions) ++counts_[key(cell_of(x))];
   }
   /// Returns the number of points in the cell of a place and in its neighbours.
@@ -154,15 +158,16 @@ class CellCounts {
   [[nodiscard]] std::array<std::int64_t, 3> cell_of(const Vector3& x) const {
     std::array<std::int64_t, 3> cell{};
     for (std::size_t a = 0; a < 3; ++a) {
-      cell[a] = static_cast<std::int64_t>(std::floor(std::clamp(x[static_cast<Eigen::Index>(a)] / width_, -1e5, 1e5)));
+      cell[a] = static_cast<std::int64_t>(
+          std::floor(std::clamp(x[static_cast<Eigen::Index>(a)] / width_, -1e5, 1e5)));
     }
     return cell;
   }
   /// Cells are within 100,000 of the origin; what is farther away shares the outermost ones.
   static std::uint64_t key(const std::array<std::int64_t, 3>& cell) {
     constexpr std::int64_t middle = 1 << 20;
-    return static_cast<std::uint64_t>(cell[0] + middle) << 42U | static_cast<std::uint64_t>(cell[1] + middle) << 21U |
-           static_cast<std::uint64_t>(cell[2] + middle);
+    return static_cast<std::uint64_t>(cell[0] + middle) << 42U |
+           static_cast<std::uint64_t>(cell[1] + middle) << 21U | static_cast<std::uint64_t>(cell[2] + middle);
   }
 
   double width_;
@@ -193,7 +198,8 @@ std::vector<double> diameters_of(const Scene& scene, const Frame& frame, double 
 
 /// Draws a scene; labels are the numbers of its items. @param outside  from outside; else cut along the plane of sight
 /// through the axis
-Canvas draw(const Scene& scene, const std::vector<double>& diameters, const Projection& projection, bool outside) {
+Canvas draw(const Scene& scene, const std::vector<double>& diameters, const Projection& projection,
+            bool outside) {
   const Snapshot& snapshot = scene.snapshot;
   const Frame& frame = projection.frame;
   const bool whole = outside || frame.is_planar();
@@ -281,7 +287,8 @@ void write_scale(const ShownField& field, const std::vector<Snapshot>& snapshots
     if (value_and_mass.empty()) continue;
     const double low = weighted_quantile(value_and_mass, beyond_the_scale),
                  high = weighted_quantile(value_and_mass, 1.0 - beyond_the_scale);
-    ends = ends.empty() ? std::vector{low, high} : std::vector{std::min(ends[0], low), std::max(ends[1], high)};
+    ends =
+        ends.empty() ? std::vector{low, high} : std::vector{std::min(ends[0], low), std::max(ends[1], high)};
   }
   if (is_zero || ends.empty()) return;
   group.write<double>(field.name, ends, hdf5::Slab::whole(2));
@@ -303,12 +310,14 @@ std::vector<std::size_t> shown_snapshots(const std::vector<SnapshotEntry>& entri
   return numbers;
 }
 
-std::vector<double> drawn_diameters(const std::vector<Vector3>& positions, const std::vector<double>& edges, bool planar) {
+std::vector<double> drawn_diameters(const std::vector<Vector3>& positions, const std::vector<double>& edges,
+                                    bool planar) {
   // Mean distances are those in the smallest of some boxes, three cells wide, that holds enough points: small for compact
   // fragments, large for thin debris. Widths of the cells in median edges.
   constexpr std::array widths = {1.5, 3.0, 6.0};
   const double enough = planar ? 5.0 : 12.0;
-  constexpr double connected = 5.0, apart = 7.0;  // edges: distances up to which spheres reach, and from which they do not
+  constexpr double connected = 5.0,
+                   apart = 7.0;  // edges: distances up to which spheres reach, and from which they do not
   std::vector<double> diameters = edges;
   if (positions.empty()) return diameters;
   std::vector<double> sorted = edges;
@@ -324,7 +333,9 @@ std::vector<double> drawn_diameters(const std::vector<Vector3>& positions, const
       if (points < enough) return false;
       const double each = planar ? std::sqrt(9.0 / points) : std::cbrt(27.0 / points);
       const double distance = width * edge * each / edges[i];
-      const double reached = distance < connected ? distance : connected - (connected - 1.0) * (distance - connected) / (apart - connected);
+      const double reached =
+          distance < connected ? distance
+                               : connected - (connected - 1.0) * (distance - connected) / (apart - connected);
       diameters[i] = edges[i] * std::max(1.0, reached);
       return true;
     });
@@ -357,7 +368,8 @@ void write_views(const Run& run, const Frame& frame, const ViewOptions& options,
     const std::vector<double> diameters = diameters_of(scene, frame, projection.pixel);
     write_picture(draw(scene, diameters, projection, false), scene, fields, at.create_group("section"));
     if (frame.is_planar()) continue;
-    write_picture(draw(scene, diameters, projection, true), scene, std::span(fields).first(1), at.create_group("outside"));
+    write_picture(draw(scene, diameters, projection, true), scene, std::span(fields).first(1),
+                  at.create_group("outside"));
   }
 }
 

@@ -12,7 +12,7 @@
 namespace whipple::analysis {
 
 struct ViewOptions {
-  int times = 0;              ///< at most so many, the first and the last snapshot among them; 0: no views
+  int times = 0;               ///< at most so many, the first and the last snapshot among them; 0: no views
   std::size_t columns = 1188;  ///< width of a picture, pixels
 };
 
@@ -23,7 +23,8 @@ std::vector<std::size_t> shown_snapshots(const std::vector<SnapshotEntry>& entri
 /// but whose points are nearer to one another than five edges in the mean, it is their mean distance, so that the
 /// rows of the lattice on which they began do not show as rings; from seven edges on, and in small fragments, it is the edge.
 /// @param edges  edge (m) of the cube, or square, of each point's material
-std::vector<double> drawn_diameters(const std::vector<Vector3>& positions, const std::vector<double>& edges, bool planar);
+std::vector<double> drawn_diameters(const std::vector<Vector3>& positions, const std::vector<double>& edges,
+                                    bool planar);
 
 /// Draws the views and writes the group `views` (docs/manual/output.md).
 void write_views(const Run& run, const Frame& frame, const ViewOptions& options, const hdf5::Group& root);

@@ -65,7 +65,8 @@ Wall::Wall(const Run& run, const Snapshot& first, const Frame& flight, std::size
   }
   if (!never_.empty()) return;
   const std::array<double, 2> widths = columns_.widths();
-  for (std::size_t a = 0; a < 2; ++a) cells_[a] = static_cast<std::size_t>(std::ceil(widths[a] / reach_ - 1e-9));
+  for (std::size_t a = 0; a < 2; ++a)
+    cells_[a] = static_cast<std::size_t>(std::ceil(widths[a] / reach_ - 1e-9));
   for (std::size_t i = 0; i < cells_[0]; ++i) {
     for (std::size_t j = 0; j < cells_[1]; ++j) {
       Vector3 middle = Vector3::Zero();
@@ -116,7 +117,8 @@ std::vector<Wall::Piece> Wall::pieces(const Snapshot& snapshot) const {
 
 const Vector3* Wall::place_of(std::uint64_t id) const {
   const auto found = std::ranges::lower_bound(id_, id);
-  return found == id_.end() || *found != id ? nullptr : &place_[static_cast<std::size_t>(found - id_.begin())];
+  return found == id_.end() || *found != id ? nullptr
+                                            : &place_[static_cast<std::size_t>(found - id_.begin())];
 }
 
 Vector3 Wall::shift_of(const Snapshot& snapshot, const Piece& piece) const {
@@ -151,7 +153,9 @@ bool Wall::closes(const Snapshot& snapshot, const Piece& piece, const Vector3& s
   const auto layers = static_cast<std::size_t>(std::ceil((rear - front) / reach_)) + 2;
   enum : std::uint8_t { empty, filled, reached };
   std::vector<std::uint8_t> cells(n0 * n1 * layers, empty);
-  const auto index = [&](std::size_t i, std::size_t j, std::size_t layer) { return (layer * n0 + i) * n1 + j; };
+  const auto index = [&](std::size_t i, std::size_t j, std::size_t layer) {
+    return (layer * n0 + i) * n1 + j;
+  };
   for (const std::uint32_t p : piece) {
     std::array<std::ptrdiff_t, 2> at{};
     for (std::size_t a = 0; a < 2; ++a) {
@@ -161,9 +165,11 @@ bool Wall::closes(const Snapshot& snapshot, const Piece& piece, const Vector3& s
     const std::ptrdiff_t along = lower_cell((frame_.axial(snapshot.position[p]) - front) / reach_);
     for (std::ptrdiff_t i = at[0]; i < at[0] + 2; ++i) {
       for (std::ptrdiff_t j = at[1]; j < at[1] + 2; ++j) {
-        if (i < 0 || j < 0 || i >= static_cast<std::ptrdiff_t>(n0) || j >= static_cast<std::ptrdiff_t>(n1)) continue;
+        if (i < 0 || j < 0 || i >= static_cast<std::ptrdiff_t>(n0) || j >= static_cast<std::ptrdiff_t>(n1))
+          continue;
         for (std::ptrdiff_t k = along; k < along + 2; ++k) {
-          cells[index(static_cast<std::size_t>(i), static_cast<std::size_t>(j), static_cast<std::size_t>(k))] = filled;
+          cells[index(static_cast<std::size_t>(i), static_cast<std::size_t>(j),
+                      static_cast<std::size_t>(k))] = filled;
         }
       }
     }

@@ -31,7 +31,7 @@ class Wall {
   /// Selects what is left of the body: the material that closes it, or what hangs on its rim if nothing does.
   struct Remains {
     bool closed = false;
-    std::vector<std::uint8_t> wall;  ///< 1: the particle belongs to it
+    std::vector<std::uint8_t> wall;   ///< 1: the particle belongs to it
     Vector3 shift = Vector3::Zero();  ///< displacement of the wall across the axis, m
   };
   using Piece = std::vector<std::uint32_t>;
@@ -52,14 +52,14 @@ class Wall {
   Extent extent_;
   double reach_;  // m, within which particles touch; edge of the cells in which paths are sought
   Columns columns_;
-  std::array<std::size_t, 2> cells_{};     // over the face, across the axis
-  std::vector<std::uint8_t> face_;         // 1: paths may lead through the cells of this column
+  std::array<std::size_t, 2> cells_{};  // over the face, across the axis
+  std::vector<std::uint8_t> face_;      // 1: paths may lead through the cells of this column
   std::size_t face_cells_ = 0;
-  std::vector<std::uint64_t> id_;          // of the particles of the body at the start
-  std::vector<Vector3> place_;             // of these, m
-  double rim_ = 0.0;                       // number of those on the rim
-  bool perforated_ = false;                // at an earlier time
-  std::string never_;                      // reason why nothing can be decided at any time
+  std::vector<std::uint64_t> id_;  // of the particles of the body at the start
+  std::vector<Vector3> place_;     // of these, m
+  double rim_ = 0.0;               // number of those on the rim
+  bool perforated_ = false;        // at an earlier time
+  std::string never_;              // reason why nothing can be decided at any time
 };
 
 }  // namespace whipple::analysis

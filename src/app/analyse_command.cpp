@@ -38,8 +38,9 @@ void add_analysis_options(CLI::App& command, AnalysisWords& words) {
   command.add_option("--witness", words.witness, "Axial coordinate of a witness plate, e.g. '200 mm'")
       ->type_name("LENGTH");
   command
-      .add_option("--loads", words.loads,
-                  "Loads in the course of the run on the face of a body, or on a plane at an axial coordinate")
+      .add_option(
+          "--loads", words.loads,
+          "Loads in the course of the run on the face of a body, or on a plane at an axial coordinate")
       ->type_name("BODY|LENGTH");
   command
       .add_option("--diameter-at", words.diameter_at,
@@ -87,7 +88,8 @@ void run_analysis(const std::filesystem::path& run, const AnalysisWords& words,
     options.attenuation[word.substr(0, equal)] = value;
   }
   const analysis::Run read = analysis::read_run(run);
-  const bool is_body = std::ranges::find(read.bodies, words.loads, &analysis::BodyInput::name) != read.bodies.end();
+  const bool is_body =
+      std::ranges::find(read.bodies, words.loads, &analysis::BodyInput::name) != read.bodies.end();
   if (is_body) {
     options.loads = words.loads;
   } else if (!words.loads.empty()) {

@@ -12,16 +12,16 @@
 #include <vector>
 
 #include "src/app/build_info.hpp"
+#include "src/bench/machine.hpp"
+#include "src/bench/measurement.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/base/text_table.hpp"
-#include "src/bench/machine.hpp"
-#include "src/bench/measurement.hpp"
-#include "src/io/run_directory.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/process/mpirun.hpp"
 #include "src/core/process/paths.hpp"
+#include "src/io/run_directory.hpp"
 
 namespace whipple::app {
 namespace {
@@ -47,9 +47,8 @@ bench::Length length(const BenchOptions& options) {
 
 /// The ranks that measure: each problem has processes of its own, so that its peak memory is its own.
 void run_worker(const BenchOptions& options) {
-  const Measurement measurement =
-      bench::measure(bench::find_problem(options.problems.front()), options.threads.front(), length(options),
-                     parallel::world());
+  const Measurement measurement = bench::measure(bench::find_problem(options.problems.front()),
+                                                 options.threads.front(), length(options), parallel::world());
   if (parallel::rank(parallel::world()) == 0) {
     io::write_text_atomically(options.worker, bench::to_json(measurement).dump() + "\n");
   }
@@ -79,9 +78,9 @@ std::string percent(double part, double whole) { return fmt::format("{:.0f} %", 
 
 /// Stages beside what memory and arithmetic units of these cores would need at least.
 void print(const Measurement& m) {
-  fmt::print("\n{}: {}\n{} particles, of which {:.0f} % are at rest, {} steps, {} ranks x {} threads; ", m.problem,
-             bench::find_problem(m.problem).what, m.particles, 100.0 * m.share_at_rest, m.steps, m.ranks,
-             m.threads);
+  fmt::print("\n{}: {}\n{} particles, of which {:.0f} % are at rest, {} steps, {} ranks x {} threads; ",
+             m.problem, bench::find_problem(m.problem).what, m.particles, 100.0 * m.share_at_rest, m.steps,
+             m.ranks, m.threads);
   fmt::print("{:.1f} particles per block of 64 cells; {:.0f} bytes per particle, peak {:.0f} MB\n",
              m.particles_per_block, m.bytes_per_particle, 1e-6 * m.peak_memory);
   std::vector<std::vector<std::string>> rows = {
@@ -209,9 +208,9 @@ void run_bench(BenchOptions options) {
 
 void add_bench_command(CLI::App& app) {
   auto options = std::make_shared<BenchOptions>();
-  CLI::App* command = app.add_subcommand(
-      "bench",
-      "Time standard problems: nanoseconds per particle and step, by stage, compared with the limits of the machine");
+  CLI::App* command = app.add_subcommand("bench",
+                                         "Time standard problems: nanoseconds per particle and step, by "
+                                         "stage, compared with the limits of the machine");
   command->add_option("problems", options->problems, "Which ones (default: all but the largest)")
       ->type_name("NAME");
   command->add_option("--threads", options->threads, "Threads of each rank; several: one after the other")

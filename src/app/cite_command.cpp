@@ -23,8 +23,9 @@ void add_sources(Lines& lines, input::Table table, const std::string& name) {
     std::string source;
   };
   Remarks remarks;
-  table.read(ParameterTable<Remarks>{text("source", &Remarks::source, "where the constants come from").optional()},
-             remarks);
+  table.read(
+      ParameterTable<Remarks>{text("source", &Remarks::source, "where the constants come from").optional()},
+      remarks);
   if (!remarks.source.empty()) lines.push_back({"  " + name, remarks.source});
   for (const std::string& inner : table.table_names()) {
     if (auto inside = table.optional_table(inner)) add_sources(lines, *inside, inner);
@@ -47,13 +48,16 @@ void print_sources(const std::string& name) {
 /// The words of CITATION.cff.
 void print_program() {
   constexpr const char* title =
-      "whipple: equations of state from molecular dynamics, and the material point method for hypervelocity impact";
+      "whipple: equations of state from molecular dynamics, and the material point method for hypervelocity "
+      "impact";
   constexpr const char* authors = "The whipple authors";
   const BuildInfo& info = build_info();
-  fmt::print("{}. {}, version {} (revision {}). BSD-3-Clause.\n\n", title, authors, info.version, info.revision);
-  fmt::print("@software{{whipple,\n  title = {{{}}},\n  author = {{{{{}}}}},\n  version = {{{}}},\n  license = "
-             "{{BSD-3-Clause}}\n}}\n",
-             title, authors, info.version);
+  fmt::print("{}. {}, version {} (revision {}). BSD-3-Clause.\n\n", title, authors, info.version,
+             info.revision);
+  fmt::print(
+      "@software{{whipple,\n  title = {{{}}},\n  author = {{{{{}}}}},\n  version = {{{}}},\n  license = "
+      "{{BSD-3-Clause}}\n}}\n",
+      title, authors, info.version);
 }
 
 }  // namespace

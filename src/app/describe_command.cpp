@@ -12,6 +12,8 @@
 
 #include "eos/files/models.hpp"
 #include "md_fitting/plan/plan.hpp"
+#include "src/case/case.hpp"
+#include "src/case/shapes/shape.hpp"
 #include "src/core/base/catalogue.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/text.hpp"
@@ -20,8 +22,6 @@
 #include "src/material/material_schema.hpp"
 #include "src/material/reaction/catalogue.hpp"
 #include "src/material/strength/catalogue.hpp"
-#include "src/case/case.hpp"
-#include "src/case/shapes/shape.hpp"
 
 namespace whipple::app {
 namespace {
@@ -58,13 +58,16 @@ const std::vector<Topic>& topics() {
        [](const std::string& name) { return single("material", name, describe_material()); },
        [] { return std::vector<std::string>(); }, &material_schema},
       topic_of("eos", "Equations of state (`[eos]` of a material file)", eos::all_models()),
-      topic_of("modifier", "Modifiers of equations of state (`[[eos.modifier]]` of a material file, in order)",
+      topic_of("modifier",
+               "Modifiers of equations of state (`[[eos.modifier]]` of a material file, in order)",
                eos::modifier_catalogue()),
       topic_of("strength", "Strength models (`[strength]` of a material file)", strength::catalogue()),
       topic_of("failure", "Failure criteria (`[[failure]]` of a material file)", failure::catalogue()),
-      topic_of("constitutive", "Constitutive models (`[constitutive]` of a material file, in place of strength and failure)",
+      topic_of("constitutive",
+               "Constitutive models (`[constitutive]` of a material file, in place of strength and failure)",
                material::catalogue()),
-      topic_of("reaction", "Rate laws of explosives (`[reaction]` of a material file)", reaction::catalogue()),
+      topic_of("reaction", "Rate laws of explosives (`[reaction]` of a material file)",
+               reaction::catalogue()),
       {"md", "Plans of molecular dynamics (`whipple md PLAN.toml`)",
        [](const std::string& name) { return single("md", name, md::describe_plan()); },
        [] { return std::vector<std::string>(); }, &md::plan_schema},
@@ -153,10 +156,13 @@ void add_describe_command(CLI::App& app) {
       app.add_subcommand("describe", "Every key of the inputs: unit, range, default, meaning");
   command->add_option("topic", options->topic, "What to describe; without it the topics are listed");
   command->add_option("name", options->name, "A model, criterion or shape");
-  command->add_flag("--markdown", options->markdown, "Everything, as the page docs/manual/input_reference.md");
-  command->add_flag("--json-schema", options->json_schema,
-                    "JSON schema of case files, of material files (topic material) or of plans (topic md), for editors");
-  command->footer("Example:\n  whipple describe eos gray\n  whipple describe case --json-schema > case.schema.json");
+  command->add_flag("--markdown", options->markdown,
+                    "Everything, as the page docs/manual/input_reference.md");
+  command->add_flag(
+      "--json-schema", options->json_schema,
+      "JSON schema of case files, of material files (topic material) or of plans (topic md), for editors");
+  command->footer(
+      "Example:\n  whipple describe eos gray\n  whipple describe case --json-schema > case.schema.json");
   command->callback([options] { describe_inputs(*options); });
 }
 

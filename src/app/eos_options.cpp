@@ -99,12 +99,13 @@ struct StatedColumn {
 StatedColumn column_of(const std::string& head) {
   const std::size_t bracket = std::min(head.find(" ["), head.size());
   const std::string name = head.substr(0, bracket);
-  const auto found = std::ranges::find_if(state_columns, [&](const StateColumn& c) { return name == c.name; });
+  const auto found =
+      std::ranges::find_if(state_columns, [&](const StateColumn& c) { return name == c.name; });
   if (found == state_columns.end()) {
     std::vector<std::string> known;
     for (const StateColumn& column : state_columns) known.emplace_back(column.name);
-    throw InputError(fmt::format("unknown column {}{}; known: {}", toml_string(name), did_you_mean(name, known),
-                                 fmt::join(known, ", ")));
+    throw InputError(fmt::format("unknown column {}{}; known: {}", toml_string(name),
+                                 did_you_mean(name, known), fmt::join(known, ", ")));
   }
   if (bracket == head.size()) return {&*found, found->unit};
   return {&*found, head.substr(bracket + 2, head.find(']', bracket) - bracket - 2)};
@@ -132,7 +133,8 @@ std::vector<eos::curves::StateQuery> state_queries(const EosOptions& o) {
       eos::curves::StateQuery& query = queries.emplace_back();
       for (std::size_t i = 0; i < cells.size(); ++i) {
         const StateColumn& column = *columns[i].column;
-        if (!cells[i].empty()) query.*column.value = quantity(column.name, cells[i] + " " + columns[i].unit, column.unit);
+        if (!cells[i].empty())
+          query.*column.value = quantity(column.name, cells[i] + " " + columns[i].unit, column.unit);
       }
     } catch (const InputError& error) {
       throw InputError(fmt::format("{}:{}: {}", o.states, number, error.what()));
@@ -143,7 +145,8 @@ std::vector<eos::curves::StateQuery> state_queries(const EosOptions& o) {
 }
 
 eos::curves::HugoniotStart hugoniot_start(const EosOptions& o) {
-  return {quantity("--initial-density", o.initial_density, "kg/m^3"), quantity("--reflected", o.reflected, "Pa")};
+  return {quantity("--initial-density", o.initial_density, "kg/m^3"),
+          quantity("--reflected", o.reflected, "Pa")};
 }
 
 eos::curves::ShockQuery shock_query(const EosOptions& o) {

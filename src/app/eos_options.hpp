@@ -38,7 +38,8 @@ std::vector<eos::curves::StateQuery> state_queries(const EosOptions& options);
 eos::curves::HugoniotStart hugoniot_start(const EosOptions& options);
 eos::curves::ShockQuery shock_query(const EosOptions& options);
 /// The variable of a curve is that of which --to has the unit, the first one without --to.
-eos::curves::Variable curve_variable(const EosOptions& options, std::span<const eos::curves::Variable> variables);
+eos::curves::Variable curve_variable(const EosOptions& options,
+                                     std::span<const eos::curves::Variable> variables);
 eos::curves::CurveRange curve_range(const EosOptions& options, eos::curves::Variable variable);
 double impact_velocity(const EosOptions& options);
 

@@ -26,7 +26,8 @@ Remarks state_remarks(const EosOptions& o, const Subjects& subjects) {
     const State s = eos::curves::state_of(*subject.eos, state_query(o));
     if (s.phase.find("vapour") == std::string_view::npos || !(s.vaporised_fraction < 0.5)) continue;
     remarks.push_back(fmt::format(
-        "{}: \"{}\" names the surface of the model, which continues beyond the limit of stretched material. Material "
+        "{}: \"{}\" names the surface of the model, which continues beyond the limit of stretched material. "
+        "Material "
         "of this density and energy in equilibrium is condensed, with voids: {:.2g} % of its mass is vapour",
         subject.name, s.phase, 100 * s.vaporised_fraction));
   }
@@ -63,7 +64,8 @@ Remarks release_remarks(const EosOptions& o, const Subjects& subjects) {
   const double pressure = quantity("--to", o.to, "Pa").value_or(0.0);
   Remarks remarks;
   for (const Subject& subject : subjects) {
-    const eos::ShockState shock = eos::curves::required_shock(*subject.eos, hugoniot_start(o), shock_query(o));
+    const eos::ShockState shock =
+        eos::curves::required_shock(*subject.eos, hugoniot_start(o), shock_query(o));
     std::string text = fmt::format("{}: shock up {:.4g} km/s, Us {:.4g} km/s", subject.name,
                                    shock.particle_velocity * 1e-3, shock.shock_velocity * 1e-3);
     const eos::Release release = eos::release(*subject.eos, shock.state, pressure);

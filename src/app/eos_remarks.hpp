@@ -25,7 +25,8 @@ Remarks match_remarks(const EosOptions& options, const eos::curves::Subjects& su
 Remarks drawn_remarks(const MaterialSamples& drawn);
 /// Of the option that selects the errors.
 inline constexpr const char* tier_help =
-    "Errors that the constants are drawn from: noise alone, of the fit and its defaults, over the potentials, or all";
+    "Errors that the constants are drawn from: noise alone, of the fit and its defaults, over the "
+    "potentials, or all";
 
 /// @param samples  number of samples drawn
 Remarks sample_remarks(const eos::curves::SampledHugoniot& sampled, std::size_t samples);

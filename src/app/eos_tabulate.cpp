@@ -15,8 +15,8 @@
 #include "src/core/base/files.hpp"
 #include "src/core/base/progress.hpp"
 #include "src/core/base/text_table.hpp"
-#include "src/material/material_file.hpp"
 #include "src/core/parallel/threads.hpp"
+#include "src/material/material_file.hpp"
 
 namespace whipple::app {
 namespace {

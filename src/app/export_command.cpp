@@ -34,19 +34,22 @@ struct ExportOptions {
 /// The index of a series of VTU files with their times, for ParaView.
 std::string index_text(const std::vector<std::pair<std::string, double>>& files) {
   std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
-  for (const auto& [name, time] : files) text += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", time, name);
+  for (const auto& [name, time] : files)
+    text += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", time, name);
   return text + "</Collection>\n</VTKFile>\n";
 }
 
 /// Exports the files of one kind. Returns their number.
-std::size_t export_series(const std::vector<std::pair<fs::path, double>>& snapshots, const ExportOptions& options) {
+std::size_t export_series(const std::vector<std::pair<fs::path, double>>& snapshots,
+                          const ExportOptions& options) {
   std::vector<std::pair<std::string, double>> written;
   for (const auto& [file, time] : snapshots) {
     if (!fs::exists(file)) continue;
     const io::SnapshotTable table = io::read_snapshot_table(file, time, options.fields);
     const bool vtu = options.format == Format::vtu;
     const std::string name = file.stem().string() + (vtu ? ".vtu" : ".csv");
-    io::write_text_atomically(fs::path(options.output) / name, vtu ? io::vtu_text(table) : io::csv_text(table));
+    io::write_text_atomically(fs::path(options.output) / name,
+                              vtu ? io::vtu_text(table) : io::csv_text(table));
     written.emplace_back(name, time);
   }
   if (options.format == Format::vtu && !written.empty()) {
@@ -66,7 +69,8 @@ void run_export(const ExportOptions& options) {
   for (const analysis::SnapshotEntry& entry : run.snapshots) {
     if (options.last && &entry != &run.snapshots.back()) continue;
     particles.emplace_back(entry.file, entry.time);
-    if (const fs::path beside = analysis::elements_file(entry); !beside.empty()) elements.emplace_back(beside, entry.time);
+    if (const fs::path beside = analysis::elements_file(entry); !beside.empty())
+      elements.emplace_back(beside, entry.time);
   }
   fs::create_directories(options.output);
   const std::size_t count = export_series(particles, options) + export_series(elements, options);
@@ -77,14 +81,19 @@ void run_export(const ExportOptions& options) {
 
 void add_export_command(CLI::App& app) {
   auto options = std::make_shared<ExportOptions>();
-  CLI::App* command = app.add_subcommand("export", "Snapshots of a run as files of VTK (VTU) or CSV for other programs");
+  CLI::App* command =
+      app.add_subcommand("export", "Snapshots of a run as files of VTK (VTU) or CSV for other programs");
   command->add_option("run", options->run, "The run directory")->required();
-  command->add_option("-o,--output", options->output, "A new or empty folder")->required()->type_name("FOLDER");
+  command->add_option("-o,--output", options->output, "A new or empty folder")
+      ->required()
+      ->type_name("FOLDER");
   command->add_option("--format", options->format, "vtu or csv")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, Format>{{"vtu", Format::vtu}, {"csv", Format::csv}}))
+      ->transform(
+          CLI::CheckedTransformer(std::map<std::string, Format>{{"vtu", Format::vtu}, {"csv", Format::csv}}))
       ->default_str("vtu")
       ->type_name("FORMAT");
-  command->add_option("--fields", options->fields, "Fields in the files, e.g. velocity,pressure (default: all)")
+  command
+      ->add_option("--fields", options->fields, "Fields in the files, e.g. velocity,pressure (default: all)")
       ->type_name("NAME,...")
       ->delimiter(',');
   command->add_flag("--last", options->last, "The last snapshot only");

@@ -37,14 +37,16 @@ decks::ImportOptions import_options(const Arguments& arguments) {
       if (format.text == arguments.format) options.format = format.value;
     }
     if (!options.format) {
-      throw InputError(fmt::format("--format is \"{}\"{}; known: {}", arguments.format, did_you_mean(arguments.format,
-          known), fmt::join(known, ", ")));
+      throw InputError(fmt::format("--format is \"{}\"{}; known: {}", arguments.format,
+                                   did_you_mean(arguments.format, known), fmt::join(known, ", ")));
     }
   }
   if (!arguments.units.empty()) {
     options.units = decks::parse_unit_system(arguments.units);
     if (!options.units) {
-      throw InputError(fmt::format("--units is \"{}\", expected units of length, mass and time, as in --units 'mm g ms'", arguments.units));
+      throw InputError(
+          fmt::format("--units is \"{}\", expected units of length, mass and time, as in --units 'mm g ms'",
+                      arguments.units));
     }
   }
   if (!arguments.cell_size.empty()) {
@@ -58,8 +60,10 @@ void require_complete(const fs::path& deck, const decks::Import& import) {
   std::vector<InputFault> faults;
   for (const decks::Remark& remark : import.remarks) {
     if (remark.outcome == decks::Outcome::missing) {
-      faults.push_back({.file = deck.string(), .line = remark.line, .column = 1,
-          .text = fmt::format("missing: {}: {}", remark.keyword, remark.text)});
+      faults.push_back({.file = deck.string(),
+                        .line = remark.line,
+                        .column = 1,
+                        .text = fmt::format("missing: {}: {}", remark.keyword, remark.text)});
     }
   }
   if (faults.empty()) return;
@@ -76,7 +80,8 @@ void require_readable(const decks::CaseFolder& written, const fs::path& folder) 
     const std::string partial = written.case_file().parent_path().string();
     for (InputFault& fault : faults) {
       for (std::string* text : {&fault.file, &fault.text}) {
-        for (std::size_t at = text->find(partial); at != std::string::npos; at = text->find(partial, at + 1)) {
+        for (std::size_t at = text->find(partial); at != std::string::npos;
+             at = text->find(partial, at + 1)) {
           text->replace(at, partial.size(), folder.string());
         }
       }
@@ -104,23 +109,28 @@ void import_case(const Arguments& arguments) {
 
 void add_import_command(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("import",
-      "Turn the input deck of another code into a case with its materials");
+  CLI::App* command =
+      app.add_subcommand("import", "Turn the input deck of another code into a case with its materials");
   command->add_option("deck", arguments->deck, "The deck (MPM3D-F90: NAME.mpm, LS-DYNA: NAME.k)")->required();
-  command->add_option("-o,--output", arguments->folder, "Folder of the case, which must not exist")->required();
-  command->add_option("--format", arguments->format, "mpm3d_f90 or ls_dyna (default: by the content of the deck)");
-  command->add_option("--units", arguments->units, "Units of length, mass and time of the deck, as in 'mm g ms'");
-  command->add_option("--cell-size", arguments->cell_size, "Edge of the cells of the grid, for decks without one (LS-DYNA)");
+  command->add_option("-o,--output", arguments->folder, "Folder of the case, which must not exist")
+      ->required();
+  command->add_option("--format", arguments->format,
+                      "mpm3d_f90 or ls_dyna (default: by the content of the deck)");
+  command->add_option("--units", arguments->units,
+                      "Units of length, mass and time of the deck, as in 'mm g ms'");
+  command->add_option("--cell-size", arguments->cell_size,
+                      "Edge of the cells of the grid, for decks without one (LS-DYNA)");
   command->add_flag("--allow-missing", arguments->allow_missing,
-      "Write the case though physics of the deck is missing in it");
+                    "Write the case though physics of the deck is missing in it");
   command->add_flag("--case-only", arguments->case_only,
-      "Write case.toml alone, into a folder with the materials of an earlier import");
+                    "Write case.toml alone, into a folder with the materials of an earlier import");
   command->add_flag("--same-method", arguments->same_method,
-      "Keep scheme, shape functions and time step factor of the deck");
+                    "Keep scheme, shape functions and time step factor of the deck");
   command->add_flag("--old-mass", arguments->old_mass,
-      "MPM3D-F90 before 2013-12: take the density of particles for their mass");
+                    "MPM3D-F90 before 2013-12: take the density of particles for their mass");
   command->footer(
-      "Every statement of the deck is listed as exact, converted, dropped or missing; the list is kept in import.txt.\n"
+      "Every statement of the deck is listed as exact, converted, dropped or missing; the list is kept in "
+      "import.txt.\n"
       "Example:\n  whipple import deck.mpm -o cases/deck --units 'mm g ms'");
   command->callback([arguments] { import_case(*arguments); });
 }

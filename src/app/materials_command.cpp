@@ -39,7 +39,8 @@ void print_materials() {
   };
   for (const char* group : material_groups) print_group(group, group);
   print_group("", "other");
-  log::info("{} materials; a bare file name is searched in the folder of the case, then in:", materials.size());
+  log::info("{} materials; a bare file name is searched in the folder of the case, then in:",
+            materials.size());
   for (const std::filesystem::path& folder : library_folders()) log::info("  {}", folder.string());
 }
 
@@ -51,7 +52,8 @@ std::string text_of(const std::filesystem::path& file) {
 }
 
 std::string lower(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::ranges::transform(text, text.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
 
@@ -60,7 +62,8 @@ void search_materials(const std::vector<std::string>& words) {
   std::vector<LibraryMaterial> found = library_materials();
   std::erase_if(found, [&](const LibraryMaterial& material) {
     const std::string text = lower(material.file.stem().string() + "\n" + text_of(material.file));
-    return !std::ranges::all_of(words, [&](const std::string& word) { return text.find(lower(word)) != text.npos; });
+    return !std::ranges::all_of(words,
+                                [&](const std::string& word) { return text.find(lower(word)) != text.npos; });
   });
   if (found.empty()) throw InputError("no material of the library holds all of these words");
   std::size_t width = 0;
@@ -80,9 +83,11 @@ void show_material(const std::string& name) {
 }  // namespace
 
 void add_materials_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("materials", "List the material library, search it, show a material");
+  CLI::App* command =
+      app.add_subcommand("materials", "List the material library, search it, show a material");
   command->footer(
-      "Examples:\n  whipple materials\n  whipple materials search steinberg copper\n  whipple materials show copper");
+      "Examples:\n  whipple materials\n  whipple materials search steinberg copper\n  whipple materials show "
+      "copper");
   const auto words = std::make_shared<std::vector<std::string>>();
   CLI::App* search = command->add_subcommand(
       "search", "List the materials whose names, notes, models or sources hold all words, in any case");
@@ -90,12 +95,14 @@ void add_materials_command(CLI::App& app) {
   search->callback([words] { search_materials(*words); });
   const auto name = std::make_shared<std::string>();
   CLI::App* show = command->add_subcommand(
-      "show", "Print a material file with its constants and sources, what follows from them, and where it is valid");
+      "show",
+      "Print a material file with its constants and sources, what follows from them, and where it is valid");
   show->add_option("material", *name, "Material file, or name of the library")->required();
   show->callback([name] { show_material(*name); });
   const auto markdown = std::make_shared<bool>(false);
-  command->add_flag("--markdown", *markdown,
-                    "Tables of values computed from the equations of state (docs/manual/materials.md), in Markdown");
+  command->add_flag(
+      "--markdown", *markdown,
+      "Tables of values computed from the equations of state (docs/manual/materials.md), in Markdown");
   command->callback([command, markdown] {
     if (!command->get_subcommands().empty()) return;
     if (*markdown) {

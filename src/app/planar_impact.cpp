@@ -19,7 +19,8 @@ nlohmann::json as_json(const eos::State& state) {
           {"vaporised_fraction", state.vaporised_fraction}};
 }
 
-nlohmann::json as_json(const std::string& body, const Material& material, const eos::curves::ImpactSide& side) {
+nlohmann::json as_json(const std::string& body, const Material& material,
+                       const eos::curves::ImpactSide& side) {
   return {{"body", body},
           {"material", material.name},
           {"shocked", as_json(side.shocked)},
@@ -28,7 +29,8 @@ nlohmann::json as_json(const std::string& body, const Material& material, const 
 
 nlohmann::json impact(const cases::Case& setup, std::size_t projectile, std::size_t target, double velocity) {
   const Material &left = *setup.materials[projectile], &right = *setup.materials[target];
-  const std::string &projectile_name = setup.bodies[projectile].name, &target_name = setup.bodies[target].name;
+  const std::string &projectile_name = setup.bodies[projectile].name,
+                    &target_name = setup.bodies[target].name;
   const eos::curves::PlanarImpact impact = eos::curves::planar_impact(*left.eos, *right.eos, velocity);
   const auto& free_surface = impact.free_surface_velocity;
   return {{"projectile", projectile_name},
@@ -45,8 +47,8 @@ nlohmann::json impact(const cases::Case& setup, std::size_t projectile, std::siz
 
 nlohmann::json planar_impacts(const cases::Case& setup, int axis) {
   nlohmann::json impacts = nlohmann::json::array();
-  const auto fastest = std::ranges::max_element(
-      setup.bodies, {}, [](const cases::Body& body) { return body.velocity.norm(); });
+  const auto fastest = std::ranges::max_element(setup.bodies, {},
+                                                [](const cases::Body& body) { return body.velocity.norm(); });
   const auto projectile = static_cast<std::size_t>(fastest - setup.bodies.begin());
   std::set<std::string> seen;
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {

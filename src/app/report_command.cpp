@@ -57,8 +57,8 @@ void write_planar_impacts(const analysis::Run& run, const std::filesystem::path&
 }
 
 /// Measures a run and draws its views. Returns the page of the view in three dimensions, empty without one.
-std::string measure(const std::string& folder, const ReportOptions& options, const std::filesystem::path& output,
-                    bool with_view) {
+std::string measure(const std::string& folder, const ReportOptions& options,
+                    const std::filesystem::path& output, bool with_view) {
   const analysis::Run run = analysis::read_run(folder);
   if (run.snapshots.empty()) return "";  // it has its input and history to show
   AnalysisWords words = options.analysis;
@@ -76,9 +76,11 @@ int run_report(const ReportOptions& options) {
     }
   }
   const bool one = options.runs.size() == 1;
-  const std::filesystem::path output = options.output.empty() ? options.runs.front() + "/report" : options.output;
+  const std::filesystem::path output =
+      options.output.empty() ? options.runs.front() + "/report" : options.output;
   std::vector<std::string> arguments = options.runs;
-  arguments.insert(arguments.end(), {"--dpi", std::to_string(options.dots_per_inch), "--output", output.string()});
+  arguments.insert(arguments.end(),
+                   {"--dpi", std::to_string(options.dots_per_inch), "--output", output.string()});
   for (const std::string& run : options.runs) {
     const std::string view = measure(run, options, one ? output : std::filesystem::path(run) / "report", one);
     if (!view.empty()) arguments.insert(arguments.end(), {"--view", view});
@@ -91,8 +93,10 @@ int run_report(const ReportOptions& options) {
 
 void add_report_command(CLI::App& app) {
   auto options = std::make_shared<ReportOptions>();
-  CLI::App* command = app.add_subcommand("report", "Measures, figures and tables of a run, or of several side by side, as one HTML page");
-  command->add_option("run", options->runs, "The run directory; several: a page that compares them")->required();
+  CLI::App* command = app.add_subcommand(
+      "report", "Measures, figures and tables of a run, or of several side by side, as one HTML page");
+  command->add_option("run", options->runs, "The run directory; several: a page that compares them")
+      ->required();
   command->add_option("-o,--output", options->output,
                       "Folder of the page (default: report/ in the first run directory)");
   command->add_option("--figure", options->figures, "A figure to show before the pictures (repeatable)")
@@ -111,7 +115,9 @@ void add_report_command(CLI::App& app) {
                    "Greatest size of the view in three dimensions (0: none)")
       ->check(CLI::Range(0.0, 2000.0))
       ->capture_default_str();
-  command->footer("Example:\n  whipple report run/copper_disk_on_aluminium --figure Hugoniot=compare.png\n  whipple report run/a run/b run/c -o compared");
+  command->footer(
+      "Example:\n  whipple report run/copper_disk_on_aluminium --figure Hugoniot=compare.png\n  whipple "
+      "report run/a run/b run/c -o compared");
   command->callback([options] {
     const int code = run_report(*options);
     if (code != 0) throw CLI::RuntimeError(code);

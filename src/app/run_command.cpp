@@ -58,7 +58,8 @@ run::RunOptions run_options(const Arguments& arguments) {
       .program = fmt::format("whipple {} ({})", build_info().version, build_info().revision),
       .overrides = {}};
   if (options.restart) {
-    if (!arguments.replay.empty()) throw InputError("--replay repeats a run from its start: it cannot join --restart");
+    if (!arguments.replay.empty())
+      throw InputError("--replay repeats a run from its start: it cannot join --restart");
     if (!arguments.output.empty())
       throw InputError("--restart DIR resumes in DIR: -o cannot name another one");
     if (!arguments.case_file.empty()) {
@@ -75,9 +76,10 @@ run::RunOptions run_options(const Arguments& arguments) {
       throw InputError(fmt::format("--set {}: expected key=value, for example --set time.end='5 us'", entry));
     }
     if (options.restart && run::is_fixed(entry.substr(0, equals))) {
-      throw InputError(fmt::format(
-          "--set {}: grid, bodies and gauges are those of the checkpoint; start over with whipple run CASE.toml",
-          entry));
+      throw InputError(
+          fmt::format("--set {}: grid, bodies and gauges are those of the checkpoint; start over with "
+                      "whipple run CASE.toml",
+                      entry));
     }
     options.overrides.emplace_back(entry.substr(0, equals), entry.substr(equals + 1));
   }
@@ -125,7 +127,8 @@ void write_preview(const Arguments& arguments, const std::string& page_file) {
   const TemporaryFolder folder;
   run::RunOptions options = run_options(arguments);
   options.output_directory = folder.path() / "start";
-  options.overrides.insert(options.overrides.end(), {{"time.end", "1e-15 s"}, {"output.snapshot_every", "0 s"}});
+  options.overrides.insert(options.overrides.end(),
+                           {{"time.end", "1e-15 s"}, {"output.snapshot_every", "0 s"}});
   const log::Level level = log::level();
   log::set_level(log::Level::quiet);  // the remarks have been printed
   run::run_case(options, parallel::world());
@@ -163,18 +166,20 @@ void add_run_command(CLI::App& app) {
                       "Run directory (default: run/NAME); must be new or empty");
   command->add_option("--restart", arguments->restart, "Go on from the latest checkpoint of a run directory")
       ->type_name("DIR");
-  command->add_flag("--force", arguments->force,
-                    "Remove the outputs of an earlier run in the run directory; with --restart: resume although "
-                    "rows of history.csv are missing");
+  command->add_flag(
+      "--force", arguments->force,
+      "Remove the outputs of an earlier run in the run directory; with --restart: resume although "
+      "rows of history.csv are missing");
   command
       ->add_option(
           "--ranks", arguments->ranks,
           "Start this command on so many MPI ranks of this machine (elsewhere: mpirun whipple run …)")
       ->check(CLI::Range(1, 4096));
   command
-      ->add_option("--device", arguments->device,
-                   "cpu: kernels for the registers of the processor (default) | reference: plain loops over single "
-                   "numbers, five times slower, to compare with")
+      ->add_option(
+          "--device", arguments->device,
+          "cpu: kernels for the registers of the processor (default) | reference: plain loops over single "
+          "numbers, five times slower, to compare with")
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, Device>{{"cpu", Device::cpu}, {"reference", Device::reference}}))
       ->type_name("NAME");
@@ -183,8 +188,9 @@ void add_run_command(CLI::App& app) {
                    "Write a checkpoint and end after this time, e.g. '2 hour'")
       ->type_name("TIME");
   command
-      ->add_option("--replay", arguments->replay,
-                   "Repeat the requests to an earlier run (its steering.csv) after the same steps; others are ignored")
+      ->add_option(
+          "--replay", arguments->replay,
+          "Repeat the requests to an earlier run (its steering.csv) after the same steps; others are ignored")
       ->type_name("FILE");
   command->footer(
       "Example:\n  whipple run cases/copper_disk_on_aluminium/case.toml -o run/disk --set time.end='5 us'\n"
@@ -204,7 +210,9 @@ void add_check_command(CLI::App& app) {
       "check", "Validate a case; print what would run: bodies, particles, memory, steps, time");
   add_common(*command, *arguments);
   auto preview = std::make_shared<std::string>();
-  command->add_option("--preview", *preview, "Write a page that shows the bodies at the start in three dimensions")
+  command
+      ->add_option("--preview", *preview,
+                   "Write a page that shows the bodies at the start in three dimensions")
       ->type_name("FILE.html");
   command->add_flag("--force", arguments->force, "Replace the page");
   command->footer(

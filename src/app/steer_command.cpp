@@ -29,8 +29,10 @@ void print_status(const fs::path& folder) {
   if (runs.empty()) throw InputError(fmt::format("{}: contains no run with a status.json", folder.string()));
   for (const fs::path& path : runs) {
     const run::RunStatus s = run::read_status(path);
-    rows.push_back({path.string(), std::string(word_of(s.state)), fmt::format("{:.1f} %", s.end > 0.0 ? 100.0 * s.time / s.end : 0.0),
-                    fmt::format("{}", s.step), fmt::format("{:.4g}", 1e6 * s.time), fmt::format("{:.4g}", 1e6 * s.end),
+    rows.push_back({path.string(), std::string(word_of(s.state)),
+                    fmt::format("{:.1f} %", s.end > 0.0 ? 100.0 * s.time / s.end : 0.0),
+                    fmt::format("{}", s.step), fmt::format("{:.4g}", 1e6 * s.time),
+                    fmt::format("{:.4g}", 1e6 * s.end),
                     run::goes_on(s.state) && s.time_left ? format_duration(*s.time_left) : "",
                     s.message.substr(0, s.message.find('\n'))});
   }

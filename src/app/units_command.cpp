@@ -68,7 +68,8 @@ void print_in_si(const std::string& text) {
       // of another kind
     }
   }
-  throw InputError(fmt::format("'{}' is no quantity with a unit that 'whipple units' lists: name one with --to UNIT", text));
+  throw InputError(fmt::format(
+      "'{}' is no quantity with a unit that 'whipple units' lists: name one with --to UNIT", text));
 }
 
 }  // namespace
@@ -82,7 +83,8 @@ void add_units_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("units", "Accepted units with examples; converts a quantity");
   command->add_option("quantity", options->quantity, "A quantity to convert, for example \"6.58 km/s\"");
   command->add_option("--to", options->unit, "The unit to convert to");
-  command->footer("Example:\n  whipple units\n  whipple units \"10 ug\"\n  whipple units \"1.4 Mbar\" --to GPa");
+  command->footer(
+      "Example:\n  whipple units\n  whipple units \"10 ug\"\n  whipple units \"1.4 Mbar\" --to GPa");
   command->callback([options] {
     if (options->quantity.empty() && !options->unit.empty()) {
       throw InputError("--to needs a quantity to convert, as in: whipple units \"1.4 Mbar\" --to GPa");

@@ -29,7 +29,8 @@ struct ViewOptions {
 };
 
 void run_view(ViewOptions options) {
-  const fs::path output = options.output.empty() ? fs::path(options.run) / "report" / "view.html" : fs::path(options.output);
+  const fs::path output =
+      options.output.empty() ? fs::path(options.run) / "report" / "view.html" : fs::path(options.output);
   if (!options.output.empty()) require_new_file(output, options.force);
   options.page.most_bytes = 1e6 * options.megabytes;
   const analysis::Run run = analysis::read_run(options.run);
@@ -50,22 +51,29 @@ void add_view_command(CLI::App& app) {
   auto options = std::make_shared<ViewOptions>();
   CLI::App* command = app.add_subcommand("view", "A run in three dimensions, as one HTML page");
   command->add_option("run", options->run, "The run directory")->required();
-  command->add_option("-o,--output", options->output, "The page (default: report/view.html in the run directory)")
+  command
+      ->add_option("-o,--output", options->output,
+                   "The page (default: report/view.html in the run directory)")
       ->type_name("FILE.html");
   command->add_flag("--force", options->force, "Replace the page named by -o");
   command->add_option("--times", options->page.times, "Snapshots in the page, spread evenly")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  command->add_option("--fields", options->page.fields, "Fields in the page, e.g. speed,temperature (default: all)")
+  command
+      ->add_option("--fields", options->page.fields,
+                   "Fields in the page, e.g. speed,temperature (default: all)")
       ->type_name("NAME,...")
       ->delimiter(',');
-  command->add_option("--megabytes", options->megabytes, "Greatest size of the page: particles are left out beyond it")
+  command
+      ->add_option("--megabytes", options->megabytes,
+                   "Greatest size of the page: particles are left out beyond it")
       ->check(CLI::Range(0.1, 2000.0))
       ->capture_default_str();
   command->add_option("--bits", options->page.bits, "Bits of each value of a field: 8 make the page smaller")
       ->check(CLI::IsMember({8, 16}))
       ->capture_default_str();
-  command->add_option("--wpv", options->clouds, "Also every snapshot in full detail, to be opened in the page")
+  command
+      ->add_option("--wpv", options->clouds, "Also every snapshot in full detail, to be opened in the page")
       ->type_name("FOLDER");
   command->footer(
       "Example:\n  whipple view run/disk -o disk.html --times 20 --fields speed,pressure,phase\n"

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <vector>
 
+#include "src/bench/reference_kernel.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/simd.hpp"
-#include "src/bench/reference_kernel.hpp"
 #include "src/core/parallel/threads.hpp"
 
 namespace whipple::bench {

@@ -11,11 +11,11 @@
 #include <optional>
 
 #include "src/bench/stage_cost.hpp"
-#include "src/io/ranks.hpp"
+#include "src/case/build/tables.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/parallel/threads.hpp"
 #include "src/core/process/paths.hpp"
-#include "src/case/build/tables.hpp"
+#include "src/io/ranks.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple::bench {

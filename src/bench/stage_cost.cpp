@@ -30,11 +30,10 @@ constexpr double stress = bytes_of(&M::deviatoric_stress, &M::pressure, &M::arti
 constexpr double node = sizeof(grid::Node);
 
 /// Read and written by the constitutive update.
-constexpr double material_state =
-    bytes_of(&M::volume, &M::void_volume, &M::specific_internal_energy, &M::pressure,
-             &M::artificial_viscosity, &M::deviatoric_stress, &M::temperature, &M::sound_speed,
-             &M::plastic_strain, &M::melted_fraction, &M::vaporised_fraction, &M::failed,
-             &M::maximum_pressure, &M::maximum_temperature, &M::melting_time);
+constexpr double material_state = bytes_of(
+    &M::volume, &M::void_volume, &M::specific_internal_energy, &M::pressure, &M::artificial_viscosity,
+    &M::deviatoric_stress, &M::temperature, &M::sound_speed, &M::plastic_strain, &M::melted_fraction,
+    &M::vaporised_fraction, &M::failed, &M::maximum_pressure, &M::maximum_temperature, &M::melting_time);
 
 /// One multiplication and one addition per component of a vector of four.
 constexpr double multiply_add = 2.0 * 4.0;
@@ -95,9 +94,8 @@ constexpr std::array<StageEntry, 9> stages = {{
     {"time step", [](const Method&) { return StageCost{velocity + bytes_of(&M::sound_speed), 4.0}; }},
     {"ledger",
      [](const Method&) {
-       return StageCost{velocity + bytes_of(&P::affine_velocity) +
-                            bytes_of(&M::mass, &M::specific_internal_energy),
-                        50.0};
+       return StageCost{
+           velocity + bytes_of(&P::affine_velocity) + bytes_of(&M::mass, &M::specific_internal_energy), 50.0};
      }},
 }};
 

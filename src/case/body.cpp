@@ -11,29 +11,30 @@
 namespace whipple::cases {
 
 ParameterTable<Body> Body::parameters() {
-  return {text("name", &Body::name, "name of the body in output files"),
-          text("material", &Body::material, "material file: a path, or a name in the library"),
-          choice("equation_of_state", &Body::equation_of_state,
-                 "evaluation by the model | by a table of it, faster for expensive models")
-              .optional(),
-          real("table_error", &Body::table_error, "", range::between(1e-8, 0.05),
-               "relative error of temperature and pressure of the table")
-              .optional(),
-          vector("velocity", &Body::velocity, "m/s", range::any(), "initial velocity").optional(),
-          vector("angular_velocity", &Body::angular_velocity, "rad/s", range::any(),
-                 "initial rotation about the centre of the body's bounding box")
-              .optional(),
-          text("contact_group", &Body::contact_group,
-               "bodies of one group share a velocity field and are bonded where they meet, those of different "
-               "groups are not; empty: according to contact.method")
-              .optional(),
-          choice("detonation", &Body::ignition,
-                 "an explosive is lit by the detonators of the case | never reacts | is burnt from the start, at "
-                 "constant volume")
-              .optional(),
-          real("detonation_velocity", &Body::detonation_velocity, "m/s", range::positive(),
-               "with which an explosive is lit, for instance a measured one")
-              .optional("that of its Chapman-Jouguet state")};
+  return {
+      text("name", &Body::name, "name of the body in output files"),
+      text("material", &Body::material, "material file: a path, or a name in the library"),
+      choice("equation_of_state", &Body::equation_of_state,
+             "evaluation by the model | by a table of it, faster for expensive models")
+          .optional(),
+      real("table_error", &Body::table_error, "", range::between(1e-8, 0.05),
+           "relative error of temperature and pressure of the table")
+          .optional(),
+      vector("velocity", &Body::velocity, "m/s", range::any(), "initial velocity").optional(),
+      vector("angular_velocity", &Body::angular_velocity, "rad/s", range::any(),
+             "initial rotation about the centre of the body's bounding box")
+          .optional(),
+      text("contact_group", &Body::contact_group,
+           "bodies of one group share a velocity field and are bonded where they meet, those of different "
+           "groups are not; empty: according to contact.method")
+          .optional(),
+      choice("detonation", &Body::ignition,
+             "an explosive is lit by the detonators of the case | never reacts | is burnt from the start, at "
+             "constant volume")
+          .optional(),
+      real("detonation_velocity", &Body::detonation_velocity, "m/s", range::positive(),
+           "with which an explosive is lit, for instance a measured one")
+          .optional("that of its Chapman-Jouguet state")};
 }
 
 std::span<const Section<Body>> Body::sections() {

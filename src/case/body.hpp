@@ -57,7 +57,9 @@ struct Body {
   void check(const Case& setup, const Faults& faults) const;
 
   /// Returns whether the shape is a key of the body, not made of its bars or its mesh.
-  [[nodiscard]] bool has_own_shape() const { return !discretization.is_bars() && discretization.mesh.empty(); }
+  [[nodiscard]] bool has_own_shape() const {
+    return !discretization.is_bars() && discretization.mesh.empty();
+  }
 };
 
 }  // namespace whipple::cases

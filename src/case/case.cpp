@@ -46,7 +46,8 @@ bool Case::has_bars() const {
 }
 
 bool Case::has_burn() const {
-  return std::ranges::any_of(materials, [](const auto& material) { return material != nullptr && material->burns(); });
+  return std::ranges::any_of(materials,
+                             [](const auto& material) { return material != nullptr && material->burns(); });
 }
 
 bool Case::holds(const Body& body, Vector3 point) const {
@@ -96,7 +97,8 @@ void make_shapes(Case& setup, const Faults& bodies) {
 /// Reads the materials that are not there; bodies of one file share its material.
 void read_materials(Case& setup, const Faults& bodies) {
   std::map<std::string, std::shared_ptr<const Material>> known;
-  std::map<std::tuple<std::shared_ptr<const Material>, Ignition, double>, std::shared_ptr<const Material>> forms;
+  std::map<std::tuple<std::shared_ptr<const Material>, Ignition, double>, std::shared_ptr<const Material>>
+      forms;
   setup.materials.resize(setup.bodies.size());
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     const std::string& name = setup.bodies[b].material;
@@ -147,7 +149,8 @@ void check_planar(const Case& setup, const Faults& faults) {
     }
     const Vector3& spin = body.angular_velocity;
     if (spin[0] != 0.0 || spin[1] != 0.0 || (axisymmetric && spin[2] != 0.0)) {
-      of_body.add("angular_velocity", axisymmetric ? "nothing rotates in axisymmetry" : "rotation is about z");
+      of_body.add("angular_velocity",
+                  axisymmetric ? "nothing rotates in axisymmetry" : "rotation is about z");
     }
     if (body.discretization.has_elements() || body.discretization.is_bars()) {
       of_body.add("discretization", "finite elements and bars require three dimensions: use particles");
@@ -182,7 +185,8 @@ std::vector<InputFault> settle(Case& setup) {
   if (list.size() > of_files || !can_be_placed(setup)) return list;
   setup.contact_fields = find_contact_fields(setup);
   choose_volumes(setup);
-  for (const PlacementFault& fault : placement_faults(setup)) bodies.in(fault.body).add("shape", fault.message);
+  for (const PlacementFault& fault : placement_faults(setup))
+    bodies.in(fault.body).add("shape", fault.message);
   check_places_of_gauges(setup, faults);
   return list;
 }
@@ -193,7 +197,8 @@ Domain peek_dimension(input::Table& root) {
   auto table = root.optional_table("domain");
   if (!table) return domain;
   ParameterTable<Domain> keys = Domain::parameters();
-  std::erase_if(keys, [](const auto& key) { return key.info.name != "dimension" && key.info.name != "axis"; });
+  std::erase_if(keys,
+                [](const auto& key) { return key.info.name != "dimension" && key.info.name != "axis"; });
   if (!table->read(keys, domain)) return {};
   return domain;
 }
@@ -208,7 +213,8 @@ Case read(input::Document document, const std::vector<std::pair<std::string, std
   if (section.is_planar()) document.set_section(static_cast<int>(index_of(section.axis)));
   input::read_content(setup, setup, root);
   if (section.is_planar()) {
-    setup.domain.boundary = setup.domain.boundary.in_section(static_cast<std::size_t>(index_of(section.axis)));
+    setup.domain.boundary =
+        setup.domain.boundary.in_section(static_cast<std::size_t>(index_of(section.axis)));
     setup.domain.axis = Axis::x;
   }
   document.add(settle(setup));

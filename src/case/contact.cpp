@@ -10,11 +10,12 @@ namespace whipple::cases {
 
 ParameterTable<ContactControl> ContactControl::parameters() {
   return {
-      choice(
-          "method", &ContactControl::method,
-          "bodies have separate velocity fields where they meet, with unilateral contact along the normal and "
-          "friction, except bodies that initially touch with the same velocity | all bodies share one velocity "
-          "field and are bonded where they meet | all bodies have separate velocity fields")
+      choice("method", &ContactControl::method,
+             "bodies have separate velocity fields where they meet, with unilateral contact along the normal "
+             "and "
+             "friction, except bodies that initially touch with the same velocity | all bodies share one "
+             "velocity "
+             "field and are bonded where they meet | all bodies have separate velocity fields")
           .optional(),
       choice("normal", &ContactControl::normal,
              "contact normal: mean of both bodies | that of either body or their mean, whichever gives the "
@@ -31,17 +32,19 @@ ParameterTable<ContactControl> ContactControl::parameters() {
       real("gap", &ContactControl::gap, "", range::between(-1.0, 2.0),
            "gap (in cells) below which surfaces are in contact")
           .optional(),
-      boolean("everywhere", &ContactControl::everywhere,
-              "separate velocity fields of all bodies at all nodes, not only where they meet: for comparison of "
-              "cost")
+      boolean(
+          "everywhere", &ContactControl::everywhere,
+          "separate velocity fields of all bodies at all nodes, not only where they meet: for comparison of "
+          "cost")
           .optional()};
 }
 
 void ContactControl::check(const Case& setup, const Faults& faults) const {
   if (method != ContactMethod::multi_field || setup.bodies.empty()) return;
   if (setup.transfer.particle_update == ParticleUpdate::fmpm) {
-    faults.add("method", "'method': the full mass matrix (transfer.particle_update = \"fmpm\") has no contact; "
-                         "take another update");
+    faults.add("method",
+               "'method': the full mass matrix (transfer.particle_update = \"fmpm\") has no contact; "
+               "take another update");
   }
   const unsigned count = count_of(fields_of_groups(setup.bodies));
   if (count < 2) faults.add("method", "'method' is \"multi_field\", but all bodies are one contact group");

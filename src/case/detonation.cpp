@@ -12,17 +12,19 @@ namespace whipple::cases {
 
 ParameterTable<Detonation> Detonation::parameters() {
   using D = Detonation;
-  return {choice("shape", &D::shape,
-                 "detonation starts at a point | along a line, everywhere at the same time | on a plane, on both sides | "
-                 "on a sphere | along a line, from one end on with a velocity of its own")
-              .optional(),
-          vector("position", &D::position, "m", range::any(),
-                 "the point, a point of the plane, the centre of the sphere, the end where line or cord begin"),
-          vector("end", &D::end, "m", range::any(), "other end of line or cord").optional(),
-          vector("normal", &D::normal, "", range::any(), "normal of the plane, of any length").optional(),
-          real("radius", &D::radius, "m", range::non_negative(), "of the sphere").optional(),
-          real("velocity", &D::velocity, "m/s", range::non_negative(), "of detonation along the cord").optional(),
-          real("delay", &D::delay, "s", range::non_negative(), "time at which it starts").optional()};
+  return {
+      choice("shape", &D::shape,
+             "detonation starts at a point | along a line, everywhere at the same time | on a plane, on both "
+             "sides | "
+             "on a sphere | along a line, from one end on with a velocity of its own")
+          .optional(),
+      vector("position", &D::position, "m", range::any(),
+             "the point, a point of the plane, the centre of the sphere, the end where line or cord begin"),
+      vector("end", &D::end, "m", range::any(), "other end of line or cord").optional(),
+      vector("normal", &D::normal, "", range::any(), "normal of the plane, of any length").optional(),
+      real("radius", &D::radius, "m", range::non_negative(), "of the sphere").optional(),
+      real("velocity", &D::velocity, "m/s", range::non_negative(), "of detonation along the cord").optional(),
+      real("delay", &D::delay, "s", range::non_negative(), "time at which it starts").optional()};
 }
 
 void Detonation::check(const Case& /*setup*/, const Faults& faults) const {
@@ -33,7 +35,8 @@ void Detonation::check(const Case& /*setup*/, const Faults& faults) const {
   if (shape == DetonatorShape::plane && !(normal.norm() > 0.0)) {
     faults.add("normal", "a plane takes 'normal', a direction such as [0, 0, 1]");
   }
-  if (shape == DetonatorShape::sphere && !(radius > 0.0)) faults.add("radius", "a sphere takes 'radius', above 0");
+  if (shape == DetonatorShape::sphere && !(radius > 0.0))
+    faults.add("radius", "a sphere takes 'radius', above 0");
   if (shape == DetonatorShape::cord && !(velocity > 0.0)) {
     faults.add("velocity", "a cord takes 'velocity', that of its own detonation, above 0");
   }
@@ -76,26 +79,31 @@ Detonation::Ray Detonation::ray_to(const Vector3& point, double detonation_veloc
 
 ParameterTable<BurnControl> BurnControl::parameters() {
   using B = BurnControl;
-  return {choice("mode", &B::mode,
-                 "an explosive burns by the time since its lighting, or by compression as soon as the front is two "
-                 "cells away | by the time alone | by compression anywhere, by the time within four cells of the "
-                 "detonators")
-              .optional(),
-          real("width", &B::width, "", range::between(0.5, 20.0), "width of the burning front, in cells").optional(),
-          choice("lighting", &B::lighting,
-                 "detonation runs through explosive only, around everything else | in straight lines from the "
-                 "detonators, through everything")
-              .optional(),
-          real("lighting_cell", &B::lighting_cell, "", range::between(0.05, 4.0),
-               "cells of the grid on which the arrival of a shadowed detonation is found, in cells; larger where there "
-               "would be more than two million")
-              .optional(),
-          real("retire_below", &B::retire_below, "Pa", range::non_negative(),
-               "pressure below which products are removed and counted as outflow; 0: never")
-              .optional()};
+  return {
+      choice(
+          "mode", &B::mode,
+          "an explosive burns by the time since its lighting, or by compression as soon as the front is two "
+          "cells away | by the time alone | by compression anywhere, by the time within four cells of the "
+          "detonators")
+          .optional(),
+      real("width", &B::width, "", range::between(0.5, 20.0), "width of the burning front, in cells")
+          .optional(),
+      choice("lighting", &B::lighting,
+             "detonation runs through explosive only, around everything else | in straight lines from the "
+             "detonators, through everything")
+          .optional(),
+      real("lighting_cell", &B::lighting_cell, "", range::between(0.05, 4.0),
+           "cells of the grid on which the arrival of a shadowed detonation is found, in cells; larger where "
+           "there "
+           "would be more than two million")
+          .optional(),
+      real("retire_below", &B::retire_below, "Pa", range::non_negative(),
+           "pressure below which products are removed and counted as outflow; 0: never")
+          .optional()};
 }
 
-std::shared_ptr<const Material> ignited(const Case& setup, std::size_t body, std::shared_ptr<const Material> material) {
+std::shared_ptr<const Material> ignited(const Case& setup, std::size_t body,
+                                        std::shared_ptr<const Material> material) {
   const Body& of_body = setup.bodies[body];
   if (material->burns()) return material;  // of a case that has been completed
   if (material->explosive == nullptr) {
@@ -110,7 +118,8 @@ std::shared_ptr<const Material> ignited(const Case& setup, std::size_t body, std
     case Ignition::detonators:
       break;
   }
-  if (setup.detonations.empty() && !material->explosive->reaction) return material;  // a fault: check_explosives
+  if (setup.detonations.empty() && !material->explosive->reaction)
+    return material;  // a fault: check_explosives
   const double velocity = of_body.detonation_velocity;
   return std::make_shared<const Material>(burning(*material, std::isinf(velocity) ? 0.0 : velocity));
 }
@@ -125,10 +134,12 @@ void check_explosives(const Case& setup, const Faults& faults) {
     const bool lit = material.explosive != nullptr && body.ignition == Ignition::detonators;
     any = any || lit;
     if (lit && setup.detonations.empty() && material.explosive->reaction == nullptr) {
-      of_body.add("", fmt::format("body \"{}\" is an explosive, and nothing lights it: expected a [[detonation]], or of "
-                                  "the body detonation = \"instantaneous\" (burnt from the start, at constant volume) or "
-                                  "\"none\" (it never reacts)",
-                                  body.name));
+      of_body.add(
+          "",
+          fmt::format("body \"{}\" is an explosive, and nothing lights it: expected a [[detonation]], or of "
+                      "the body detonation = \"instantaneous\" (burnt from the start, at constant volume) or "
+                      "\"none\" (it never reacts)",
+                      body.name));
     }
     if (lit && (body.discretization.has_elements() || body.discretization.is_bars())) {
       of_body.add("discretization", "explosives that burn are made of particles");
@@ -141,8 +152,11 @@ void check_explosives(const Case& setup, const Faults& faults) {
     }
   }
   if (!any && !setup.detonations.empty()) {
-    faults.in("detonation").in(std::size_t{0}).add("", "there is no explosive to light: no body has a material of detonation "
-                                                       "products without a key 'detonation'");
+    faults.in("detonation")
+        .in(std::size_t{0})
+        .add("",
+             "there is no explosive to light: no body has a material of detonation "
+             "products without a key 'detonation'");
   }
 }
 

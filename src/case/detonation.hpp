@@ -19,7 +19,9 @@ enum class Ignition : std::uint8_t {
   instantaneous,  ///< it is burnt from the start, at constant volume
 };
 constexpr std::array<Word<Ignition>, 3> words(Ignition) {
-  return {{{Ignition::detonators, "detonators"}, {Ignition::none, "none"}, {Ignition::instantaneous, "instantaneous"}}};
+  return {{{Ignition::detonators, "detonators"},
+           {Ignition::none, "none"},
+           {Ignition::instantaneous, "instantaneous"}}};
 }
 
 /// Form of a detonator.
@@ -84,7 +86,8 @@ struct BurnControl {
 
 /// Returns the material of a body in the form that its key `detonation` asks for: burning, unreacted, or burnt.
 /// @throws InputError if there is no such form
-std::shared_ptr<const Material> ignited(const Case& setup, std::size_t body, std::shared_ptr<const Material> material);
+std::shared_ptr<const Material> ignited(const Case& setup, std::size_t body,
+                                        std::shared_ptr<const Material> material);
 
 /// Adds what explosives and detonators of a case lack of one another.
 void check_explosives(const Case& setup, const Faults& faults);

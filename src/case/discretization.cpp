@@ -13,11 +13,10 @@ namespace whipple::cases {
 ParameterTable<Discretization> Discretization::parameters() {
   using D = Discretization;
   return {
-      choice(
-          "method", &D::method,
-          "particles | eight-node hexahedra | hexahedra that become particles when distorted "
-          "([body.conversion]) | trusses (reinforcement bars) that carry axial forces and move with the "
-          "surrounding material ([[body.bar]])")
+      choice("method", &D::method,
+             "particles | eight-node hexahedra | hexahedra that become particles when distorted "
+             "([body.conversion]) | trusses (reinforcement bars) that carry axial forces and move with the "
+             "surrounding material ([[body.bar]])")
           .optional(),
       integer("per_cell", &D::per_cell, range::between(1, 1000), "particles per full cell: 1, 8, 27 or 64")
           .optional(),
@@ -27,7 +26,8 @@ ParameterTable<Discretization> Discretization::parameters() {
       real("element_size", &D::element_size, "m", range::positive(), "edge of the elements, at most 2 cells")
           .optional("cell_size"),
       choice("element", &D::element,
-             "quadrature: one point with hourglass control | 2 x 2 x 2 points with the mean volumetric strain of "
+             "quadrature: one point with hourglass control | 2 x 2 x 2 points with the mean volumetric "
+             "strain of "
              "the element")
           .optional(),
       choice("hourglass", &D::hourglass,
@@ -36,10 +36,16 @@ ParameterTable<Discretization> Discretization::parameters() {
       real("hourglass_coefficient", &D::hourglass_coefficient, "", range::between(0.0, 1.0),
            "hourglass coefficient: fraction of the largest stiffness or of the critical damping")
           .optional(),
-      text("mesh", &D::mesh, "file of Gmsh (2.2 or 4.1), Abaqus or VTK (.vtu, .vtk) with the hexahedra of the body instead of a shape")
+      text("mesh", &D::mesh,
+           "file of Gmsh (2.2 or 4.1), Abaqus or VTK (.vtu, .vtk) with the hexahedra of the body instead of "
+           "a shape")
           .optional(),
-      real("mesh_unit", &D::mesh_unit, "m", range::positive(), "length of a unit of the mesh file").optional(),
-      text("group", &D::group, "physical group (Gmsh), element set (Abaqus) or array and value (VTK: \"body 1\") in the mesh file; empty: the only one").optional(),
+      real("mesh_unit", &D::mesh_unit, "m", range::positive(), "length of a unit of the mesh file")
+          .optional(),
+      text("group", &D::group,
+           "physical group (Gmsh), element set (Abaqus) or array and value (VTK: \"body 1\") in the mesh "
+           "file; empty: the only one")
+          .optional(),
       real("bar_diameter", &D::bar_diameter, "m", range::non_negative(), "diameter of the bars").optional(),
       real("bar_failure_strain", &D::bar_failure_strain, "", range::positive(),
            "plastic strain at which a bar breaks")
@@ -52,16 +58,18 @@ double Discretization::size(double cell_size) const {
 
 ParameterTable<Conversion> Conversion::parameters() {
   using C = Conversion;
-  return {real("plastic_strain", &C::plastic_strain, "", range::positive(),
-               "equivalent plastic strain above which an element becomes particles")
-              .optional("never"),
-          real("time_step_ratio", &C::time_step_ratio, "", range::between(0.0, 1.0),
-               "ratio of its stable time step to that of the grid below which an element becomes particles; 0: never")
-              .optional(),
-          real("jacobian", &C::jacobian, "", range::between(0.0, 1.0),
-               "ratio of its smallest to its mean Jacobian below which an element becomes particles; 0: never")
-              .optional(),
-          boolean("failed", &C::failed, "an element becomes particles when its material has failed").optional()};
+  return {
+      real("plastic_strain", &C::plastic_strain, "", range::positive(),
+           "equivalent plastic strain above which an element becomes particles")
+          .optional("never"),
+      real("time_step_ratio", &C::time_step_ratio, "", range::between(0.0, 1.0),
+           "ratio of its stable time step to that of the grid below which an element becomes particles; 0: "
+           "never")
+          .optional(),
+      real("jacobian", &C::jacobian, "", range::between(0.0, 1.0),
+           "ratio of its smallest to its mean Jacobian below which an element becomes particles; 0: never")
+          .optional(),
+      boolean("failed", &C::failed, "an element becomes particles when its material has failed").optional()};
 }
 
 ParameterTable<BarRow> BarRow::parameters() {
@@ -90,8 +98,9 @@ namespace {
 
 void check_elements(const Discretization& control, const Case& setup, const Faults& faults) {
   if (setup.time.scheme != Scheme::symplectic) {
-    faults.add("method", fmt::format("finite elements work with time.scheme = \"symplectic\" only, not \"{}\"",
-                                     word_of(setup.time.scheme)));
+    faults.add("method",
+               fmt::format("finite elements work with time.scheme = \"symplectic\" only, not \"{}\"",
+                           word_of(setup.time.scheme)));
   }
   if (!transfer::carries_affine_field(setup.transfer.shape_function)) {
     faults.add("method", fmt::format("finite elements work with B-splines only, not with "

@@ -13,7 +13,8 @@ namespace whipple::cases {
 ParameterTable<Faces> Faces::parameters() {
   const auto face = [](const char* name, grid::Boundary Faces::* member) {
     return choice(name, member,
-                  "material leaves the domain and is counted | frictionless mirror plane | no-slip wall | frictionless "
+                  "material leaves the domain and is counted | frictionless mirror plane | no-slip wall | "
+                  "frictionless "
                   "wall that transmits compression only")
         .optional();
   };
@@ -31,20 +32,23 @@ Faces Faces::in_section(std::size_t first) const {
 }
 
 ParameterTable<Domain> Domain::parameters() {
-  return {vector("lower", &Domain::lower, "m", range::any(), "lower corner of the domain"),
-          vector("upper", &Domain::upper, "m", range::any(),
-                 "upper corner; moved outwards to whole cells at outflow faces"),
-          real("cell_size", &Domain::cell_size, "m", range::positive(),
-               "edge of the cells of the background grid"),
-          choice("dimension", &Domain::dimension,
-                 "three dimensions | uniform along z, 1 m thick | x along the axis, y >= 0 the radius, masses of "
-                 "whole rings; in two dimensions bodies are defined by their section z = 0, and vectors may have two "
-                 "components")
-              .optional(),
-          choice("axis", &Domain::axis,
-                 "in two dimensions: direction that becomes x, the axis of rings, for vectors of three components, "
-                 "faces and axes; the next one of x, y, z, x becomes y")
-              .optional()};
+  return {
+      vector("lower", &Domain::lower, "m", range::any(), "lower corner of the domain"),
+      vector("upper", &Domain::upper, "m", range::any(),
+             "upper corner; moved outwards to whole cells at outflow faces"),
+      real("cell_size", &Domain::cell_size, "m", range::positive(),
+           "edge of the cells of the background grid"),
+      choice("dimension", &Domain::dimension,
+             "three dimensions | uniform along z, 1 m thick | x along the axis, y >= 0 the radius, masses of "
+             "whole rings; in two dimensions bodies are defined by their section z = 0, and vectors may have "
+             "two "
+             "components")
+          .optional(),
+      choice(
+          "axis", &Domain::axis,
+          "in two dimensions: direction that becomes x, the axis of rings, for vectors of three components, "
+          "faces and axes; the next one of x, y, z, x becomes y")
+          .optional()};
 }
 
 std::span<const Section<Domain>> Domain::sections() {
@@ -97,17 +101,19 @@ void Domain::check(const Case& setup, const Faults& faults) const {
     const Count count = cells_along(*this, axis);
     const grid::Boundary end = boundary.in_order()[2 * a + 1];
     if (!count.possible()) {
-      faults.add("upper", fmt::format("the domain has {} cells along {}; expected 1 to 1e6", count.exact,
-                                      "xyz"[a]));
+      faults.add("upper",
+                 fmt::format("the domain has {} cells along {}; expected 1 to 1e6", count.exact, "xyz"[a]));
     } else if (!count.whole() && end != grid::Boundary::outflow) {
-      faults.add("upper", fmt::format("{}_upper is a {} face, so the domain must hold a whole number of cells "
-                                      "along {}: {} m holds {:.6g} cells of {} m",
-                                      "xyz"[a], word_of(end), "xyz"[a], upper[axis] - lower[axis], count.exact,
-                                      cell_size));
+      faults.add(
+          "upper",
+          fmt::format("{}_upper is a {} face, so the domain must hold a whole number of cells "
+                      "along {}: {} m holds {:.6g} cells of {} m",
+                      "xyz"[a], word_of(end), "xyz"[a], upper[axis] - lower[axis], count.exact, cell_size));
     }
   }
   if (!is_planar() && axis != Axis::x) {
-    faults.add("axis", "'axis' is that of a section: set 'dimension' to \"axisymmetric\" or \"plane_strain\" too");
+    faults.add("axis",
+               "'axis' is that of a section: set 'dimension' to \"axisymmetric\" or \"plane_strain\" too");
   }
   if (is_planar()) {
     const auto faces = boundary.in_order();
@@ -115,14 +121,16 @@ void Domain::check(const Case& setup, const Faults& faults) const {
       return face != grid::Boundary::outflow && face != grid::Boundary::symmetry;
     };
     if (counts(faces[4]) || counts(faces[5])) {
-      faults.add("boundary", "in two dimensions nothing reaches faces across z: leave 'z_lower' and 'z_upper' out");
+      faults.add("boundary",
+                 "in two dimensions nothing reaches faces across z: leave 'z_lower' and 'z_upper' out");
     }
   }
   if (dimension == grid::Dimension::axisymmetric) {
     const grid::Boundary axis = boundary.y_lower;
     if (lower[1] != 0.0) {
-      faults.add("lower", fmt::format("y is the radius and the axis the lower face: 'lower' has y = {} m, expected 0",
-                                      lower[1]));
+      faults.add("lower",
+                 fmt::format("y is the radius and the axis the lower face: 'lower' has y = {} m, expected 0",
+                             lower[1]));
     }
     if (axis != grid::Boundary::outflow && axis != grid::Boundary::symmetry) {
       faults.add("boundary", "'y_lower' is the axis, a mirror plane: leave it out");

@@ -12,8 +12,7 @@ namespace whipple::cases {
 
 ParameterTable<Gauge> Gauge::parameters() {
   return {text("name", &Gauge::name, "name of its columns in gauges.csv"),
-          choice("kind", &Gauge::kind,
-                 "fixed in space | moving with the particle that is initially nearest")
+          choice("kind", &Gauge::kind, "fixed in space | moving with the particle that is initially nearest")
               .optional(),
           vector("position", &Gauge::position, "m", range::any(), "initial position")};
 }
@@ -41,7 +40,8 @@ void check_name(const std::string& name, const Faults& faults) {
   const auto allowed = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
   if (name.empty()) faults.add("name", "'name' is empty: it names columns");
   if (!std::ranges::all_of(name, allowed)) {
-    faults.add("name", fmt::format("'name' is \"{}\": letters, digits, '_' and '-' only, it names columns", name));
+    faults.add("name",
+               fmt::format("'name' is \"{}\": letters, digits, '_' and '-' only, it names columns", name));
   }
 }
 

@@ -6,10 +6,12 @@
 namespace whipple::cases {
 
 ParameterTable<Gravity> Gravity::parameters() {
-  return {vector("acceleration", &Gravity::acceleration, "m/s^2", range::any(), "acceleration of all material").optional(),
-          real("rise_time", &Gravity::rise_time, "s", range::non_negative(),
-               "time over which it increases from 0, so that bodies at rest do not begin to vibrate")
-              .optional()};
+  return {
+      vector("acceleration", &Gravity::acceleration, "m/s^2", range::any(), "acceleration of all material")
+          .optional(),
+      real("rise_time", &Gravity::rise_time, "s", range::non_negative(),
+           "time over which it increases from 0, so that bodies at rest do not begin to vibrate")
+          .optional()};
 }
 
 void Gravity::check(const Case& setup, const Faults& faults) const {

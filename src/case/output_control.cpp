@@ -19,7 +19,8 @@ ParameterTable<OutputControl> OutputControl::parameters() {
                   "steps between rows of gauges.csv")
               .optional(),
           real("maximum_energy_error", &OutputControl::maximum_energy_error, "", range::positive(),
-               "the run stops if the relative error of the total energy exceeds this; schemes without exact energy "
+               "the run stops if the relative error of the total energy exceeds this; schemes without exact "
+               "energy "
                "(musl, usl, usf) have no limit by default")
               .optional("0.01"),
           text_list("fields", &OutputControl::fields, io::output_field_names(), "quantities in the snapshots")

@@ -13,10 +13,10 @@
 namespace whipple::cases {
 
 struct OutputControl {
-  double snapshot_every = 0.0;      ///< s, simulated
-  double checkpoint_every = 600.0;  ///< s, wall clock
-  std::int64_t history_every = 1;   ///< steps
-  std::int64_t gauges_every = 1;    ///< steps
+  double snapshot_every = 0.0;                                            ///< s, simulated
+  double checkpoint_every = 600.0;                                        ///< s, wall clock
+  std::int64_t history_every = 1;                                         ///< steps
+  std::int64_t gauges_every = 1;                                          ///< steps
   double maximum_energy_error = std::numeric_limits<double>::infinity();  ///< infinite: that of the scheme
   std::vector<std::string> fields = default_fields();
 

@@ -46,10 +46,10 @@ void remark_on_gaps(const Case& setup, std::vector<std::string>& remarks) {
     for (std::size_t b = a + 1; b < setup.bodies.size(); ++b) {
       const Vector3 apart = gap(setup.bodies[a].shape->bounds(), setup.bodies[b].shape->bounds());
       if (!(apart.norm() > round_off * h && apart.norm() < h)) continue;
-      remarks.push_back(
-          fmt::format("between '{}' and '{}' is a gap of {:.4g} mm, less than a cell of {:.4g} mm: it closes as a gap "
-                      "does, but what happens in it is not resolved",
-                      setup.bodies[a].name, setup.bodies[b].name, 1e3 * apart.norm(), 1e3 * h));
+      remarks.push_back(fmt::format(
+          "between '{}' and '{}' is a gap of {:.4g} mm, less than a cell of {:.4g} mm: it closes as a gap "
+          "does, but what happens in it is not resolved",
+          setup.bodies[a].name, setup.bodies[b].name, 1e3 * apart.norm(), 1e3 * h));
     }
   }
 }
@@ -70,13 +70,13 @@ void remark_on_directions(const Case& setup, std::vector<std::string>& remarks) 
   for (const Body& a : setup.bodies) {
     if (a.velocity.isZero(0.0) || flies_at_a_face(setup, a)) continue;
     const auto meets = [&](const Body& b) {
-      return &b != &a &&
-             meet(a.shape->bounds(), b.shape->bounds(), a.velocity - b.velocity, setup.time.end);
+      return &b != &a && meet(a.shape->bounds(), b.shape->bounds(), a.velocity - b.velocity, setup.time.end);
     };
     if (std::ranges::any_of(setup.bodies, meets)) continue;
-    remarks.push_back(fmt::format("'{}' meets no other body until t = {:.4g} us: does it fly the right way, and long "
-                                  "enough?",
-                                  a.name, 1e6 * setup.time.end));
+    remarks.push_back(
+        fmt::format("'{}' meets no other body until t = {:.4g} us: does it fly the right way, and long "
+                    "enough?",
+                    a.name, 1e6 * setup.time.end));
   }
 }
 
@@ -92,9 +92,10 @@ void remark_on_speeds(const Case& setup, std::vector<std::string>& remarks) {
     const double limit =
         eos::audit(*material->eos, eos::AuditDepth::brief).range.strongest_shock.particle_velocity;
     if (!(limit > 0.0) || 0.5 * fastest <= limit) continue;
-    remarks.push_back(fmt::format("bodies meet at {:.4g} km/s; '{}' is audited for shocks with up to {:.4g} km/s behind "
-                                  "the front (whipple eos audit)",
-                                  1e-3 * fastest, material->name, 1e-3 * limit));
+    remarks.push_back(
+        fmt::format("bodies meet at {:.4g} km/s; '{}' is audited for shocks with up to {:.4g} km/s behind "
+                    "the front (whipple eos audit)",
+                    1e-3 * fastest, material->name, 1e-3 * limit));
   }
 }
 
@@ -105,15 +106,16 @@ void remark_on_burn(const Case& setup, std::size_t b, std::vector<std::string>& 
   const double ideal = material.explosive->detonation_velocity;
   const double given = material.burn->explosive().detonation_velocity;
   if (material.explosive->estimated) {
-    remarks.push_back(fmt::format("'{}': material '{}' has no [eos.unreacted]; until it burns it is a solid of sound speed "
-                                  "0.35 D = {:.4g} km/s",
-                                  name, material.name, 0.35e-3 * ideal));
+    remarks.push_back(
+        fmt::format("'{}': material '{}' has no [eos.unreacted]; until it burns it is a solid of sound speed "
+                    "0.35 D = {:.4g} km/s",
+                    name, material.name, 0.35e-3 * ideal));
   }
   if (std::abs(given / ideal - 1.0) > much) {
-    remarks.push_back(fmt::format("'{}' is lit at {:.4g} km/s, and its products detonate with {:.4g} km/s: {}", name,
-                                  1e-3 * given, 1e-3 * ideal,
-                                  given > ideal ? "behind the front the pressure is too low"
-                                                : "the pressure runs ahead of the front"));
+    remarks.push_back(fmt::format(
+        "'{}' is lit at {:.4g} km/s, and its products detonate with {:.4g} km/s: {}", name, 1e-3 * given,
+        1e-3 * ideal,
+        given > ideal ? "behind the front the pressure is too low" : "the pressure runs ahead of the front"));
   }
   if (!setup.bodies[b].velocity.isZero(0.0)) {
     remarks.push_back(fmt::format("'{}' moves: its lighting times are those of where it starts", name));
@@ -126,7 +128,9 @@ void remark_on_detonators(const Case& setup, std::vector<std::string>& remarks) 
   for (std::size_t d = 0; d < setup.detonations.size(); ++d) {
     const Detonation& detonation = setup.detonations[d];
     const Vector3& at = detonation.position;
-    const auto holds = [&](std::size_t b) { return setup.materials[b]->burns() && setup.holds(setup.bodies[b], at); };
+    const auto holds = [&](std::size_t b) {
+      return setup.materials[b]->burns() && setup.holds(setup.bodies[b], at);
+    };
     const bool is_place = detonation.shape != DetonatorShape::plane;
     bool inside = false;
     for (std::size_t b = 0; b < setup.bodies.size(); ++b) inside = inside || holds(b);
@@ -140,21 +144,23 @@ void remark_on_detonators(const Case& setup, std::vector<std::string>& remarks) 
       near = near || (setup.materials[b]->burns() && is_near(setup.bodies[b]));
     }
     if (is_place && !near) {
-      remarks.push_back(fmt::format("detonation {} is outside of all explosive: it lights what it sees of their surfaces",
-                                    d + 1));
+      remarks.push_back(fmt::format(
+          "detonation {} is outside of all explosive: it lights what it sees of their surfaces", d + 1));
     }
     for (int face = 0; face < 6 && is_place; ++face) {
       const int a = face / 2;
       if (setup.geometry.is_planar() && a == 2) continue;
       if (setup.geometry.boundary[static_cast<std::size_t>(face)] != grid::Boundary::symmetry) continue;
-      const double off = std::abs(at[a] - (face % 2 == 0 ? setup.geometry.lower[a] : setup.geometry.upper(a)));
+      const double off =
+          std::abs(at[a] - (face % 2 == 0 ? setup.geometry.lower[a] : setup.geometry.upper(a)));
       constexpr double on_plane = 1e-6;  // cells
       const bool across = setup.geometry.is_axisymmetric() && a == 1;
       if (off <= on_plane * setup.geometry.cell_size || across) continue;
       if (!inside) continue;
-      remarks.push_back(fmt::format("detonation {} lies {:.4g} mm from the symmetry plane {}: so does its image, which lights "
-                                    "the other half",
-                                    d + 1, 1e3 * off, face_names[static_cast<std::size_t>(face)]));
+      remarks.push_back(fmt::format(
+          "detonation {} lies {:.4g} mm from the symmetry plane {}: so does its image, which lights "
+          "the other half",
+          d + 1, 1e3 * off, face_names[static_cast<std::size_t>(face)]));
     }
   }
 }
@@ -169,10 +175,11 @@ void remark_on_explosives(const Case& setup, std::vector<std::string>& remarks) 
       continue;
     }
     if (material.eos->condensed() || material.reference.pressure < much) continue;
-    remarks.push_back(fmt::format("'{}' starts burnt, as the gas of '{}' at {:.4g} GPa all over: no detonation runs "
-                                  "through it{}",
-                                  setup.bodies[b].name, material.name, 1e-9 * material.reference.pressure,
-                                  setup.bodies[b].velocity.isZero(0.0) ? "" : ", and no projectile is like that"));
+    remarks.push_back(
+        fmt::format("'{}' starts burnt, as the gas of '{}' at {:.4g} GPa all over: no detonation runs "
+                    "through it{}",
+                    setup.bodies[b].name, material.name, 1e-9 * material.reference.pressure,
+                    setup.bodies[b].velocity.isZero(0.0) ? "" : ", and no projectile is like that"));
   }
 }
 
@@ -221,8 +228,9 @@ void remark_on_meshes(const Case& setup, std::vector<std::string>& remarks) {
     if (body.discretization.mesh.empty()) continue;
     const Shape::Bounds bounds = body.shape->bounds();
     if (const double size = (bounds.upper - bounds.lower).maxCoeff(); size < setup.geometry.cell_size) {
-      remarks.push_back(fmt::format("the mesh of '{}' is {:.3g} mm long, less than a cell: is 'mesh_unit' right?", body.name,
-                                    1e3 * size));
+      remarks.push_back(
+          fmt::format("the mesh of '{}' is {:.3g} mm long, less than a cell: is 'mesh_unit' right?",
+                      body.name, 1e3 * size));
     }
     const auto mesh = body.shape->hexahedra(setup.geometry.cell_size, body.shape->bounds());
     const std::size_t nodes = mesh ? fem::unmerged_nodes(*mesh) : 0;

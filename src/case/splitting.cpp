@@ -10,14 +10,14 @@
 namespace whipple::cases {
 
 ParameterTable<Splitting> Splitting::parameters() {
-  return {
-      real("length", &Splitting::length, "", range::between(0.0, 2.0),
-           "length (in cells) of an intact particle along its longest direction above which it is split in two; "
-           "0: never; 1 to 1.2 avoids numerical fracture of stretched material")
-          .optional(),
-      integer("maximum_generations", &Splitting::maximum_generations, range::between(0, 20),
-              "largest number of successive splits of a particle")
-          .optional()};
+  return {real("length", &Splitting::length, "", range::between(0.0, 2.0),
+               "length (in cells) of an intact particle along its longest direction above which it is split "
+               "in two; "
+               "0: never; 1 to 1.2 avoids numerical fracture of stretched material")
+              .optional(),
+          integer("maximum_generations", &Splitting::maximum_generations, range::between(0, 20),
+                  "largest number of successive splits of a particle")
+              .optional()};
 }
 
 /// A length below that of the particles would divide all of them, as often as generations allow.

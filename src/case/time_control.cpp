@@ -19,7 +19,8 @@ ParameterTable<TimeControl> TimeControl::parameters() {
            "largest acceleration * dt^2 as a fraction of the cell size")
           .optional(),
       real("compression_limit", &TimeControl::compression_limit, "", range::positive(),
-           "volumetric strain-rate limit: largest volume fraction that material under pressure loses in a step")
+           "volumetric strain-rate limit: largest volume fraction that material under pressure loses in a "
+           "step")
           .optional(),
       real("element_safety", &TimeControl::element_safety, "",
            {.lower = 0.0, .upper = 1.0, .lower_open = true},
@@ -29,9 +30,8 @@ ParameterTable<TimeControl> TimeControl::parameters() {
              "exact energy (default) | for comparison with other codes: modified update stress last | update "
              "stress last | update stress first")
           .optional(),
-      choice(
-          "stress_rotation", &TimeControl::stress_rotation,
-          "rotation of the stress in a step: midpoint rule | exact rotation")
+      choice("stress_rotation", &TimeControl::stress_rotation,
+             "rotation of the stress in a step: midpoint rule | exact rotation")
           .optional()};
 }
 

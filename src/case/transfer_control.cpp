@@ -39,7 +39,8 @@ ParameterTable<TransferControl> TransferControl::parameters() {
               "failed particles without stress and neighbours move ballistically, without the grid")
           .optional(),
       real("rest_tolerance", &TransferControl::rest_tolerance, "", range::between(0.0, 1e-6),
-           "blocks with velocities below this fraction of the sound speed c and stresses below this fraction of "
+           "blocks with velocities below this fraction of the sound speed c and stresses below this fraction "
+           "of "
            "rho c^2 are inactive until a wave reaches them; 0: never")
           .optional()};
 }

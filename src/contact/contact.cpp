@@ -166,9 +166,9 @@ Balance Contact::apply(grid::BlockGrid& grid, double dt, transfer::FirstTouches&
           if (gap.normal.isZero(0.0)) continue;
           const double open = distance(grid, gap);
           touches.see(number[a], number[b], open, gap.normal.dot(sides[a].after() - sides[b].after()));
-          meetings.push_back(
-              {a, b, gap.normal, open, Pressing::share(sides[a], sides[b], gap.normal, open, dt),
-               friction_between(number[a], number[b])});
+          meetings.push_back({a, b, gap.normal, open,
+                              Pressing::share(sides[a], sides[b], gap.normal, open, dt),
+                              friction_between(number[a], number[b])});
         }
       }
       if (meetings.empty()) continue;

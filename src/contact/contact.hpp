@@ -25,9 +25,10 @@ struct Settings {
   Response response = Response::common_field;
   Normal normal = Normal::separating;
   double friction = 0.3;  ///< Coulomb's coefficient
-  std::vector<double> friction_of_field = {};  ///< of each velocity field, if they differ: of two the lesser one acts
-  bool gap_test = true;   ///< only surfaces that touch, or would within the step
-  double gap = 0.0;       ///< in cells: surfaces nearer than that touch
+  std::vector<double> friction_of_field =
+      {};                ///< of each velocity field, if they differ: of two the lesser one acts
+  bool gap_test = true;  ///< only surfaces that touch, or would within the step
+  double gap = 0.0;      ///< in cells: surfaces nearer than that touch
   /// 1/s, of each velocity field: where it relaxes more slowly, its material is too loose to move as one with
   /// what it meets, and impulses stop it; empty: never
   std::vector<double> least_relaxation_rate;

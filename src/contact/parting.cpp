@@ -9,7 +9,8 @@ bool near_planes(const grid::BlockGrid& grid, std::uint32_t slot) {
   const grid::Geometry& geometry = grid.geometry();
   constexpr int reach = 2;  // cells
   for (std::size_t a = 0; a < 3; ++a) {
-    const int edge = grid.block_shape().along(a), first = grid.coordinate(slot)[a] * edge, last = first + edge - 1;
+    const int edge = grid.block_shape().along(a), first = grid.coordinate(slot)[a] * edge,
+              last = first + edge - 1;
     const auto reflects = [&](std::size_t face) {
       return geometry.boundary[face] != grid::Boundary::outflow;
     };

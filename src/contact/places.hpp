@@ -12,8 +12,8 @@
 #include "src/contact/place.hpp"
 #include "src/contact/surface_points.hpp"
 #include "src/core/base/simd.hpp"
-#include "src/grid/block_grid.hpp"
 #include "src/core/parallel/threads.hpp"
+#include "src/grid/block_grid.hpp"
 #include "src/particles/particles.hpp"
 #include "src/transfer/shape_weights.hpp"
 #include "src/transfer/shapes.hpp"
@@ -60,9 +60,8 @@ class Reach {
                       const grid::Geometry& geometry, AtPoint&& at_point) const {
     constexpr int count = Shape::count;
     constexpr grid::BlockShape shape = Shape::stencil.block();
-    const grid::PlaceInStencil in_stencil = grid::StencilPlaces(Shape::stencil)(
-        grid::position_in_block(geometry.in_cells(points.position[p]), grid::corner_of(block, shape),
-                                 shape.edges()));
+    const grid::PlaceInStencil in_stencil = grid::StencilPlaces(Shape::stencil)(grid::position_in_block(
+        geometry.in_cells(points.position[p]), grid::corner_of(block, shape), shape.edges()));
     const std::array<int, 3> node = in_stencil.first_node(Shape::stencil);
     const std::array<std::size_t, 3> first = {static_cast<std::size_t>(node[0] + 1),
                                               static_cast<std::size_t>(node[1] + 1),
@@ -132,7 +131,8 @@ class Reach {
   }
 
   static FoldedAxis folded(const grid::BlockGrid& grid, std::size_t axis, int block, unsigned field) {
-    static constexpr std::array<LayersOfNodes, 2> layers_by_shape = {layers_of_nodes(false), layers_of_nodes(true)};
+    static constexpr std::array<LayersOfNodes, 2> layers_by_shape = {layers_of_nodes(false),
+                                                                     layers_of_nodes(true)};
     const auto& layers = layers_by_shape[grid.geometry().is_planar() ? 1 : 0][axis];
     static constexpr grid::ReachMap of_four = grid::reach_map(4), of_eight = grid::reach_map(8),
                                     of_one = grid::reach_map(1);
@@ -159,8 +159,9 @@ class Reach {
   }
 
   /// Finds which of the nodes that matter the stencil reaches, by block around; returns whether any.
-  [[nodiscard]] WHIPPLE_INLINE bool reaches(const std::array<std::size_t, 3>& first, const std::array<int, 3>& count,
-                             std::array<std::uint64_t, 27>& reached) const {
+  [[nodiscard]] WHIPPLE_INLINE bool reaches(const std::array<std::size_t, 3>& first,
+                                            const std::array<int, 3>& count,
+                                            std::array<std::uint64_t, 27>& reached) const {
     std::array<std::array<std::uint64_t, 3>, 3> layers{};
     for (std::size_t a = 0; a < 3; ++a) {
       for (std::size_t n = first[a]; n < first[a] + static_cast<std::size_t>(count[a]); ++n) {

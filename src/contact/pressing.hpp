@@ -27,7 +27,9 @@ class Pressing {
   /// Begins with a node where these fields meet; they must outlive `apply`.
   void begin(std::span<Side> sides);
   /// Two of them, numbers of the sides, touch for a fraction of the step above 0.
-  void add(std::size_t a, std::size_t b, const Vector3& normal, double share) { add(a, b, normal, share, friction_); }
+  void add(std::size_t a, std::size_t b, const Vector3& normal, double share) {
+    add(a, b, normal, share, friction_);
+  }
   /// @param friction  Coulomb's coefficient of the two
   void add(std::size_t a, std::size_t b, const Vector3& normal, double share, double friction);
   /// Changes velocities, increments and relaxations of the fields that press, and accounts for what that takes.
@@ -57,7 +59,7 @@ class Pressing {
     std::size_t leader;  // of the fields that press on one another, the first
   };
 
-  [[nodiscard]] Vector3 between(const Pair& pair, Vector3 Former::*value) const {
+  [[nodiscard]] Vector3 between(const Pair& pair, Vector3 Former::* value) const {
     return former_[pair.b].*value - former_[pair.a].*value;
   }
   void find_common_relaxation();

@@ -48,33 +48,46 @@ class CaseWriter {
     import_.remark(outcome, block.line, "*" + block.keyword, std::move(text));
   }
   [[nodiscard]] std::string vector(const Vector3& v, const Dimension& dimension) const {
-    return fmt::format("[{}, {}, {}]", units_.quantity(v[0], dimension), units_.quantity(v[1], dimension), units_.quantity(v[2], dimension));
+    return fmt::format("[{}, {}, {}]", units_.quantity(v[0], dimension), units_.quantity(v[1], dimension),
+                       units_.quantity(v[2], dimension));
   }
 
   void needs() {
-    const auto fault = [&](std::string text) { faults_.add({.file = deck_.file.string(), .line = 1, .column = 1, .text = std::move(text)}); };
+    const auto fault = [&](std::string text) {
+      faults_.add({.file = deck_.file.string(), .line = 1, .column = 1, .text = std::move(text)});
+    };
     if (options_.units) {
       units_ = *options_.units;
     } else {
-      fault("decks of LS-DYNA do not say their units: give them as in --units 'mm ms kg' (usual: 'mm ms kg', 'cm g us', 'mm t s')");
+      fault(
+          "decks of LS-DYNA do not say their units: give them as in --units 'mm ms kg' (usual: 'mm ms kg', "
+          "'cm g us', 'mm t s')");
     }
-    if (!(options_.cell_size > 0.0)) fault("the deck has no grid: give the edge of its cells, as in --cell-size '0.5 mm'");
+    if (!(options_.cell_size > 0.0))
+      fault("the deck has no grid: give the edge of its cells, as in --cell-size '0.5 mm'");
     faults_.raise();
     import_.units = fmt::format("{} {} {}", units_.length, units_.mass, units_.time);
     cell_ = options_.cell_size / units_.in_si(1.0, dimension::length);
   }
 
   void head() {
-    if (model_.end == 0.0) faults_.add({.file = deck_.file.string(), .line = 1, .column = 1, .text = "the deck has no *CONTROL_TERMINATION"});
-    head_.comment(fmt::format("Written by 'whipple import' from {}, a deck of {}; see import.txt.", import_.deck, grammar));
+    if (model_.end == 0.0)
+      faults_.add({.file = deck_.file.string(),
+                   .line = 1,
+                   .column = 1,
+                   .text = "the deck has no *CONTROL_TERMINATION"});
+    head_.comment(fmt::format("Written by 'whipple import' from {}, a deck of {}; see import.txt.",
+                              import_.deck, grammar));
     head_.text_entry("title", model_.title);
     toml_.table("[time]");
     toml_.entry("end", units_.quantity(model_.end, dimension::time));
     toml_.table("[contact]");
-    toml_.entry("method", model_.friction ? "\"multi_field\"" : "\"none\"", model_.friction ? "" : "the deck has no *CONTACT");
+    toml_.entry("method", model_.friction ? "\"multi_field\"" : "\"none\"",
+                model_.friction ? "" : "the deck has no *CONTACT");
     if (model_.friction) toml_.entry("friction", number(*model_.friction));
     toml_.table("[output]");
-    if (model_.snapshots > 0.0) toml_.entry("snapshot_every", units_.quantity(model_.snapshots, dimension::time));
+    if (model_.snapshots > 0.0)
+      toml_.entry("snapshot_every", units_.quantity(model_.snapshots, dimension::time));
   }
 
   void bodies() {
@@ -84,32 +97,42 @@ class CaseWriter {
       faults_.guarded([&] {
         const Id id = number;
         if (part.block == nullptr) {
-          throw InputError(std::vector<InputFault>{{.file = deck_.file.string(), .line = 1, .column = 1,
-                                                    .text = fmt::format("elements are of part {}, which the deck does not define", id)}});
+          throw InputError(std::vector<InputFault>{
+              {.file = deck_.file.string(),
+               .line = 1,
+               .column = 1,
+               .text = fmt::format("elements are of part {}, which the deck does not define", id)}});
         }
         if (part.solids.empty() && part.points.empty()) {
           remark(Outcome::missing, *part.block, fmt::format("{}: no solid or SPH elements", part.name));
           return;
         }
         const auto material = model_.materials.find(part.material);
-        if (material == model_.materials.end()) fail(*part.block, fmt::format("{}: there is no *MAT {}", part.name, part.material));
+        if (material == model_.materials.end())
+          fail(*part.block, fmt::format("{}: there is no *MAT {}", part.name, part.material));
         const auto state = model_.states.find(part.state);
-        if (part.state != 0 && state == model_.states.end()) fail(*part.block, fmt::format("{}: there is no *EOS {}", part.name, part.state));
+        if (part.state != 0 && state == model_.states.end())
+          fail(*part.block, fmt::format("{}: there is no *EOS {}", part.name, part.state));
         used.insert(material->second);
         if (part.state != 0) used.insert(state->second);
         if (!has_law(*material->second) && part.state == 0) {
           remark(Outcome::missing, *material->second, fmt::format("{}: this material law", part.name));
           return;
         }
-        body(id, part, material_of(deck_, *material->second, part.state != 0 ? state->second : nullptr, part.name, units_, import_), all_starts);
+        body(id, part,
+             material_of(deck_, *material->second, part.state != 0 ? state->second : nullptr, part.name,
+                         units_, import_),
+             all_starts);
       });
     }
     for (const Start& start : all_starts) {
-      if (velocities_.insert(start.block).second) remark(Outcome::missing, *start.block, "velocities of some nodes of a part, or of none");
+      if (velocities_.insert(start.block).second)
+        remark(Outcome::missing, *start.block, "velocities of some nodes of a part, or of none");
     }
     for (const auto* blocks : {&model_.materials, &model_.states}) {
       for (const auto& [number, block] : *blocks) {
-        if (!used.contains(block)) remark(Outcome::dropped, *block, fmt::format("number {} is of no part", number));
+        if (!used.contains(block))
+          remark(Outcome::dropped, *block, fmt::format("number {} is of no part", number));
       }
     }
   }
@@ -131,7 +154,8 @@ class CaseWriter {
 
   const Vector3& place(const Part& part, Id node) const {
     const auto found = model_.nodes.find(node);
-    if (found == model_.nodes.end()) fail(*part.block, fmt::format("{}: there is no node {}", part.name, node));
+    if (found == model_.nodes.end())
+      fail(*part.block, fmt::format("{}: there is no node {}", part.name, node));
     return found->second;
   }
 
@@ -145,7 +169,8 @@ class CaseWriter {
       upper_ = empty_ ? x : Vector3(upper_.cwiseMax(x));
       empty_ = false;
     }
-    if (!part.solids.empty() && !part.points.empty()) fail(*part.block, fmt::format("{}: solid and SPH elements in one part", part.name));
+    if (!part.solids.empty() && !part.points.empty())
+      fail(*part.block, fmt::format("{}: solid and SPH elements in one part", part.name));
     TomlText text;
     text.table("[[body]]", fmt::format("line {}", part.block->line));
     text.text_entry("name", part.name);
@@ -156,12 +181,14 @@ class CaseWriter {
     has_explosive_ = has_explosive_ || material.explosive;
     if (material.explosive && model_.detonators.empty()) {
       text.entry("detonation", "\"instantaneous\"", "no *INITIAL_DETONATION in the deck");
-      remark(Outcome::missing, *part.block, fmt::format("{} is lit by nothing: it starts as detonation products", part.name));
+      remark(Outcome::missing, *part.block,
+             fmt::format("{} is lit by nothing: it starts as detonation products", part.name));
     }
     const bool written = part.solids.empty() ? points(part, material, text) : mesh(part, material, text);
     if (!written) return;
     if (material.initial_pressure != 0.0) {
-      text.entry("initial", fmt::format("{{ density = {}, pressure = {} }}", units_.quantity(material.density, dimension::density),
+      text.entry("initial", fmt::format("{{ density = {}, pressure = {} }}",
+                                        units_.quantity(material.density, dimension::density),
                                         units_.quantity(material.initial_pressure, dimension::pressure)));
     }
     bodies_ += "\n" + text.text();
@@ -173,10 +200,12 @@ class CaseWriter {
     std::map<std::array<double, 3>, std::set<Id>> one_by_one;
     for (const Start& start : all_starts) {
       const bool all = start.nodes.empty() && start.parts.empty();
-      const bool whole = all || start.parts.contains(id) || (!start.nodes.empty() && std::ranges::includes(start.nodes, members));
+      const bool whole = all || start.parts.contains(id) ||
+                         (!start.nodes.empty() && std::ranges::includes(start.nodes, members));
       if (whole) {
         velocity = start.velocity;
-        if (velocities_.insert(start.block).second) remark(Outcome::exact, *start.block, "velocity of whole parts");
+        if (velocities_.insert(start.block).second)
+          remark(Outcome::exact, *start.block, "velocity of whole parts");
       } else {
         auto& some = one_by_one[{start.velocity[0], start.velocity[1], start.velocity[2]}];
         std::ranges::set_intersection(start.nodes, members, std::inserter(some, some.end()));
@@ -187,10 +216,13 @@ class CaseWriter {
       if (nodes.size() == members.size()) {
         velocity = Vector3(value[0], value[1], value[2]);
         for (const Start& start : all_starts) {
-          if (start.velocity == velocity && velocities_.insert(start.block).second) remark(Outcome::converted, *start.block, "velocity of whole parts, node by node");
+          if (start.velocity == velocity && velocities_.insert(start.block).second)
+            remark(Outcome::converted, *start.block, "velocity of whole parts, node by node");
         }
       } else {
-        import_.remark(Outcome::missing, 0, "*INITIAL_VELOCITY", fmt::format("velocities of {} of the {} nodes of part {}", nodes.size(), members.size(), id));
+        import_.remark(
+            Outcome::missing, 0, "*INITIAL_VELOCITY",
+            fmt::format("velocities of {} of the {} nodes of part {}", nodes.size(), members.size(), id));
       }
     }
     return velocity;
@@ -204,11 +236,14 @@ class CaseWriter {
     for (std::size_t i = 0; i < part.solids.size(); ++i) {
       const std::array<Id, 8>& n = part.solids[i].nodes;
       if (std::set<Id>(n.begin(), n.end()).size() != 8) {
-        remark(Outcome::missing, *part.block, fmt::format("{}: elements that are no hexahedra, the first in line {}", part.name, part.solids[i].line));
+        remark(Outcome::missing, *part.block,
+               fmt::format("{}: elements that are no hexahedra, the first in line {}", part.name,
+                           part.solids[i].line));
         return false;
       }
       elements += fmt::format("{} 5 2 1 1", i + 1);
-      for (const Id node : n) elements += fmt::format(" {}", index.try_emplace(node, index.size() + 1).first->second);
+      for (const Id node : n)
+        elements += fmt::format(" {}", index.try_emplace(node, index.size() + 1).first->second);
       elements += '\n';
       const auto x = [&](std::size_t corner) { return place(part, n[corner]); };
       const Vector3 a = 0.25 * (x(1) + x(2) + x(5) + x(6) - x(0) - x(3) - x(4) - x(7));
@@ -225,15 +260,21 @@ class CaseWriter {
       nodes += fmt::format("{} {} {} {}\n", i + 1, x[0], x[1], x[2]);
     }
     const std::string file = fmt::format("meshes/{}.msh", part.name);
-    import_.files.push_back({file, fmt::format("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 1 \"{}\"\n$EndPhysicalNames\n"
-                                               "$Nodes\n{}\n{}$EndNodes\n$Elements\n{}\n{}$EndElements\n",
-                                               part.name, order.size(), nodes, part.solids.size(), elements)});
-    text.entry("discretization", fmt::format("{{ method = \"finite_elements\", mesh = \"{}\", mesh_unit = {} }}", file, units_.quantity(1.0, dimension::length)));
+    import_.files.push_back(
+        {file, fmt::format(
+                   "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 1 \"{}\"\n$EndPhysicalNames\n"
+                   "$Nodes\n{}\n{}$EndNodes\n$Elements\n{}\n{}$EndElements\n",
+                   part.name, order.size(), nodes, part.solids.size(), elements)});
+    text.entry("discretization",
+               fmt::format("{{ method = \"finite_elements\", mesh = \"{}\", mesh_unit = {} }}", file,
+                           units_.quantity(1.0, dimension::length)));
     if (longest > 2.0 * cell_) {
-      remark(Outcome::converted, *part.block, fmt::format("{}: elements of {} {} need cells of at least half of that", part.name, number(longest), units_.length));
+      remark(Outcome::converted, *part.block,
+             fmt::format("{}: elements of {} {} need cells of at least half of that", part.name,
+                         number(longest), units_.length));
     }
-    import_.bodies.push_back({part.name, fmt::format("{} hexahedra", part.solids.size()), static_cast<double>(part.solids.size()),
-                              units_.in_si(mass, {.mass = 1})});
+    import_.bodies.push_back({part.name, fmt::format("{} hexahedra", part.solids.size()),
+                              static_cast<double>(part.solids.size()), units_.in_si(mass, {.mass = 1})});
     return true;
   }
 
@@ -242,7 +283,8 @@ class CaseWriter {
     std::vector<Vector3> places;
     double least = 0.0, greatest = 0.0, total = 0.0;
     for (const SphPoint& point : part.points) {
-      const double mass = point.mass < 0.0 ? -point.mass * material.density : point.mass;  // negative: its volume
+      const double mass =
+          point.mass < 0.0 ? -point.mass * material.density : point.mass;  // negative: its volume
       least = places.empty() ? mass : std::min(least, mass);
       greatest = std::max(greatest, mass);
       total += mass;
@@ -252,19 +294,22 @@ class CaseWriter {
     const bool alike = least > 0.0 && greatest - least <= 1e-3 * greatest;
     const auto boxes = alike ? boxes_of_points(places, spacing, most_boxes_of_points) : std::nullopt;
     if (!boxes) {
-      remark(Outcome::missing, *part.block, fmt::format("{}: {} points that fill no cubic lattice of equal particles", part.name, places.size()));
+      remark(Outcome::missing, *part.block,
+             fmt::format("{}: {} points that fill no cubic lattice of equal particles", part.name,
+                         places.size()));
       return false;
     }
     std::string list;
     for (const LatticeBox& box : *boxes) {
-      list += fmt::format("{}{{ box = {{ lower = {}, upper = {} }} }}", list.empty() ? "" : ",\n  ", vector(box.lower, dimension::length),
-                          vector(box.upper, dimension::length));
+      list += fmt::format("{}{{ box = {{ lower = {}, upper = {} }} }}", list.empty() ? "" : ",\n  ",
+                          vector(box.lower, dimension::length), vector(box.upper, dimension::length));
     }
     text.entry("shape", boxes->size() == 1 ? list : fmt::format("{{ union = [{}] }}", list));
     lower_ -= Vector3::Constant(0.5 * spacing);
     upper_ += Vector3::Constant(0.5 * spacing);
-    import_.bodies.push_back({part.name, fmt::format("SPH points of a cubic lattice, {} boxes", boxes->size()), static_cast<double>(places.size()),
-                              units_.in_si(total, {.mass = 1})});
+    import_.bodies.push_back({part.name,
+                              fmt::format("SPH points of a cubic lattice, {} boxes", boxes->size()),
+                              static_cast<double>(places.size()), units_.in_si(total, {.mass = 1})});
     return true;
   }
 
@@ -274,11 +319,14 @@ class CaseWriter {
     const double margin = std::min(fastest_ * model_.end, 2.0 * extent) + 4.0 * cell_;
     const Vector3 around = Vector3::Constant(cell_ * std::ceil(margin / cell_));
     TomlText text;
-    text.table("[domain]", "not in the deck: room for the way of the fastest body, at most twice their extent");
+    text.table("[domain]",
+               "not in the deck: room for the way of the fastest body, at most twice their extent");
     text.entry("lower", vector(lower_ - around, dimension::length));
     text.entry("upper", vector(upper_ + around, dimension::length));
     text.entry("cell_size", units_.quantity(cell_, dimension::length));
-    import_.remark(Outcome::converted, 0, "-", fmt::format("domain: the bodies with {} {} around them", number(around[0]), units_.length));
+    import_.remark(
+        Outcome::converted, 0, "-",
+        fmt::format("domain: the bodies with {} {} around them", number(around[0]), units_.length));
     return text.text();
   }
 

@@ -25,16 +25,19 @@ std::string trimmed(std::string_view text) {
 }
 
 std::string capitals(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  std::ranges::transform(text, text.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   return text;
 }
 
 /// Typographic dashes and minus signs, which copied cards hold, in UTF-8.
-constexpr std::array dashes = {"\xE2\x80\x90", "\xE2\x80\x91", "\xE2\x80\x92", "\xE2\x80\x93", "\xE2\x88\x92"};
+constexpr std::array dashes = {"\xE2\x80\x90", "\xE2\x80\x91", "\xE2\x80\x92", "\xE2\x80\x93",
+                               "\xE2\x88\x92"};
 
 std::string with_plain_minus(std::string text) {
   for (const std::string_view dash : dashes) {
-    for (std::size_t at = text.find(dash); at != std::string::npos; at = text.find(dash, at)) text.replace(at, dash.size(), "-");
+    for (std::size_t at = text.find(dash); at != std::string::npos; at = text.find(dash, at))
+      text.replace(at, dash.size(), "-");
   }
   return text;
 }
@@ -65,7 +68,8 @@ std::optional<double> number_of(const std::string& text) {
 void read_blocks(Deck& deck, const std::filesystem::path& file, std::string_view text, int depth);
 
 void include(Deck& deck, const Block& block, int depth) {
-  if (block.keyword != "INCLUDE") fail(block, "of the keywords *INCLUDE_... none is read: put its file into the deck");
+  if (block.keyword != "INCLUDE")
+    fail(block, "of the keywords *INCLUDE_... none is read: put its file into the deck");
   if (depth >= deepest_include) fail(block, "files include one another too deeply");
   for (const Card& card : block.cards) {
     const std::filesystem::path path = std::filesystem::path(block.file).parent_path() / trimmed(card.text);
@@ -81,11 +85,14 @@ void parameters(Deck& deck, const Block& block) {
   for (const Card& card : block.cards) {
     const Fields fields(deck, block, card);
     for (std::size_t i = 0; i + 1 < fields.size(); i += 2) {
-      std::string name = capitals(trimmed(std::string_view(card.text).substr(std::min(card.text.size(), 10 * i), 10)));
-      if (const std::size_t comma = card.text.find(','); comma != std::string::npos) name = capitals(trimmed(card.text.substr(0, comma)));
+      std::string name =
+          capitals(trimmed(std::string_view(card.text).substr(std::min(card.text.size(), 10 * i), 10)));
+      if (const std::size_t comma = card.text.find(','); comma != std::string::npos)
+        name = capitals(trimmed(card.text.substr(0, comma)));
       if (name.size() < 2) continue;
       if (name[0] == 'C') continue;  // a text
-      if (const auto value = fields.number(i + 1)) deck.parameters[trimmed(name.substr(1))] = *value;  // without R or I
+      if (const auto value = fields.number(i + 1))
+        deck.parameters[trimmed(name.substr(1))] = *value;  // without R or I
     }
   }
 }
@@ -115,7 +122,8 @@ void read_blocks(Deck& deck, const std::filesystem::path& file, std::string_view
       block.file = file.string();
       block.line = line;
       block.keyword = capitals(trimmed(std::string_view(content).substr(1)));
-      while (!block.keyword.empty() && (block.keyword.back() == '+' || block.keyword.back() == '%' || block.keyword.back() == ' ')) {
+      while (!block.keyword.empty() &&
+             (block.keyword.back() == '+' || block.keyword.back() == '%' || block.keyword.back() == ' ')) {
         block.wide = block.wide || block.keyword.back() == '+';
         block.keyword.pop_back();
       }
@@ -137,8 +145,10 @@ void read_blocks(Deck& deck, const std::filesystem::path& file, std::string_view
 }  // namespace
 
 void fail(const Block& block, std::string text) {
-  throw InputError(std::vector<InputFault>{
-      {.file = block.file, .line = block.line, .column = 1, .text = fmt::format("*{}: {}", block.keyword, text)}});
+  throw InputError(std::vector<InputFault>{{.file = block.file,
+                                            .line = block.line,
+                                            .column = 1,
+                                            .text = fmt::format("*{}: {}", block.keyword, text)}});
 }
 
 Fields::Fields(const Deck& deck, const Block& block, const Card& card, std::span<const int> widths)
@@ -180,7 +190,8 @@ std::optional<double> Fields::number(std::size_t field) const {
   const std::size_t name = text.find('&');
   if (name != std::string::npos && name <= 1) {
     const auto found = deck_.parameters.find(capitals(trimmed(text.substr(name + 1))));
-    if (found == deck_.parameters.end()) fail(field, fmt::format("'{}' is no parameter that the deck has given before", text));
+    if (found == deck_.parameters.end())
+      fail(field, fmt::format("'{}' is no parameter that the deck has given before", text));
     return text[0] == '-' ? -found->second : found->second;
   }
   const std::optional<double> value = number_of(text);
@@ -201,7 +212,8 @@ std::int64_t Fields::id(std::size_t field) const {
 }
 
 bool recognise(std::string_view text) {
-  constexpr std::array starts = {"*KEYWORD", "*TITLE", "*CONTROL_", "*PART", "*MAT_", "*EOS_", "*SECTION_", "*DATABASE_", "*PARAMETER"};
+  constexpr std::array starts = {"*KEYWORD", "*TITLE",    "*CONTROL_",  "*PART",     "*MAT_",
+                                 "*EOS_",    "*SECTION_", "*DATABASE_", "*PARAMETER"};
   const std::string all = capitals(std::string(text.substr(0, std::size_t{1} << 16)));
   for (std::size_t at = 0; at < all.size();) {
     const std::string_view rest = std::string_view(all).substr(at);

@@ -28,8 +28,8 @@ struct Block {
   std::string keyword;  ///< upper case, without the asterisk and _TITLE
   std::string file;     ///< the deck or a file that it includes
   unsigned line = 0;
-  std::string title;    ///< of a keyword with _TITLE
-  bool wide = false;    ///< long format: fields of twenty characters
+  std::string title;  ///< of a keyword with _TITLE
+  bool wide = false;  ///< long format: fields of twenty characters
   std::vector<Card> cards;
 };
 

@@ -13,7 +13,16 @@
 namespace whipple::decks::dyna {
 namespace {
 
-enum class Law { elastic, plastic_kinematic, explosive, null, hydro, johnson_cook, simplified_johnson_cook, other };
+enum class Law {
+  elastic,
+  plastic_kinematic,
+  explosive,
+  null,
+  hydro,
+  johnson_cook,
+  simplified_johnson_cook,
+  other
+};
 enum class State { polynomial, jwl, gruneisen, other };
 
 struct LawName {
@@ -31,17 +40,20 @@ struct StateName {
   std::string_view name, number;
   State state;
 };
-constexpr std::array states = {StateName{"EOS_LINEAR_POLYNOMIAL", "EOS_001", State::polynomial}, StateName{"EOS_JWL", "EOS_002", State::jwl},
+constexpr std::array states = {StateName{"EOS_LINEAR_POLYNOMIAL", "EOS_001", State::polynomial},
+                               StateName{"EOS_JWL", "EOS_002", State::jwl},
                                StateName{"EOS_GRUNEISEN", "EOS_004", State::gruneisen}};
 
 template <class Names>
 auto named(const Names& names, const std::string& keyword) {
-  return std::ranges::find_if(names, [&](const auto& each) { return each.name == keyword || each.number == keyword; });
+  return std::ranges::find_if(
+      names, [&](const auto& each) { return each.name == keyword || each.number == keyword; });
 }
 
 class MaterialWriter {
  public:
-  MaterialWriter(const Deck& deck, const Block& material, const Block* state, const std::string& name, const UnitSystem& units, Import& import)
+  MaterialWriter(const Deck& deck, const Block& material, const Block* state, const std::string& name,
+                 const UnitSystem& units, Import& import)
       : deck_(deck), material_(material), state_(state), name_(name), units_(units), import_(import) {}
 
   CaseMaterial write() {
@@ -49,9 +61,12 @@ class MaterialWriter {
     law_ = law == laws.end() ? Law::other : law->law;
     density_ = card(material_, 0).required(1, "the density");
     if (!(density_ > 0.0)) fail(material_, "the density must be > 0");
-    CaseMaterial result{.file = fmt::format("materials/{}.toml", name_), .density = density_, .explosive = law_ == Law::explosive};
+    CaseMaterial result{.file = fmt::format("materials/{}.toml", name_),
+                        .density = density_,
+                        .explosive = law_ == Law::explosive};
     elastic_constants();
-    toml_.comment(fmt::format("Written by 'whipple import' from {}; constants in the units of the deck.", deck_.file.filename().string()));
+    toml_.comment(fmt::format("Written by 'whipple import' from {}; constants in the units of the deck.",
+                              deck_.file.filename().string()));
     toml_.text_entry("name", material_.title.empty() ? name_ : material_.title);
     toml_.text_entry("source", source(material_));
     toml_.table("[eos]");
@@ -65,7 +80,8 @@ class MaterialWriter {
 
  private:
   [[nodiscard]] std::string source(const Block& block) const {
-    return fmt::format("{}, line {}, *{}", std::filesystem::path(block.file).filename().string(), block.line, block.keyword);
+    return fmt::format("{}, line {}, *{}", std::filesystem::path(block.file).filename().string(), block.line,
+                       block.keyword);
   }
   /// The card of a keyword; beyond its last one all fields are blank.
   [[nodiscard]] Fields card(const Block& block, std::size_t number) const {
@@ -117,9 +133,11 @@ class MaterialWriter {
       return;
     }
     const LibraryHeat heat = nearest_heat(units_.in_si(density_, dimension::density), model);
-    toml_.entry("heat_capacity", fmt::format("\"{} J/(kg K)\"", number(heat.value)), "not in the deck: that of " + heat.material);
+    toml_.entry("heat_capacity", fmt::format("\"{} J/(kg K)\"", number(heat.value)),
+                "not in the deck: that of " + heat.material);
     remark(Outcome::converted, material_,
-           fmt::format("no heat capacity in the deck: that of {}, {} J/(kg K); temperatures depend on it", heat.material, number(heat.value)));
+           fmt::format("no heat capacity in the deck: that of {}, {} J/(kg K); temperatures depend on it",
+                       heat.material, number(heat.value)));
   }
   void density() { quantity("reference_density", density_, dimension::density); }
   void room_temperature() {
@@ -127,7 +145,8 @@ class MaterialWriter {
     if (given > 0.0) quantity("reference_temperature", given, {.temperature = 1});
   }
   void initial_volume(double given) {
-    if (given != 0.0 && given != 1.0) remark(Outcome::missing, *state_, fmt::format("initial relative volume {}", number(given)));
+    if (given != 0.0 && given != 1.0)
+      remark(Outcome::missing, *state_, fmt::format("initial relative volume {}", number(given)));
   }
 
   void equation_of_state(CaseMaterial& result) {
@@ -158,9 +177,12 @@ class MaterialWriter {
         begin("polynomial", *state_);
         density();
         for (std::size_t i = 0; i < 7; ++i) {
-          quantity(fmt::format("C{}", i).c_str(), c.real(i + 1), i < 4 ? dimension::pressure : dimension::none);
+          quantity(fmt::format("C{}", i).c_str(), c.real(i + 1),
+                   i < 4 ? dimension::pressure : dimension::none);
         }
-        if (d.real(0) != 0.0) quantity("reference_energy", d.real(0) / density_, dimension::specific_energy, "E0 over the density");
+        if (d.real(0) != 0.0)
+          quantity("reference_energy", d.real(0) / density_, dimension::specific_energy,
+                   "E0 over the density");
         heat_capacity("mie_gruneisen");
         room_temperature();
         initial_volume(d.real(1));
@@ -191,14 +213,18 @@ class MaterialWriter {
 
   /// Pressure by the bulk modulus, of materials without an equation of state of their own.
   void elastic_volume() {
-    if (!(bulk_ > 0.0)) fail(material_, fmt::format("{} needs an equation of state (*EOS_GRUNEISEN, _LINEAR_POLYNOMIAL or _JWL)", name_));
+    if (!(bulk_ > 0.0))
+      fail(material_,
+           fmt::format("{} needs an equation of state (*EOS_GRUNEISEN, _LINEAR_POLYNOMIAL or _JWL)", name_));
     begin("polynomial", material_);
     density();
     quantity("C1", bulk_, dimension::pressure, "bulk modulus");
     quantity("C4", 0.0, dimension::none);
     heat_capacity("mie_gruneisen");
     room_temperature();
-    if (state_ == nullptr) remark(Outcome::converted, material_, "pressure by the bulk modulus, p = K (rho/rho0 - 1), equal at small strains");
+    if (state_ == nullptr)
+      remark(Outcome::converted, material_,
+             "pressure by the bulk modulus, p = K (rho/rho0 - 1), equal at small strains");
   }
 
   void strength() {
@@ -216,10 +242,13 @@ class MaterialWriter {
         begin("von_mises", material_);
         quantity("shear_modulus", shear_, dimension::pressure);
         quantity("yield_stress", first.required(4, "the yield stress"), dimension::pressure);
-        quantity("hardening_modulus", beta * hardening, dimension::pressure, "isotropic part of E Et / (E - Et)");
-        if (beta < 1.0 && hardening > 0.0) quantity("kinematic_modulus", (1.0 - beta) * hardening, dimension::pressure);
+        quantity("hardening_modulus", beta * hardening, dimension::pressure,
+                 "isotropic part of E Et / (E - Et)");
+        if (beta < 1.0 && hardening > 0.0)
+          quantity("kinematic_modulus", (1.0 - beta) * hardening, dimension::pressure);
         remark(Outcome::exact, material_, "von_mises");
-        if (second.real(0) != 0.0) remark(Outcome::missing, material_, "Cowper-Symonds rate dependence (SRC, SRP)");
+        if (second.real(0) != 0.0)
+          remark(Outcome::missing, material_, "Cowper-Symonds rate dependence (SRC, SRP)");
         if (second.real(2) != 0.0) failure_strain(second.real(2));
         break;
       }
@@ -229,7 +258,8 @@ class MaterialWriter {
         quantity("yield_stress", first.required(3, "the yield stress"), dimension::pressure);
         quantity("hardening_modulus", first.real(4), dimension::pressure);
         remark(Outcome::exact, material_, "von_mises");
-        if (second.real(0) != 0.0 || second.real(1) != 0.0) remark(Outcome::missing, material_, "table of yield stress over plastic strain (EPS, ES)");
+        if (second.real(0) != 0.0 || second.real(1) != 0.0)
+          remark(Outcome::missing, material_, "table of yield stress over plastic strain (EPS, ES)");
         if (first.real(5) < 0.0) tension(-first.real(5), 1.0);
         if (first.real(6) != 0.0) failure_strain(first.real(6));
         break;
@@ -239,7 +269,8 @@ class MaterialWriter {
       case Law::simplified_johnson_cook:
         johnson_cook(second, false);
         if (second.real(4) != 0.0 && second.real(4) < 1e16) failure_strain(second.real(4));
-        if (second.real(5) != 0.0 && second.real(5) < 1e16) remark(Outcome::missing, material_, "greatest stress (SIGMAX, SIGSAT)");
+        if (second.real(5) != 0.0 && second.real(5) < 1e16)
+          remark(Outcome::missing, material_, "greatest stress (SIGMAX, SIGSAT)");
         break;
       case Law::null:
         if (first.real(3) > 0.0) {
@@ -281,16 +312,19 @@ class MaterialWriter {
       quantity("melting_temperature", c.required(5, "TM"), {.temperature = 1});
     } else {
       quantity("thermal_exponent", 1.0, dimension::none);
-      toml_.entry("reference_temperature", "\"1e8 K\"", "no thermal softening in the deck: none below this temperature");
+      toml_.entry("reference_temperature", "\"1e8 K\"",
+                  "no thermal softening in the deck: none below this temperature");
       toml_.entry("melting_temperature", "\"2e8 K\"");
     }
-    remark(temperatures ? Outcome::exact : Outcome::converted, material_,
-           temperatures ? "johnson_cook" : "johnson_cook with temperatures of softening that nothing reaches");
+    remark(
+        temperatures ? Outcome::exact : Outcome::converted, material_,
+        temperatures ? "johnson_cook" : "johnson_cook with temperatures of softening that nothing reaches");
   }
 
   void johnson_cook_failure() {
     const Fields second = card(material_, 1), third = card(material_, 2), fourth = card(material_, 3);
-    const std::array<double, 5> d = {third.real(4), third.real(5), third.real(6), third.real(7), fourth.real(0)};
+    const std::array<double, 5> d = {third.real(4), third.real(5), third.real(6), third.real(7),
+                                     fourth.real(0)};
     if (std::ranges::any_of(d, [](double each) { return each != 0.0; })) {
       toml_.table("[[failure]]");
       begin("johnson_cook_damage", material_);
@@ -319,14 +353,16 @@ class MaterialWriter {
     } else {
       begin("principal_stress", material_);
       quantity("tensile_strength", strength, dimension::pressure);
-      remark(Outcome::converted, material_, "spall by the greatest principal stress: tension and deviator are lost permanently");
+      remark(Outcome::converted, material_,
+             "spall by the greatest principal stress: tension and deviator are lost permanently");
     }
   }
   void failure_strain(double strain) {
     toml_.table("[[failure]]");
     begin("plastic_strain", material_);
     quantity("failure_strain", strain, dimension::none);
-    remark(Outcome::converted, material_, "failure at a plastic strain: the material stays, without tension and deviator");
+    remark(Outcome::converted, material_,
+           "failure at a plastic strain: the material stays, without tension and deviator");
   }
 
   const Deck& deck_;
@@ -344,8 +380,8 @@ class MaterialWriter {
 
 bool has_law(const Block& material) { return named(laws, material.keyword) != laws.end(); }
 
-CaseMaterial material_of(const Deck& deck, const Block& material, const Block* state, const std::string& name, const UnitSystem& units,
-                         Import& import) {
+CaseMaterial material_of(const Deck& deck, const Block& material, const Block* state, const std::string& name,
+                         const UnitSystem& units, Import& import) {
   return MaterialWriter(deck, material, state, name, units, import).write();
 }
 

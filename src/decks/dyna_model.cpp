@@ -13,13 +13,29 @@ namespace whipple::decks::dyna {
 namespace {
 
 /// Keywords without influence on the physics of the case.
-constexpr std::array harmless = {"KEYWORD", "END", "COMMENT", "CONTROL_ENERGY", "CONTROL_OUTPUT", "CONTROL_CPU", "CONTROL_HOURGLASS",
-                                 "HOURGLASS", "CONTROL_BULK_VISCOSITY", "CONTROL_SOLUTION", "CONTROL_TIMESTEP", "CONTROL_CONTACT",
-                                 "CONTROL_SPH", "CONTROL_ACCURACY", "CONTROL_SOLID", "CONTROL_PARALLEL", "SECTION_SOLID", "SECTION_SPH"};
+constexpr std::array harmless = {"KEYWORD",
+                                 "END",
+                                 "COMMENT",
+                                 "CONTROL_ENERGY",
+                                 "CONTROL_OUTPUT",
+                                 "CONTROL_CPU",
+                                 "CONTROL_HOURGLASS",
+                                 "HOURGLASS",
+                                 "CONTROL_BULK_VISCOSITY",
+                                 "CONTROL_SOLUTION",
+                                 "CONTROL_TIMESTEP",
+                                 "CONTROL_CONTACT",
+                                 "CONTROL_SPH",
+                                 "CONTROL_ACCURACY",
+                                 "CONTROL_SOLID",
+                                 "CONTROL_PARALLEL",
+                                 "SECTION_SOLID",
+                                 "SECTION_SPH"};
 
 class ModelReader {
  public:
-  ModelReader(const Deck& deck, Import& import, FaultList& faults) : deck_(deck), import_(import), faults_(faults) {
+  ModelReader(const Deck& deck, Import& import, FaultList& faults)
+      : deck_(deck), import_(import), faults_(faults) {
     model_.title = import.deck;
   }
 
@@ -44,7 +60,8 @@ class ModelReader {
       });
     }
     for (const auto& [keyword, entry] : unknown) {
-      remark(Outcome::missing, *entry.first, fmt::format("not read, {} time{}", entry.second, entry.second == 1 ? "" : "s"));
+      remark(Outcome::missing, *entry.first,
+             fmt::format("not read, {} time{}", entry.second, entry.second == 1 ? "" : "s"));
     }
   }
 
@@ -57,9 +74,11 @@ class ModelReader {
   /// Reads a keyword; false if it is none of those that are read.
   bool read(const Block& block) {
     const std::string_view key = block.keyword;
-    Reader reader = std::ranges::find(harmless, key) != harmless.end() || key.empty() ? &ModelReader::dropped : nullptr;
+    Reader reader =
+        std::ranges::find(harmless, key) != harmless.end() || key.empty() ? &ModelReader::dropped : nullptr;
     const auto whole = std::ranges::find(of_keywords(), key, [](const auto& entry) { return entry.first; });
-    const auto start = std::ranges::find_if(of_beginnings(), [&](const auto& entry) { return key.starts_with(entry.first); });
+    const auto start = std::ranges::find_if(of_beginnings(),
+                                            [&](const auto& entry) { return key.starts_with(entry.first); });
     if (whole != of_keywords().end()) {
       reader = whole->second;
     } else if (reader == nullptr && start != of_beginnings().end()) {
@@ -70,7 +89,9 @@ class ModelReader {
     return true;
   }
 
-  void dropped(const Block& block) { remark(Outcome::dropped, block, "of the methods and output of that code"); }
+  void dropped(const Block& block) {
+    remark(Outcome::dropped, block, "of the methods and output of that code");
+  }
   void taken(const Block& block) { remark(Outcome::exact, block, "read"); }
   void material(const Block& block) { model_.materials[first_id(block)] = &block; }
   void state(const Block& block) { model_.states[first_id(block)] = &block; }
@@ -96,7 +117,8 @@ class ModelReader {
   void detonation(const Block& block) {
     for (const Card& card : block.cards) {
       const Fields fields(deck_, block, card);
-      model_.detonators.push_back({&block, Vector3(fields.real(1), fields.real(2), fields.real(3)), fields.real(4)});
+      model_.detonators.push_back(
+          {&block, Vector3(fields.real(1), fields.real(2), fields.real(3)), fields.real(4)});
     }
   }
   /// Velocities refer to sets, which may come after them.
@@ -108,13 +130,16 @@ class ModelReader {
     if (block.cards.empty()) fail(block, "has no card");
     return {deck_, block, block.cards[0]};
   }
-  [[nodiscard]] Id first_id(const Block& block) const { return static_cast<Id>(first(block).required(0, "its number")); }
+  [[nodiscard]] Id first_id(const Block& block) const {
+    return static_cast<Id>(first(block).required(0, "its number"));
+  }
 
   void nodes(const Block& block) {
     for (const Card& card : block.cards) {
       faults_.guarded([&] {
         const Fields fields(deck_, block, card, node_widths);
-        model_.nodes[static_cast<Id>(fields.required(0, "the number of a node"))] = Vector3(fields.real(1), fields.real(2), fields.real(3));
+        model_.nodes[static_cast<Id>(fields.required(0, "the number of a node"))] =
+            Vector3(fields.real(1), fields.real(2), fields.real(3));
       });
     }
     remark(Outcome::exact, block, fmt::format("{} nodes", block.cards.size()));
@@ -270,6 +295,8 @@ ModelReader::Readers ModelReader::of_beginnings() {
 
 }  // namespace
 
-Model read_model(const Deck& deck, Import& import, FaultList& faults) { return ModelReader(deck, import, faults).read(); }
+Model read_model(const Deck& deck, Import& import, FaultList& faults) {
+  return ModelReader(deck, import, faults).read();
+}
 
 }  // namespace whipple::decks::dyna

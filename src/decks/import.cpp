@@ -36,7 +36,8 @@ std::string content_of(const fs::path& deck) {
 }
 
 [[noreturn]] void refuse(const fs::path& deck, std::string why) {
-  throw InputError(std::vector<InputFault>{{.file = deck.string(), .line = 1, .column = 1, .text = std::move(why)}});
+  throw InputError(
+      std::vector<InputFault>{{.file = deck.string(), .line = 1, .column = 1, .text = std::move(why)}});
 }
 
 /// Tells the codes apart by what their decks contain: several use the same endings.
@@ -46,7 +47,8 @@ Format format_of(const fs::path& deck, std::string_view text) {
   const std::size_t begin = text.find_first_not_of(" \t\r\n");
   const std::string_view start = text.substr(std::min(begin, text.size()));
   if (start.empty()) refuse(deck, "the deck is empty");
-  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) refuse(deck, "a text in UTF-16: save it as UTF-8");
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+    refuse(deck, "a text in UTF-16: save it as UTF-8");
   if (start.starts_with("#RADIOSS")) refuse(deck, "a deck of OpenRadioss: not read");
   if (start.front() == '<') refuse(deck, "an XML file: decks of the C++ version of MPM3D are not read");
   if (start.front() == '*' || start.front() == '$') {
@@ -54,8 +56,10 @@ Format format_of(const fs::path& deck, std::string_view text) {
   }
   const auto has = [&](std::string_view command) { return text.find(command) != std::string_view::npos; };
   if (start.front() == '#' || has("region(") || has("solid(")) {
-    refuse(deck, "an input of Karamelo or another language of commands, not of MPM3D-F90, which uses the ending .mpm, "
-                 "too: variables and formulas are not read");
+    refuse(
+        deck,
+        "an input of Karamelo or another language of commands, not of MPM3D-F90, which uses the ending .mpm, "
+        "too: variables and formulas are not read");
   }
   refuse(deck, "a deck of no code that is known here; read are decks of MPM3D-F90 and LS-DYNA");
 }
@@ -82,7 +86,8 @@ Import import_deck(const fs::path& deck, const ImportOptions& options) {
 
 CaseFolder::CaseFolder(const Import& import, fs::path folder) : folder_(std::move(folder)) {
   if (!folder_.has_filename()) folder_ = folder_.parent_path();  // "cases/new/"
-  if (fs::exists(folder_)) throw InputError(fmt::format("{}: exists; nothing is overwritten", folder_.string()));
+  if (fs::exists(folder_))
+    throw InputError(fmt::format("{}: exists; nothing is overwritten", folder_.string()));
   partial_ = folder_;
   partial_ += fmt::format(".{}.partial", getpid());
   try {
@@ -117,7 +122,8 @@ void CaseFolder::publish() {
 void write_case_only(const Import& import, const fs::path& folder) {
   for (const CaseFile& file : import.files) {
     if (fs::exists(folder / file.path)) continue;
-    throw InputError(fmt::format("{}: has no {}; without --case-only the import writes it", folder.string(), file.path));
+    throw InputError(
+        fmt::format("{}: has no {}; without --case-only the import writes it", folder.string(), file.path));
   }
   require_new_file(folder / "case.toml", false);
   write_text_atomically(folder / "case.toml", import.case_text);

@@ -17,13 +17,17 @@ struct CellBox {
 /// Joins boxes that follow on one another along a direction and are equal across it.
 void join(std::vector<CellBox>& boxes, std::size_t along) {
   const std::size_t b = (along + 1) % 3, c = (along + 2) % 3;
-  const auto across = [&](const CellBox& box) { return std::tuple(box.from[b], box.to[b], box.from[c], box.to[c]); };
+  const auto across = [&](const CellBox& box) {
+    return std::tuple(box.from[b], box.to[b], box.from[c], box.to[c]);
+  };
   std::ranges::sort(boxes, [&](const CellBox& left, const CellBox& right) {
-    return across(left) != across(right) ? across(left) < across(right) : left.from[along] < right.from[along];
+    return across(left) != across(right) ? across(left) < across(right)
+                                         : left.from[along] < right.from[along];
   });
   std::vector<CellBox> joined;
   for (const CellBox& box : boxes) {
-    if (!joined.empty() && across(joined.back()) == across(box) && joined.back().to[along] == box.from[along]) {
+    if (!joined.empty() && across(joined.back()) == across(box) &&
+        joined.back().to[along] == box.from[along]) {
       joined.back().to[along] = box.to[along];
     } else {
       joined.push_back(box);
@@ -35,7 +39,7 @@ void join(std::vector<CellBox>& boxes, std::size_t along) {
 }  // namespace
 
 std::optional<std::vector<LatticeBox>> boxes_of_points(std::span<const Vector3> points, double spacing,
-    std::size_t most) {
+                                                       std::size_t most) {
   if (points.empty() || !(spacing > 0.0)) return std::nullopt;
   Vector3 first = points.front(), last = points.front();
   for (const Vector3& point : points) {

@@ -19,6 +19,6 @@ struct LatticeBox {
 /// @returns boxes that neither overlap nor leave out a cell; nothing if the points are on no such lattice, if two are in
 ///          one cell, or if it takes more boxes
 std::optional<std::vector<LatticeBox>> boxes_of_points(std::span<const Vector3> points, double spacing,
-    std::size_t most);
+                                                       std::size_t most);
 
 }  // namespace whipple::decks

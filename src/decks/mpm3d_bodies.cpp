@@ -15,7 +15,8 @@ namespace whipple::decks::mpm3d {
 namespace {
 
 constexpr std::size_t most_boxes = 400;  // of a body of points
-constexpr double most_counted = 2000;    // spacings along a radius: rounder bodies are not counted particle by particle
+constexpr double most_counted =
+    2000;  // spacings along a radius: rounder bodies are not counted particle by particle
 
 /// Which particles of the deck belong to a body: a range, or those that its points name.
 struct Numbers {
@@ -50,7 +51,7 @@ double spheres_particles(double radius) {
 class BodyBuilder {
  public:
   BodyBuilder(const Deck& deck, const std::map<int, double>& density, const UnitSystem& units,
-      const BodyOptions& options, Import& import)
+              const BodyOptions& options, Import& import)
       : deck_(deck), density_(density), units_(units), options_(options), import_(import) {}
 
   std::vector<CaseBody> build() {
@@ -74,22 +75,24 @@ class BodyBuilder {
     throw InputError(std::vector<InputFault>{fault(statement, std::move(text))});
   }
   [[nodiscard]] std::string length(double value) const { return units_.quantity(value, dimension::length); }
-  [[nodiscard]] std::string point(const Vector3& x) const { return fmt::format("[{}, {}, {}]", length(x[0]),
-      length(x[1]), length(x[2])); }
+  [[nodiscard]] std::string point(const Vector3& x) const {
+    return fmt::format("[{}, {}, {}]", length(x[0]), length(x[1]), length(x[2]));
+  }
   [[nodiscard]] std::string box(const Vector3& lower, const Vector3& upper) const {
     return fmt::format("{{ box = {{ lower = {}, upper = {} }} }}", point(lower), point(upper));
   }
 
   double material_density(const Statement& statement, int material) const {
     const auto found = density_.find(material);
-    if (found == density_.end()) fail(statement, fmt::format("material {} is not among those of 'mate'", material));
+    if (found == density_.end())
+      fail(statement, fmt::format("material {} is not among those of 'mate'", material));
     return found->second;
   }
   /// A number of spacings or cells along a direction.
   double positive(const Statement& statement, std::size_t at, const char* what) const {
     const double value = statement.numbers[at];
-    if (!(value > 0.0) || value > 1e6) fail(statement, fmt::format("{} is {}, must be > 0 and <= 1e6", what,
-        number(value)));
+    if (!(value > 0.0) || value > 1e6)
+      fail(statement, fmt::format("{} is {}, must be > 0 and <= 1e6", what, number(value)));
     return value;
   }
 
@@ -106,7 +109,8 @@ class BodyBuilder {
       numbers.first = ranged_ + 1.0;
       numbers.last = ranged_ += body.particles;
     }
-    import_.bodies.push_back({body.name, body.description, body.particles, units_.in_si(body.mass, {.mass = 1})});
+    import_.bodies.push_back(
+        {body.name, body.description, body.particles, units_.in_si(body.mass, {.mass = 1})});
     bodies_.push_back(std::move(body));
     numbers_.push_back(std::move(numbers));
   }
@@ -119,8 +123,8 @@ class BodyBuilder {
     const Vector3 origin(n[4], n[5], n[6]);
     if (statement.kind == "bloc" || statement.kind == "blod") {
       Vector3 counts;
-      for (int i = 0; i < 3; ++i) counts[i] = std::trunc(positive(statement, 7 + static_cast<std::size_t>(i),
-          "a number of particles"));
+      for (int i = 0; i < 3; ++i)
+        counts[i] = std::trunc(positive(statement, 7 + static_cast<std::size_t>(i), "a number of particles"));
       body.lower = origin;
       body.upper = origin + h * counts;
       body.particles = counts.prod();
@@ -134,12 +138,12 @@ class BodyBuilder {
       body.lower = origin - Vector3(radius, radius, half_height);
       body.upper = origin + Vector3(radius, radius, half_height);
       body.particles = sphere ? spheres_particles(spacings) : discs_particles(spacings);
-      body.description = fmt::format("{} of radius {} {}", sphere ? "sphere" : "one layer of a disc", number(radius),
-          units_.length);
-      body.shape = sphere ? fmt::format("{{ sphere = {{ center = {}, radius = {} }} }}", point(origin), length(radius))
-                          : fmt::format("{{ cylinder = {{ center = {}, axis = \"z\", radius = {}, height = {} }} }}",
-                              point(origin),
-                                        length(radius), length(h));
+      body.description = fmt::format("{} of radius {} {}", sphere ? "sphere" : "one layer of a disc",
+                                     number(radius), units_.length);
+      body.shape =
+          sphere ? fmt::format("{{ sphere = {{ center = {}, radius = {} }} }}", point(origin), length(radius))
+                 : fmt::format("{{ cylinder = {{ center = {}, axis = \"z\", radius = {}, height = {} }} }}",
+                               point(origin), length(radius), length(h));
     }
     density_or_mass(statement, body, density);
     import_.remark(Outcome::converted, statement.line, statement.name(),
@@ -148,8 +152,8 @@ class BodyBuilder {
 
   void cut_hole(const Statement& statement, CaseBody& body, const Vector3& counts) {
     const std::vector<double>& n = statement.numbers;
-    const double h = body.spacing, radius = h * std::trunc(positive(statement, 13,
-        "the radius of the hole in spacings"));
+    const double h = body.spacing,
+                 radius = h * std::trunc(positive(statement, 13, "the radius of the hole in spacings"));
     const Vector3 centre(n[10], n[11], 0.5 * (body.lower[2] + body.upper[2]));
     if (counts[0] * counts[1] <= most_counted * most_counted) {
       double layer = 0.0;
@@ -162,16 +166,19 @@ class BodyBuilder {
     }
     // Longer than the block: faces in one plane would leave it open which of them counts.
     const double height = body.upper[2] - body.lower[2] + 2.0 * h;
-    body.shape = fmt::format("{{ difference = {{ from = {}, minus = [{{ cylinder = {{ center = {}, axis = \"z\", radius = {}, height = {} }} }}] }} }}",
-                             body.shape, point(centre), length(radius), length(height));
+    body.shape = fmt::format(
+        "{{ difference = {{ from = {}, minus = [{{ cylinder = {{ center = {}, axis = \"z\", radius = {}, "
+        "height = {} }} }}] }} }}",
+        body.shape, point(centre), length(radius), length(height));
     body.description += fmt::format(" with a hole of radius {} {}", number(radius), units_.length);
   }
 
   /// The number after the material: the density of the particles, until 2013-12 their mass.
   void density_or_mass(const Statement& statement, CaseBody& body, double material) {
     const double given = statement.numbers[2], volume = body.spacing * body.spacing * body.spacing;
-    const auto near = [](double left, double right,
-        double tolerance) { return std::abs(left - right) <= tolerance * std::abs(right); };
+    const auto near = [](double left, double right, double tolerance) {
+      return std::abs(left - right) <= tolerance * std::abs(right);
+    };
     const bool like_mass = near(given, material * volume, 0.02);
     if (options_.old_mass && like_mass) {
       body.mass = body.particles * given;
@@ -181,11 +188,14 @@ class BodyBuilder {
     }
     body.mass = body.particles * given * volume;
     if (near(given, material, 1e-6)) return;
-    import_.remark(Outcome::missing, statement.line, statement.name(),
-                   fmt::format("{}: density {} of the particles is not that of material {}, {}{}", body.name,
-                       number(given), body.material,
-                               number(material),
-                               like_mass ? "; it looks like the mass of a particle of the old format: --old-mass takes it for that" : ""));
+    import_.remark(
+        Outcome::missing, statement.line, statement.name(),
+        fmt::format(
+            "{}: density {} of the particles is not that of material {}, {}{}", body.name, number(given),
+            body.material, number(material),
+            like_mass
+                ? "; it looks like the mass of a particle of the old format: --old-mass takes it for that"
+                : ""));
   }
 
   void points(const Statement& statement, CaseBody& body, Numbers& numbers) {
@@ -215,8 +225,10 @@ class BodyBuilder {
     const bool alike = !mixed && least > 0.0 && greatest - least <= 1e-3 * greatest;
     const auto boxes = alike ? boxes_of_points(places, body.spacing, most_boxes) : std::nullopt;
     if (!boxes) {
-      import_.remark(Outcome::missing, statement.line, statement.name(),
-                     fmt::format("{}: {} points that fill no cubic lattice of equal particles: bodies of given points", body.name, places.size()));
+      import_.remark(
+          Outcome::missing, statement.line, statement.name(),
+          fmt::format("{}: {} points that fill no cubic lattice of equal particles: bodies of given points",
+                      body.name, places.size()));
       return;
     }
     body.lower -= Vector3::Constant(0.5 * body.spacing);
@@ -224,9 +236,10 @@ class BodyBuilder {
     std::string list;
     for (const LatticeBox& each : *boxes) list += (list.empty() ? "" : ",\n  ") + box(each.lower, each.upper);
     body.shape = boxes->size() == 1 ? list : fmt::format("{{ union = [{}] }}", list);
-    body.description += fmt::format(" of a cubic lattice, {} box{}", boxes->size(), boxes->size() == 1 ? "" : "es");
-    import_.remark(Outcome::converted, statement.line, statement.name(), fmt::format("{}: {}", body.name,
-        body.description));
+    body.description +=
+        fmt::format(" of a cubic lattice, {} box{}", boxes->size(), boxes->size() == 1 ? "" : "es");
+    import_.remark(Outcome::converted, statement.line, statement.name(),
+                   fmt::format("{}: {}", body.name, body.description));
   }
 
   void velocities() {
@@ -241,15 +254,17 @@ class BodyBuilder {
       const std::vector<double>& n = statement->numbers;
       if (statement->kind == "body") {
         if (n[0] < 1.0 || n[0] >= static_cast<double>(bodies_.size()) + 1.0) {
-          faults_.push_back(fault(*statement, fmt::format("there is no body {} ({} 'part' above it)", number(n[0]),
-              bodies_.size())));
+          faults_.push_back(fault(*statement, fmt::format("there is no body {} ({} 'part' above it)",
+                                                          number(n[0]), bodies_.size())));
           continue;
         }
         CaseBody& body = bodies_[static_cast<std::size_t>(n[0]) - 1];
         body.velocity = Vector3(n[1], n[2], n[3]);
-        import_.remark(Outcome::exact, statement->line, statement->name(), fmt::format("velocity of {}", body.name));
+        import_.remark(Outcome::exact, statement->line, statement->name(),
+                       fmt::format("velocity of {}", body.name));
       } else if (statement->kind == "node") {
-        const auto found = std::ranges::find_if(numbers_, [&](const Numbers& numbers) { return numbers.holds(n[0]); });
+        const auto found =
+            std::ranges::find_if(numbers_, [&](const Numbers& numbers) { return numbers.holds(n[0]); });
         if (found == numbers_.end()) {
           faults_.push_back(fault(*statement, fmt::format("there is no particle {}", number(n[0]))));
           continue;
@@ -261,7 +276,7 @@ class BodyBuilder {
         if (common.particles++ == 0.0) common.line = statement->line;
       } else {
         import_.remark(Outcome::missing, statement->line, statement->name(),
-            "built-in velocity field of a test of that code");
+                       "built-in velocity field of a test of that code");
       }
     }
     for (std::size_t i = 0; i < given.size(); ++i) {
@@ -269,10 +284,11 @@ class BodyBuilder {
       if (common.particles == 0.0) continue;
       const bool whole = common.one && common.particles >= bodies_[i].particles;
       if (whole) bodies_[i].velocity = common.velocity;
-      import_.remark(whole ? Outcome::converted : Outcome::missing, common.line, "velo node",
-                     whole ? fmt::format("all particles of {} have one velocity: that of the body", bodies_[i].name)
-                           : fmt::format("velocities of {} particles of {} one by one", common.particles,
-                               bodies_[i].name));
+      import_.remark(
+          whole ? Outcome::converted : Outcome::missing, common.line, "velo node",
+          whole ? fmt::format("all particles of {} have one velocity: that of the body", bodies_[i].name)
+                : fmt::format("velocities of {} particles of {} one by one", common.particles,
+                              bodies_[i].name));
     }
   }
 
@@ -289,9 +305,8 @@ class BodyBuilder {
 
 }  // namespace
 
-std::vector<CaseBody> bodies_of(const Deck& deck, const std::map<int, double>& density, const UnitSystem& units,
-    const BodyOptions& options,
-                                Import& import) {
+std::vector<CaseBody> bodies_of(const Deck& deck, const std::map<int, double>& density,
+                                const UnitSystem& units, const BodyOptions& options, Import& import) {
   return BodyBuilder(deck, density, units, options, import).build();
 }
 

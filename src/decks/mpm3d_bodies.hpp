@@ -25,15 +25,15 @@ struct CaseBody {
 };
 
 struct BodyOptions {
-  bool old_mass = false;  ///< the number after the material is the mass of a particle, as in decks before 2013-12
+  bool old_mass =
+      false;  ///< the number after the material is the mass of a particle, as in decks before 2013-12
 };
 
 /// Builds the bodies of a deck with their shapes and velocities, and remarks upon every `part` and `velo`.
 /// @param density  of each material, by number
 /// @throws InputError for impossible numbers, materials that the deck does not define and velocities of bodies that it
 ///         does not have
-std::vector<CaseBody> bodies_of(const Deck& deck, const std::map<int, double>& density, const UnitSystem& units,
-    const BodyOptions& options,
-                                Import& import);
+std::vector<CaseBody> bodies_of(const Deck& deck, const std::map<int, double>& density,
+                                const UnitSystem& units, const BodyOptions& options, Import& import);
 
 }  // namespace whipple::decks::mpm3d

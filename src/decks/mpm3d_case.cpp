@@ -15,6 +15,7 @@
 #include "src/core/base/tensor.hpp"
 #include "src/core/base/text.hpp"
 #include "src/decks/mpm3d_bodies.hpp"
+#include "src/decks/mpm3d_grid.hpp"
 #include "src/decks/mpm3d_material.hpp"
 #include "src/decks/toml_text.hpp"
 
@@ -71,29 +72,35 @@ class CaseBuilder {
   const Statement* one(Keyword keyword) {
     const std::vector<const Statement*> all = deck_.all(keyword);
     for (std::size_t i = 0; i + 1 < all.size(); ++i) {
-      remark(Outcome::dropped, *all[i], fmt::format("given again in line {}, which counts", all.back()->line));
+      remark(Outcome::dropped, *all[i],
+             fmt::format("given again in line {}, which counts", all.back()->line));
     }
     return all.empty() ? nullptr : all.back();
   }
   [[nodiscard]] std::string length(double value) const { return units_.quantity(value, dimension::length); }
   [[nodiscard]] std::string vector(const Vector3& v, const Dimension& dimension) const {
     return fmt::format("[{}, {}, {}]", units_.quantity(v[0], dimension), units_.quantity(v[1], dimension),
-        units_.quantity(v[2], dimension));
+                       units_.quantity(v[2], dimension));
   }
-  [[nodiscard]] std::string line_of(const Statement& statement) const { return fmt::format("line {}", statement.line); }
+  [[nodiscard]] std::string line_of(const Statement& statement) const {
+    return fmt::format("line {}", statement.line);
+  }
 
   void units() {
     if (options_.units) {
       units_ = *options_.units;
       if (deck_.units) {
-        import_.remark(Outcome::dropped, deck_.units_line, "! Unit", "the comment's units; those of --units count");
+        import_.remark(Outcome::dropped, deck_.units_line, "! Unit",
+                       "the comment's units; those of --units count");
       }
     } else if (deck_.units) {
       units_ = *deck_.units;
       import_.remark(Outcome::exact, deck_.units_line, "! Unit",
                      fmt::format("{}, {}, {}, as the comment says", units_.length, units_.mass, units_.time));
     } else {
-      fault(1, "the deck does not say its units in a comment (\"! Unit: mm g N ms MPa\"): give them as in --units 'mm g ms'");
+      fault(1,
+            "the deck does not say its units in a comment (\"! Unit: mm g N ms MPa\"): give them as in "
+            "--units 'mm g ms'");
     }
     import_.units = fmt::format("{} {} {}", units_.length, units_.mass, units_.time);
   }
@@ -102,15 +109,16 @@ class CaseBuilder {
   void required() {
     const auto present = [&](Keyword keyword) { return deck_.last(keyword) != nullptr; };
     const unsigned line = deck_.statements.empty() ? 1 : deck_.statements.back().line;
-    if (!present(Keyword::grid) && !(present(Keyword::span_x) && present(Keyword::span_y) &&
-        present(Keyword::span_z))) {
+    if (!present(Keyword::grid) &&
+        !(present(Keyword::span_x) && present(Keyword::span_y) && present(Keyword::span_z))) {
       fault(line, "the deck has no 'grid' (nor spx, spy and spz)");
     }
     for (const Keyword keyword : {Keyword::cell, Keyword::end_time, Keyword::material, Keyword::body}) {
       const Statement* statement = deck_.last(keyword);
       if (statement == nullptr) {
         fault(line, fmt::format("the deck has no '{}'", word_of(keyword)));
-      } else if ((keyword == Keyword::cell || keyword == Keyword::end_time) && !(statement->numbers[0] > 0.0)) {
+      } else if ((keyword == Keyword::cell || keyword == Keyword::end_time) &&
+                 !(statement->numbers[0] > 0.0)) {
         fault(statement->line, fmt::format("'{}' must be > 0", word_of(keyword)));
       }
     }
@@ -121,29 +129,29 @@ class CaseBuilder {
     for (const CaseBody& body : bodies_) particles += body.particles;
     if (const Statement* statement = one(Keyword::particles)) {
       if (particles > statement->numbers[0]) {
-        fault(statement->line, fmt::format("nbmp is {}, the bodies have {} particles", number(statement->numbers[0]),
-            number(particles)));
+        fault(statement->line, fmt::format("nbmp is {}, the bodies have {} particles",
+                                           number(statement->numbers[0]), number(particles)));
       }
-      remark(Outcome::converted, *statement, fmt::format("{} particles in the bodies; shapes are filled again",
-          number(particles)));
+      remark(Outcome::converted, *statement,
+             fmt::format("{} particles in the bodies; shapes are filled again", number(particles)));
     }
     if (const Statement* statement = one(Keyword::bodies)) {
       if (statement->numbers[0] < static_cast<double>(bodies_.size())) {
-        fault(statement->line, fmt::format("nbbo is {}, there are {} bodies", number(statement->numbers[0]),
-            bodies_.size()));
+        fault(statement->line,
+              fmt::format("nbbo is {}, there are {} bodies", number(statement->numbers[0]), bodies_.size()));
       }
       remark(Outcome::exact, *statement, fmt::format("{} bodies", bodies_.size()));
     }
-    if (const Statement* statement = one(Keyword::components)) remark(Outcome::exact, *statement,
-        "components: contact_group of the bodies");
+    if (const Statement* statement = one(Keyword::components))
+      remark(Outcome::exact, *statement, "components: contact_group of the bodies");
     if (const Statement* statement = one(Keyword::materials)) {
       remark(Outcome::exact, *statement, fmt::format("{} materials", import_.files.size()));
     }
   }
 
   void head() {
-    toml_.comment(fmt::format("Written by 'whipple import' from {}, a deck of {}; see import.txt.", import_.deck,
-        grammar));
+    toml_.comment(fmt::format("Written by 'whipple import' from {}, a deck of {}; see import.txt.",
+                              import_.deck, grammar));
     const Statement* title = one(Keyword::title);
     toml_.text_entry("title", title != nullptr && !title->kind.empty() ? title->kind : import_.deck);
     if (title != nullptr) remark(Outcome::exact, *title, "title");
@@ -152,7 +160,7 @@ class CaseBuilder {
   void domain() {
     cell_ = deck_.last(Keyword::cell)->numbers[0];
     remark(Outcome::exact, *one(Keyword::cell), "domain.cell_size");
-    spans();
+    grid_ = grid_of(deck_, import_);
     const Statement* fixed = one(Keyword::fixed);
     static constexpr std::array names = {"outflow", "no_slip", "symmetry"};
     std::array<int, 6> faces = {};
@@ -160,7 +168,8 @@ class CaseBuilder {
       for (std::size_t i = 0; i < 6; ++i) {
         faces[i] = whole(fixed->numbers[i]);
         if (faces[i] < 0 || faces[i] > 2) {
-          fault(fixed->line, fmt::format("'fixe' takes 0 (free), 1 (fixed) or 2 (symmetry), not {}", faces[i]));
+          fault(fixed->line,
+                fmt::format("'fixe' takes 0 (free), 1 (fixed) or 2 (symmetry), not {}", faces[i]));
           faces[i] = 0;
         }
       }
@@ -168,76 +177,53 @@ class CaseBuilder {
     }
     whole_cells(faces);
     toml_.table("[domain]");
-    toml_.entry("lower", vector(lower_, dimension::length));
-    toml_.entry("upper", vector(upper_, dimension::length));
+    toml_.entry("lower", vector(grid_.lower, dimension::length));
+    toml_.entry("upper", vector(grid_.upper, dimension::length));
     toml_.entry("cell_size", length(cell_), line_of(*deck_.last(Keyword::cell)));
     std::string boundary;
     static constexpr std::array keys = {"x_lower", "x_upper", "y_lower", "y_upper", "z_lower", "z_upper"};
     for (std::size_t i = 0; i < 6; ++i) {
-      if (faces[i] != 0) boundary += fmt::format("{}{} = \"{}\"", boundary.empty() ? "" : ", ", keys[i],
-          names[static_cast<std::size_t>(faces[i])]);
+      if (faces[i] != 0)
+        boundary += fmt::format("{}{} = \"{}\"", boundary.empty() ? "" : ", ", keys[i],
+                                names[static_cast<std::size_t>(faces[i])]);
     }
     if (!boundary.empty()) toml_.entry("boundary", fmt::format("{{ {} }}", boundary), line_of(*fixed));
-  }
-
-  /// The corners of the grid; of `grid` and the three spans the later statement counts.
-  void spans() {
-    for (const Statement& statement : deck_.statements) {
-      const std::vector<double>& n = statement.numbers;
-      switch (statement.keyword) {
-        case Keyword::grid:
-          lower_ = Vector3(n[0], n[2], n[4]);
-          upper_ = Vector3(n[1], n[3], n[5]);
-          break;
-        case Keyword::span_x:
-        case Keyword::span_y:
-        case Keyword::span_z: {
-          const int axis = static_cast<int>(statement.keyword) - static_cast<int>(Keyword::span_x);
-          lower_[axis] = n[0];
-          upper_[axis] = n[1];
-          break;
-        }
-        default:
-          continue;
-      }
-      grid_line_ = statement.line;
-      remark(Outcome::exact, statement, "domain");
-    }
   }
 
   /// MPM3D-F90 rounds the grid to whole cells and leaves out particles beyond it in silence; here the domain grows by
   /// whole cells around the bodies, at faces that are open.
   void whole_cells(const std::array<int, 6>& faces) {
     for (int i = 0; i < 3; ++i) {
-      if (!(upper_[i] > lower_[i])) {
-        fault(grid_line_, "the grid must have its lower end first");
+      if (!(grid_.upper[i] > grid_.lower[i])) {
+        fault(grid_.line, "the grid must have its lower end first");
         return;
       }
-      const double cells = std::floor((upper_[i] - lower_[i]) / cell_ + 0.5);
+      const double cells = std::floor((grid_.upper[i] - grid_.lower[i]) / cell_ + 0.5);
       if (cells < 1.0 || cells > 1e6) {
-        fault(grid_line_, fmt::format("the grid has {} cells along {}", number(cells), "xyz"[i]));
+        fault(grid_.line, fmt::format("the grid has {} cells along {}", number(cells), "xyz"[i]));
         return;
       }
-      upper_[i] = lower_[i] + cells * cell_;
+      grid_.upper[i] = grid_.lower[i] + cells * cell_;
       double below = 0.0, above = 0.0;
       for (const CaseBody& body : bodies_) {
-        below = std::max(below, std::ceil((lower_[i] - body.lower[i]) / cell_ - 1e-6));
-        above = std::max(above, std::ceil((body.upper[i] - upper_[i]) / cell_ - 1e-6));
+        below = std::max(below, std::ceil((grid_.lower[i] - body.lower[i]) / cell_ - 1e-6));
+        above = std::max(above, std::ceil((body.upper[i] - grid_.upper[i]) / cell_ - 1e-6));
       }
       const std::size_t face = 2 * static_cast<std::size_t>(i);
       if (faces[face] != 0) below = 0.0;
       if (faces[face + 1] != 0) above = 0.0;
       if (below + above > 1e6) {
-        fault(grid_line_, fmt::format("a body lies {} cells beyond the grid along {}", number(below + above),
-            "xyz"[i]));
+        fault(grid_.line,
+              fmt::format("a body lies {} cells beyond the grid along {}", number(below + above), "xyz"[i]));
         return;
       }
-      lower_[i] -= below * cell_;
-      upper_[i] += above * cell_;
+      grid_.lower[i] -= below * cell_;
+      grid_.upper[i] += above * cell_;
       if (below + above > 0.0) {
-        import_.remark(Outcome::converted, grid_line_, "grid",
-                       fmt::format("bodies stick out of the deck's grid along {}: the domain has {} cells more there",
-                           "xyz"[i], number(below + above)));
+        import_.remark(
+            Outcome::converted, grid_.line, "grid",
+            fmt::format("bodies stick out of the deck's grid along {}: the domain has {} cells more there",
+                        "xyz"[i], number(below + above)));
       }
     }
   }
@@ -252,10 +238,13 @@ class CaseBuilder {
       if (!(value > 0.0) || value > 2.5) fault(factor->line, "'dtsc' must be > 0 and at most 2.5");
       if (value < usual_courant && (value >= least_courant || options_.same_method)) {
         toml_.entry("courant", number(value), line_of(*factor));
-        remark(Outcome::converted, *factor, "time.courant; the sound speed is the present one, not that of the start");
+        remark(Outcome::converted, *factor,
+               "time.courant; the sound speed is the present one, not that of the start");
       } else {
         remark(Outcome::converted, *factor,
-               fmt::format("time.courant stays {}: MPM3D-F90 takes the elastic sound speed, this program the present one", usual_courant));
+               fmt::format("time.courant stays {}: MPM3D-F90 takes the elastic sound speed, this program the "
+                           "present one",
+                           usual_courant));
       }
     }
     scheme();
@@ -267,14 +256,15 @@ class CaseBuilder {
       const Statement* statement = one(keyword);
       if (statement == nullptr) continue;
       if (statement->kind == "on") word = word_of(keyword);
-      remark(Outcome::converted, *statement, options_.same_method ? "time.scheme"
-          : "this program's own scheme; --same-method keeps it");
+      remark(Outcome::converted, *statement,
+             options_.same_method ? "time.scheme" : "this program's own scheme; --same-method keeps it");
     }
     if (options_.same_method) toml_.entry("scheme", fmt::format("\"{}\"", word));
     if (const Statement* statement = one(Keyword::jaumann)) {
       const bool on = statement->kind == "on";
-      remark(on ? Outcome::converted : Outcome::missing, *statement,
-             on ? "stresses turn with the middle of the step" : "stresses that do not turn with the material");
+      remark(
+          on ? Outcome::converted : Outcome::missing, *statement,
+          on ? "stresses turn with the middle of the step" : "stresses that do not turn with the material");
     }
   }
 
@@ -286,8 +276,9 @@ class CaseBuilder {
     if (bspline != nullptr) shape = "quadratic_bspline";
     for (const Statement* statement : {gimp, bspline}) {
       if (statement == nullptr) continue;
-      remark(Outcome::converted, *statement, options_.same_method ? "transfer.shape_function"
-          : "quadratic B-splines; --same-method keeps it");
+      remark(
+          Outcome::converted, *statement,
+          options_.same_method ? "transfer.shape_function" : "quadratic B-splines; --same-method keeps it");
     }
     if (!options_.same_method) return;
     toml_.table("[transfer]");
@@ -296,11 +287,11 @@ class CaseBuilder {
 
   void viscosity() {
     const Statement* bulk = one(Keyword::bulk_viscosity);
-    const double quadratic = bulk != nullptr ? bulk->numbers[0] : default_quadratic, linear = bulk != nullptr
-        ? bulk->numbers[1] : default_linear;
+    const double quadratic = bulk != nullptr ? bulk->numbers[0] : default_quadratic,
+                 linear = bulk != nullptr ? bulk->numbers[1] : default_linear;
     if (quadratic < 0.0 || linear < 0.0) fault(bulk->line, "'bulk' must be >= 0");
-    toml_.table("[artificial_viscosity]", bulk != nullptr ? line_of(*bulk)
-        : "the deck has no 'bulk': defaults of MPM3D-F90");
+    toml_.table("[artificial_viscosity]",
+                bulk != nullptr ? line_of(*bulk) : "the deck has no 'bulk': defaults of MPM3D-F90");
     toml_.entry("quadratic", number(quadratic));
     toml_.entry("linear", number(linear));
     if (bulk != nullptr) remark(Outcome::exact, *bulk, "artificial_viscosity");
@@ -327,8 +318,8 @@ class CaseBuilder {
       const std::vector<double>& n = load->numbers;
       if (load->kind != "grav") continue;
       const int body = whole(n[0]);
-      if (body < 1 || body > static_cast<int>(bodies_.size())) fault(load->line, fmt::format("there is no body {}",
-          body));
+      if (body < 1 || body > static_cast<int>(bodies_.size()))
+        fault(load->line, fmt::format("there is no body {}", body));
       given[body] = Vector3(n[1], n[2], n[3]);
       if (first == nullptr) first = load;
     }
@@ -339,18 +330,19 @@ class CaseBuilder {
       auto& [where, count] = forces[load->kind];
       if (count++ == 0) where = load;
     }
-    for (const auto& [kind, entry] : forces) remark(Outcome::missing, *entry.first, fmt::format("{} given forces",
-        entry.second));
+    for (const auto& [kind, entry] : forces)
+      remark(Outcome::missing, *entry.first, fmt::format("{} given forces", entry.second));
     if (first == nullptr) return;
     const Vector3 common = given.begin()->second;
-    const bool one_for_all = given.size() >= bodies_.size() && std::ranges::all_of(given,
-        [&](const auto& each) { return each.second == common; });
+    const bool one_for_all =
+        given.size() >= bodies_.size() &&
+        std::ranges::all_of(given, [&](const auto& each) { return each.second == common; });
     if (one_for_all) {
       toml_.table("[gravity]", line_of(*first));
       toml_.entry("acceleration", vector(common, dimension::acceleration));
     }
-    remark(one_for_all ? Outcome::exact : Outcome::missing, *first, one_for_all ? "gravity"
-        : "gravity that differs between bodies");
+    remark(one_for_all ? Outcome::exact : Outcome::missing, *first,
+           one_for_all ? "gravity" : "gravity that differs between bodies");
   }
 
   void add(const CaseBody& body, const CaseMaterial& material) {
@@ -367,14 +359,16 @@ class CaseBuilder {
     if (grouped_) toml_.entry("contact_group", fmt::format("\"component_{}\"", body.component));
     const double across = std::round(cell_ / body.spacing);
     if (across >= 1.0 && across <= 4.0) {
-      if (across != 2.0) toml_.entry("discretization", fmt::format("{{ per_cell = {} }}", across * across * across));
+      if (across != 2.0)
+        toml_.entry("discretization", fmt::format("{{ per_cell = {} }}", across * across * across));
     } else {
-      remark(Outcome::converted, *body.statement, fmt::format("{}: {} spacings in a cell become 2", body.name, across));
+      remark(Outcome::converted, *body.statement,
+             fmt::format("{}: {} spacings in a cell become 2", body.name, across));
     }
     toml_.entry("shape", body.shape);
     if (material.initial_pressure != 0.0) {
-      toml_.entry("initial", fmt::format("{{ density = {}, pressure = {} }}", units_.quantity(material.density,
-          dimension::density),
+      toml_.entry("initial", fmt::format("{{ density = {}, pressure = {} }}",
+                                         units_.quantity(material.density, dimension::density),
                                          units_.quantity(material.initial_pressure, dimension::pressure)));
     }
   }
@@ -400,16 +394,17 @@ class CaseBuilder {
     toml_.table("[output]");
     if (const Statement* interval = one(Keyword::output_interval)) {
       if (!(interval->numbers[0] >= 0.0)) fault(interval->line, "'outt' must be >= 0");
-      toml_.entry("snapshot_every", units_.quantity(interval->numbers[0], dimension::time), line_of(*interval));
+      toml_.entry("snapshot_every", units_.quantity(interval->numbers[0], dimension::time),
+                  line_of(*interval));
       remark(Outcome::exact, *interval, "output.snapshot_every");
     }
     // Fields of the deck by those of a snapshot; empty: there is none.
     static const std::map<std::string, std::string> names = {
-        {"seqv", "von_mises_stress"}, {"epef", "plastic_strain"}, {"mat", "material"}, {"pres", "pressure"}, {"volu",
-            "volume"},
-        {"engi", "internal_energy"},  {"velx", "velocity"},       {"vely", "velocity"}, {"velz", "velocity"}, {"cels",
-            "temperature"},
-        {"fail", "failed"},           {"sspd", "sound_speed"},    {"damg", "damage"},   {"stsx", "stress"}};
+        {"seqv", "von_mises_stress"}, {"epef", "plastic_strain"}, {"mat", "material"},
+        {"pres", "pressure"},         {"volu", "volume"},         {"engi", "internal_energy"},
+        {"velx", "velocity"},         {"vely", "velocity"},       {"velz", "velocity"},
+        {"cels", "temperature"},      {"fail", "failed"},         {"sspd", "sound_speed"},
+        {"damg", "damage"},           {"stsx", "stress"}};
     std::vector<std::string> fields;
     for (const Statement* field : deck_.all(Keyword::output_field)) {
       const auto found = names.find(field->kind);
@@ -482,9 +477,8 @@ class CaseBuilder {
   TomlText toml_;
   std::vector<CaseBody> bodies_;
   std::vector<InputFault> faults_;
-  Vector3 lower_ = Vector3::Zero(), upper_ = Vector3::Zero();
+  GridOfDeck grid_;
   double cell_ = 0.0;
-  unsigned grid_line_ = 0;
   bool grouped_ = false;
 };
 

@@ -29,23 +29,21 @@ struct Kind {
   std::size_t numbers;
 };
 constexpr std::array material_kinds = {Kind{"elas", 3}, Kind{"pla1", 4}, Kind{"pla2", 5}, Kind{"john", 12},
-    Kind{"sjc", 8}, Kind{"sjcf", 9},
-                                       Kind{"jcf", 13}, Kind{"hiex", 2}, Kind{"null", 3}, Kind{"dpm", 7},
-                                           Kind{"neoh", 3}};
+                                       Kind{"sjc", 8},  Kind{"sjcf", 9}, Kind{"jcf", 13}, Kind{"hiex", 2},
+                                       Kind{"null", 3}, Kind{"dpm", 7},  Kind{"neoh", 3}};
 /// Component, material, density, spacing, a point and what the kind needs; the points of "poin" are read apart.
-constexpr std::array body_kinds = {Kind{"poin", 2}, Kind{"bloc", 10}, Kind{"sphe", 8}, Kind{"blod", 14}, Kind{"cicl",
-    8}};
-constexpr std::array load_kinds = {Kind{"endl", 0}, Kind{"part", 4}, Kind{"body", 4}, Kind{"grav", 4}, Kind{"node", 4}};
-constexpr std::array velocity_kinds = {Kind{"endv", 0}, Kind{"node", 4}, Kind{"body", 4}, Kind{"ksin", 2},
-    Kind{"nuli", 1}, Kind{"vsin", 1}};
+constexpr std::array body_kinds = {Kind{"poin", 2}, Kind{"bloc", 10}, Kind{"sphe", 8}, Kind{"blod", 14},
+                                   Kind{"cicl", 8}};
+constexpr std::array load_kinds = {Kind{"endl", 0}, Kind{"part", 4}, Kind{"body", 4}, Kind{"grav", 4},
+                                   Kind{"node", 4}};
+constexpr std::array velocity_kinds = {Kind{"endv", 0}, Kind{"node", 4}, Kind{"body", 4},
+                                       Kind{"ksin", 2}, Kind{"nuli", 1}, Kind{"vsin", 1}};
 constexpr std::array contact_kinds = {Kind{"lagr", 2}, Kind{"othe", 2}};
 constexpr std::array switch_kinds = {Kind{"on", 0}, Kind{"off", 0}};
-constexpr std::array fields = {Kind{"seqv", 0}, Kind{"epef", 0}, Kind{"mat", 0},  Kind{"pres", 0}, Kind{"volu", 0},
-    Kind{"engk", 0},
-                               Kind{"engi", 0}, Kind{"velx", 0}, Kind{"vely", 0}, Kind{"velz", 0}, Kind{"cels", 0},
-                                   Kind{"fail", 0},
-                               Kind{"sspd", 0}, Kind{"damg", 0}, Kind{"stsx", 0}, Kind{"disx", 0}, Kind{"disy", 0},
-                                   Kind{"disz", 0}};
+constexpr std::array fields = {
+    Kind{"seqv", 0}, Kind{"epef", 0}, Kind{"mat", 0},  Kind{"pres", 0}, Kind{"volu", 0}, Kind{"engk", 0},
+    Kind{"engi", 0}, Kind{"velx", 0}, Kind{"vely", 0}, Kind{"velz", 0}, Kind{"cels", 0}, Kind{"fail", 0},
+    Kind{"sspd", 0}, Kind{"damg", 0}, Kind{"stsx", 0}, Kind{"disx", 0}, Kind{"disy", 0}, Kind{"disz", 0}};
 /// Constants of the equations of state 1 to 4.
 constexpr std::array<std::size_t, 4> state_constants = {8, 4, 6, 1};
 
@@ -82,7 +80,8 @@ std::size_t numbers_after(Keyword keyword) {
 
 std::string key_of(std::string_view word) {
   std::string key(word.substr(0, 4));
-  std::ranges::transform(key, key.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::ranges::transform(key, key.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return key;
 }
 
@@ -121,7 +120,9 @@ class Reader {
   [[nodiscard]] InputFault fault(const Token& at, std::string what) const {
     return {.file = deck_.file.string(), .line = at.line, .column = at.column, .text = std::move(what)};
   }
-  [[noreturn]] void fail(const Token& at, std::string what) const { throw Broken{fault(at, std::move(what))}; }
+  [[noreturn]] void fail(const Token& at, std::string what) const {
+    throw Broken{fault(at, std::move(what))};
+  }
 
   /// Reads the next line that has words; false at the end of the text.
   bool next_line() {
@@ -135,7 +136,9 @@ class Reader {
       while (!content.empty() && content.back() == '\r') content.remove_suffix(1);
       find_units(content);
       if (content.size() > longest_line) {
-        deck_.notes.emplace_back(line_, fmt::format("MPM3D-F90 reads no more than {} characters of a line; the rest is left out", longest_line));
+        deck_.notes.emplace_back(
+            line_, fmt::format("MPM3D-F90 reads no more than {} characters of a line; the rest is left out",
+                               longest_line));
         content = content.substr(0, longest_line);
       }
       content = content.substr(0, content.find('!'));
@@ -147,7 +150,9 @@ class Reader {
         begin = content.find_first_not_of(between, stop);
       }
       if (words_.size() > most_words) {
-        deck_.notes.emplace_back(line_, fmt::format("{} words in a line: MPM3D-F90 has room for {}; all are read here", words_.size(), most_words));
+        deck_.notes.emplace_back(
+            line_, fmt::format("{} words in a line: MPM3D-F90 has room for {}; all are read here",
+                               words_.size(), most_words));
       }
     }
     std::ranges::reverse(words_);  // taken from the back
@@ -198,7 +203,8 @@ class Reader {
     if (text.front() != '-' && std::isdigit(static_cast<unsigned char>(text.front())) == 0) {
       fail(token, fmt::format("'{}' where {} is expected{}", text, what,
                               text.front() == '.' || text.front() == '+'
-                                  ? " (MPM3D-F90 reads no number that begins so)" : ""));
+                                  ? " (MPM3D-F90 reads no number that begins so)"
+                                  : ""));
     }
     for (char& c : text) {
       if (c == 'd' || c == 'D') c = 'e';
@@ -215,8 +221,8 @@ class Reader {
     if (words_.empty() && !next_line()) static_cast<void>(word(what));
     const Token token = words_.back();
     const double value = std::trunc(number(what));
-    if (value < least || value > most) fail(token, fmt::format("{} is {}, not between {} and {}", what, token.text,
-        least, most));
+    if (value < least || value > most)
+      fail(token, fmt::format("{} is {}, not between {} and {}", what, token.text, least, most));
     return value;
   }
 
@@ -237,7 +243,8 @@ class Reader {
   }
 
   Statement& add(Keyword keyword, std::string kind_word = {}) {
-    return deck_.statements.emplace_back(Statement{.keyword = keyword, .line = line_, .kind = std::move(kind_word)});
+    return deck_.statements.emplace_back(
+        Statement{.keyword = keyword, .line = line_, .kind = std::move(kind_word)});
   }
 
   /// An entry of a block "velo ... endv" or "load ... endl".
@@ -277,7 +284,8 @@ class Reader {
     statement.numbers.push_back(whole_number("the number of a material", 1.0, 1e6));
     const double type = whole_number("the type of an equation of state", 1.0, 4.0);
     statement.numbers.push_back(type);
-    numbers(statement, state_constants[static_cast<std::size_t>(type) - 1], fmt::format("seos type {}", type));
+    numbers(statement, state_constants[static_cast<std::size_t>(type) - 1],
+            fmt::format("seos type {}", type));
   }
 
   void statement() {
@@ -290,7 +298,8 @@ class Reader {
         break;
       case Keyword::title: {
         std::string_view title = rest_.substr(token.column - 1 + token.text.size());
-        title.remove_prefix(std::min(title.find_first_not_of(" \t,*"), title.size()));  // titles begin with "***"
+        title.remove_prefix(
+            std::min(title.find_first_not_of(" \t,*"), title.size()));  // titles begin with "***"
         while (!title.empty() && (title.back() == ' ' || title.back() == '\t')) title.remove_suffix(1);
         add(*keyword, std::string(title));
         words_.clear();
@@ -341,10 +350,11 @@ class Reader {
   }
 
   [[noreturn]] void unknown(const Token& token) {
-    if (!deck_.statements.empty() && (std::isdigit(static_cast<unsigned char>(token.text.front())) != 0 || token.text.front() == '-')) {
+    if (!deck_.statements.empty() &&
+        (std::isdigit(static_cast<unsigned char>(token.text.front())) != 0 || token.text.front() == '-')) {
       const Statement& before = deck_.statements.back();
-      fail(token, fmt::format("'{}' where a keyword is expected: too many numbers after '{}' (line {})", token.text,
-          before.name(), before.line));
+      fail(token, fmt::format("'{}' where a keyword is expected: too many numbers after '{}' (line {})",
+                              token.text, before.name(), before.line));
     }
     std::vector<std::string> known;
     for (const Word<Keyword>& each : words(Keyword{})) known.emplace_back(each.text);
@@ -352,9 +362,9 @@ class Reader {
   }
 
   Deck& deck_;
-  std::string_view text_;      ///< what is still to be read
-  std::string_view rest_;      ///< the line without its comment
-  std::vector<Token> words_;   ///< of the line, the next one last
+  std::string_view text_;     ///< what is still to be read
+  std::string_view rest_;     ///< the line without its comment
+  std::vector<Token> words_;  ///< of the line, the next one last
   std::vector<InputFault> faults_;
   unsigned line_ = 0;
   double materials_ = 0.0;

@@ -21,8 +21,13 @@ constexpr double least_kelvin = 200.0;
 class MaterialBuilder {
  public:
   MaterialBuilder(const Deck& deck, const UnitSystem& units, Import& import, const Statement& material,
-      const Statement* state)
-      : deck_(deck), units_(units), import_(import), material_(material), state_(state), n_(material.numbers) {}
+                  const Statement* state)
+      : deck_(deck),
+        units_(units),
+        import_(import),
+        material_(material),
+        state_(state),
+        n_(material.numbers) {}
 
   CaseMaterial build() {
     const int index = whole(n_[0]);
@@ -31,7 +36,7 @@ class MaterialBuilder {
                         .explosive = material_.kind == "hiex"};
     if (!(n_[1] > 0.0)) fail(material_, "the density must be > 0");
     toml_.comment(fmt::format("Written by 'whipple import' from {}; constants in the units of the deck.",
-        deck_.file.filename().string()));
+                              deck_.file.filename().string()));
     toml_.text_entry("name", fmt::format("material {} ({})", index, material_.kind));
     toml_.text_entry("source", source(material_));
     toml_.table("[eos]");
@@ -49,9 +54,10 @@ class MaterialBuilder {
 
  private:
   [[noreturn]] void fail(const Statement& statement, std::string text) const {
-    throw InputError(std::vector<InputFault>{
-        {.file = deck_.file.string(), .line = statement.line, .column = 1, .text = fmt::format("{}: {}",
-            statement.name(), text)}});
+    throw InputError(std::vector<InputFault>{{.file = deck_.file.string(),
+                                              .line = statement.line,
+                                              .column = 1,
+                                              .text = fmt::format("{}: {}", statement.name(), text)}});
   }
   [[nodiscard]] std::string source(const Statement& statement) const {
     return fmt::format("{}, line {}", deck_.file.filename().string(), statement.line);
@@ -74,10 +80,10 @@ class MaterialBuilder {
     } else {
       const LibraryHeat heat = nearest_heat(units_.in_si(n_[1], dimension::density), model);
       toml_.entry("heat_capacity", fmt::format("\"{} J/(kg K)\"", number(heat.value)),
-          "not in the deck: that of " + heat.material);
+                  "not in the deck: that of " + heat.material);
       remark(Outcome::converted, material_,
              fmt::format("no heat capacity in the deck: that of {}, {} J/(kg K); temperatures depend on it",
-                 heat.material, number(heat.value)));
+                         heat.material, number(heat.value)));
     }
   }
 
@@ -102,7 +108,7 @@ class MaterialBuilder {
         result.initial_pressure = c[4] * c[5];
         if (c[5] != 0.0) {
           remark(Outcome::converted, *state_,
-              "the initial energy E0 becomes the pressure of the body at the start, gamma0 E0");
+                 "the initial energy E0 becomes the pressure of the body at the start, gamma0 E0");
         } else {
           remark(Outcome::exact, *state_, "mie_gruneisen");
         }
@@ -117,17 +123,20 @@ class MaterialBuilder {
         quantity("gruneisen", c[6], dimension::none);
         quantity("detonation_energy", c[7], dimension::pressure);
         heat_capacity("jwl");
-        if (material_.kind == "hiex" && n_[2] > 0.0) quantity("detonation_velocity", n_[2], dimension::velocity);
+        if (material_.kind == "hiex" && n_[2] > 0.0)
+          quantity("detonation_velocity", n_[2], dimension::velocity);
         remark(Outcome::exact, *state_, "jwl");
         break;
       default:
         begin("polynomial", *state_);
         quantity("reference_density", n_[1], dimension::density);
-        quantity("C1", n_[1] * c[2] * c[2], dimension::pressure, "density times the square of the sound speed");
+        quantity("C1", n_[1] * c[2] * c[2], dimension::pressure,
+                 "density times the square of the sound speed");
         quantity("C4", 0.0, dimension::none);
         heat_capacity("mie_gruneisen");
         quantity("reference_temperature", start_temperature, {.temperature = 1});
-        remark(Outcome::converted, *state_, "polynomial with C1 = rho c^2: equal in compressions of some per cent");
+        remark(Outcome::converted, *state_,
+               "polynomial with C1 = rho c^2: equal in compressions of some per cent");
     }
   }
 
@@ -138,7 +147,8 @@ class MaterialBuilder {
     for (std::size_t i = 0; i < 7; ++i) {
       quantity(fmt::format("C{}", i).c_str(), c[2 + i], i < 4 ? dimension::pressure : dimension::none);
     }
-    if (c[9] != 0.0) quantity("reference_energy", c[9] / n_[1], dimension::specific_energy, "E0 over the density");
+    if (c[9] != 0.0)
+      quantity("reference_energy", c[9] / n_[1], dimension::specific_energy, "E0 over the density");
     heat_capacity("mie_gruneisen");
     quantity("reference_temperature", start_temperature, {.temperature = 1});
     remark(Outcome::exact, *state_, "polynomial");
@@ -163,7 +173,7 @@ class MaterialBuilder {
     heat_capacity("mie_gruneisen");
     quantity("reference_temperature", start_temperature, {.temperature = 1});
     remark(Outcome::converted, material_,
-        "no 'seos': pressure by the bulk modulus, p = K (rho/rho0 - 1), equal at small strains");
+           "no 'seos': pressure by the bulk modulus, p = K (rho/rho0 - 1), equal at small strains");
   }
 
   void elastic_constants() {
@@ -176,7 +186,8 @@ class MaterialBuilder {
     begin("neo_hookean", material_);
     quantity("shear_modulus", n_[2] / (2.0 * (1.0 + n_[3])), dimension::pressure, "E / (2 (1 + nu))");
     remark(Outcome::converted, material_,
-           "neo_hookean: shear of the isochoric deformation, pressure of the equation of state; equal at small strains");
+           "neo_hookean: shear of the isochoric deformation, pressure of the equation of state; equal at "
+           "small strains");
   }
 
   void strength() {
@@ -190,7 +201,8 @@ class MaterialBuilder {
       quantity("yield_stress", n_[4], dimension::pressure);
       if (material_.kind == "pla2") {
         if (!(n_[5] < n_[2])) fail(material_, "the tangent modulus must be less than Young's modulus");
-        quantity("hardening_modulus", n_[2] * n_[5] / (n_[2] - n_[5]), dimension::pressure, "E Et / (E - Et)");
+        quantity("hardening_modulus", n_[2] * n_[5] / (n_[2] - n_[5]), dimension::pressure,
+                 "E Et / (E - Et)");
       }
       remark(Outcome::exact, material_, "von_mises");
     } else if (material_.kind == "john" || material_.kind == "jcf") {
@@ -207,7 +219,8 @@ class MaterialBuilder {
         remark(Outcome::exact, material_, "a fluid without viscosity");
       } else if (material_.kind == "hiex") {
         remark(Outcome::converted, material_,
-               "programmed burn over two cells from an unreacted explosive; that code burns each particle at once");
+               "programmed burn over two cells from an unreacted explosive; that code burns each particle at "
+               "once");
       } else {
         remark(Outcome::missing, material_, "Drucker-Prager plasticity: no strength in the case");
       }
@@ -228,7 +241,9 @@ class MaterialBuilder {
     toml_.entry("melting_temperature", fmt::format("\"{} {}\"", number(n_[10]), scale));
     if (n_[9] < least_kelvin) {
       remark(Outcome::converted, material_,
-             fmt::format("johnson_cook; its room temperature {} is taken for degrees Celsius, while MPM3D-F90 starts particles at 293", number(n_[9])));
+             fmt::format("johnson_cook; its room temperature {} is taken for degrees Celsius, while "
+                         "MPM3D-F90 starts particles at 293",
+                         number(n_[9])));
     } else {
       remark(Outcome::exact, material_, "johnson_cook");
     }
@@ -255,7 +270,8 @@ class MaterialBuilder {
     quantity("rate_coefficient", n_[7], dimension::none);
     quantity("reference_rate", n_[8], dimension::rate);
     quantity("thermal_exponent", 1.0, dimension::none);
-    toml_.entry("reference_temperature", "\"1e8 K\"", "no thermal softening in the deck: none below this temperature");
+    toml_.entry("reference_temperature", "\"1e8 K\"",
+                "no thermal softening in the deck: none below this temperature");
     toml_.entry("melting_temperature", "\"2e8 K\"");
     remark(Outcome::converted, material_, "johnson_cook with temperatures of softening that nothing reaches");
   }
@@ -281,10 +297,12 @@ class MaterialBuilder {
 std::map<int, CaseMaterial> materials_of(const Deck& deck, const UnitSystem& units, Import& import) {
   std::vector<InputFault> faults;
   const auto fault = [&](const Statement& statement, std::string text) {
-    faults.push_back({.file = deck.file.string(), .line = statement.line, .column = 1, .text = std::move(text)});
+    faults.push_back(
+        {.file = deck.file.string(), .line = statement.line, .column = 1, .text = std::move(text)});
   };
   std::map<int, const Statement*> states;
-  for (const Statement* state : deck.all(Keyword::equation_of_state)) states[whole(state->numbers[0])] = state;
+  for (const Statement* state : deck.all(Keyword::equation_of_state))
+    states[whole(state->numbers[0])] = state;
   std::map<int, CaseMaterial> materials;
   for (const Statement* material : deck.all(Keyword::material)) {
     const int index = whole(material->numbers[0]);
@@ -294,15 +312,16 @@ std::map<int, CaseMaterial> materials_of(const Deck& deck, const UnitSystem& uni
     }
     const auto state = states.find(index);
     try {
-      materials[index] = MaterialBuilder(deck, units, import, *material, state == states.end() ? nullptr
-          : state->second).build();
+      materials[index] =
+          MaterialBuilder(deck, units, import, *material, state == states.end() ? nullptr : state->second)
+              .build();
     } catch (const InputError& error) {
       faults.insert(faults.end(), error.faults().begin(), error.faults().end());
     }
   }
   for (const auto& [index, state] : states) {
-    if (!materials.contains(index) && faults.empty()) fault(*state,
-        fmt::format("material {} is not among those of 'mate'", index));
+    if (!materials.contains(index) && faults.empty())
+      fault(*state, fmt::format("material {} is not among those of 'mate'", index));
   }
   if (!faults.empty()) throw InputError(std::move(faults));
   return materials;

@@ -11,9 +11,9 @@ namespace whipple::decks::mpm3d {
 
 /// A material of a deck as a material file.
 struct CaseMaterial {
-  std::string file;              ///< "materials/material_1.toml"
-  double density = 0.0;          ///< in the units of the deck
-  double initial_pressure = 0.0; ///< of an initial energy in Mie-Grueneisen; in the units of the deck
+  std::string file;               ///< "materials/material_1.toml"
+  double density = 0.0;           ///< in the units of the deck
+  double initial_pressure = 0.0;  ///< of an initial energy in Mie-Grueneisen; in the units of the deck
   bool explosive = false;
 };
 

@@ -69,7 +69,9 @@ LibraryHeat nearest_heat(double density, std::string_view model) {
       nearest = {constants.heat_capacity, entry.material};
     }
   }
-  if (nearest.material.empty()) throw InputError(fmt::format("the material library has no material with the equation of state {}", model));
+  if (nearest.material.empty())
+    throw InputError(
+        fmt::format("the material library has no material with the equation of state {}", model));
   return nearest;
 }
 

@@ -18,7 +18,7 @@ std::string Import::report() const {
   std::vector<std::vector<std::string>> rows = {{"body", "particles of the deck", "mass g", "shape"}};
   for (const BodyRow& body : bodies) {
     rows.push_back({body.name, fmt::format("{:.0f}", body.particles), fmt::format("{:.6g}", 1e3 * body.mass),
-        body.shape});
+                    body.shape});
   }
   text += text_table(rows, "lrrl");
   for (const Word<Outcome>& word : words(Outcome{})) {
@@ -26,7 +26,8 @@ std::string Import::report() const {
     rows.clear();
     for (const Remark& remark : remarks) {
       if (remark.outcome != word.value) continue;
-      rows.push_back({"", remark.line == 0 ? "-" : fmt::format("line {}", remark.line), remark.keyword, remark.text});
+      rows.push_back(
+          {"", remark.line == 0 ? "-" : fmt::format("line {}", remark.line), remark.keyword, remark.text});
     }
     text += text_table(rows, "llll");
   }

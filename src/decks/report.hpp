@@ -18,8 +18,10 @@ enum class Outcome {
   missing,    ///< physics that the case does not have
 };
 constexpr std::array<Word<Outcome>, 4> words(Outcome /*of*/) {
-  return {{{Outcome::exact, "exact"}, {Outcome::converted, "converted"}, {Outcome::dropped, "dropped"},
-      {Outcome::missing, "missing"}}};
+  return {{{Outcome::exact, "exact"},
+           {Outcome::converted, "converted"},
+           {Outcome::dropped, "dropped"},
+           {Outcome::missing, "missing"}}};
 }
 
 struct Remark {
@@ -44,9 +46,9 @@ struct CaseFile {
 
 /// A deck as a case: what is to be written, and what is to be said about it.
 struct Import {
-  std::string deck;      ///< file name of the deck
-  std::string grammar;   ///< whose grammar was followed
-  std::string units;     ///< "mm g ms"
+  std::string deck;     ///< file name of the deck
+  std::string grammar;  ///< whose grammar was followed
+  std::string units;    ///< "mm g ms"
   std::string case_text;
   std::vector<CaseFile> files;
   std::vector<BodyRow> bodies;

@@ -31,6 +31,8 @@ void TomlText::table(std::string_view header, std::string_view remark) {
 void TomlText::entry(std::string_view key, std::string_view value, std::string_view remark) {
   line(fmt::format("{} = {}", key, value), remark);
 }
-void TomlText::text_entry(std::string_view key, std::string_view text) { entry(key, toml_string(printable(text))); }
+void TomlText::text_entry(std::string_view key, std::string_view text) {
+  entry(key, toml_string(printable(text)));
+}
 
 }  // namespace whipple::decks

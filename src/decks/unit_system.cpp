@@ -25,14 +25,15 @@ constexpr std::array times = {"s", "ms", "us", "ns"};
 constexpr std::array forces = {"N", "kN", "mN", "MN", "uN", "dyn"};
 constexpr std::array pressures = {"Pa", "kPa", "MPa", "GPa", "TPa", "bar", "Mbar"};
 /// Usual names, tried in this order where one of them is the product of a system's units.
-constexpr std::array usual = {"m/s", "km/s", "kg/m^3", "g/cm^3", "Pa", "kPa", "MPa", "GPa", "TPa", "Mbar", "J/kg",
-    "kJ/kg", "MJ/kg",
-                              "J/(kg K)", "kJ/(kg K)", "MJ/(kg K)", "Pa s", "kPa s", "mPa s", "N", "kN"};
+constexpr std::array usual = {"m/s",       "km/s",      "kg/m^3", "g/cm^3", "Pa",    "kPa",   "MPa",
+                              "GPa",       "TPa",       "Mbar",   "J/kg",   "kJ/kg", "MJ/kg", "J/(kg K)",
+                              "kJ/(kg K)", "MJ/(kg K)", "Pa s",   "kPa s",  "mPa s", "N",     "kN"};
 
 template <class Names>
 std::optional<std::string> found_in(const Names& names, const std::string& word) {
   const auto lower = [](std::string text) {
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::ranges::transform(text, text.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return text;
   };
   if (std::ranges::find(names, word) != names.end()) return word;
@@ -57,8 +58,10 @@ bool same(const std::string& left, const std::string& right) {
 
 std::string UnitSystem::unit(const Dimension& dimension) const {
   std::vector<std::string> above, below;
-  const std::array<std::pair<std::string, int>, 4> factors = {
-      {{mass, dimension.mass}, {length, dimension.length}, {time, dimension.time}, {"K", dimension.temperature}}};
+  const std::array<std::pair<std::string, int>, 4> factors = {{{mass, dimension.mass},
+                                                               {length, dimension.length},
+                                                               {time, dimension.time},
+                                                               {"K", dimension.temperature}}};
   for (const auto& [name, exponent] : factors) {
     if (exponent == 0) continue;
     const int power = std::abs(exponent);
@@ -88,8 +91,8 @@ double UnitSystem::in_si(double value, const Dimension& dimension) const {
 
 std::optional<UnitSystem> parse_unit_system(std::string_view text) {
   std::string words(text);
-  std::ranges::replace_if(words, [](char c) { return c == ',' || c == ';' || c == '-' || c == '\t' || c == '\r'; },
-      ' ');
+  std::ranges::replace_if(
+      words, [](char c) { return c == ',' || c == ';' || c == '-' || c == '\t' || c == '\r'; }, ' ');
   std::istringstream stream(words);
   UnitSystem system;
   std::vector<std::pair<std::string, Dimension>> derived;
@@ -110,8 +113,7 @@ std::optional<UnitSystem> parse_unit_system(std::string_view text) {
   for (const auto& [name, dimension] : derived) {
     if (!same(name, system.unit(dimension))) {
       throw InputError(fmt::format("units \"{}\" contradict each other: {}, {} and {} make {}, not {}", text,
-          system.length, system.mass,
-                                   system.time, system.unit(dimension), name));
+                                   system.length, system.mass, system.time, system.unit(dimension), name));
     }
   }
   return system;

@@ -45,11 +45,21 @@ struct Type {
   std::string_view beginning;
   int kind;
 };
-constexpr std::array types = {Type{"C3D8", hexahedron_kind}, Type{"DC3D8", hexahedron_kind}, Type{"T3D2", line_kind},
-                              Type{"B31", line_kind},        Type{"C3D20", 17},              Type{"C3D10", 11},
-                              Type{"C3D15", 18},             Type{"C3D4", 4},                Type{"C3D6", 6},
-                              Type{"S3", 2},                 Type{"S4", 3},                  Type{"R3D4", 3},
-                              Type{"R3D3", 2},               Type{"SFM3D4", 3},              Type{"MASS", 15}};
+constexpr std::array types = {Type{"C3D8", hexahedron_kind},
+                              Type{"DC3D8", hexahedron_kind},
+                              Type{"T3D2", line_kind},
+                              Type{"B31", line_kind},
+                              Type{"C3D20", 17},
+                              Type{"C3D10", 11},
+                              Type{"C3D15", 18},
+                              Type{"C3D4", 4},
+                              Type{"C3D6", 6},
+                              Type{"S3", 2},
+                              Type{"S4", 3},
+                              Type{"R3D4", 3},
+                              Type{"R3D3", 2},
+                              Type{"SFM3D4", 3},
+                              Type{"MASS", 15}};
 
 class AbaqusReader {
  public:
@@ -96,8 +106,9 @@ class AbaqusReader {
     throw InputError(fmt::format("{}:{}: error: {}", data_.path.string(), line_, what));
   }
   [[noreturn]] void refuse() {
-    fail("parts and assemblies are not read: write the input without them (Abaqus/CAE: \"Do not use parts and "
-         "assemblies in input files\")");
+    fail(
+        "parts and assemblies are not read: write the input without them (Abaqus/CAE: \"Do not use parts and "
+        "assemblies in input files\")");
   }
   [[noreturn]] void include() { fail("*INCLUDE is not read: put the file into this one"); }
   [[noreturn]] void generator() {
@@ -137,7 +148,8 @@ class AbaqusReader {
     std::ranges::replace(text, 'd', 'e');
     char* end = nullptr;
     const double value = std::strtod(text.c_str(), &end);
-    if (text.empty() || *end != '\0' || !std::isfinite(value)) fail(fmt::format("\"{}\" is not a coordinate", cell));
+    if (text.empty() || *end != '\0' || !std::isfinite(value))
+      fail(fmt::format("\"{}\" is not a coordinate", cell));
     return value;
   }
 
@@ -158,7 +170,8 @@ class AbaqusReader {
 
   void elements() {
     const std::string type = upper(parameters_["TYPE"]);
-    const auto found = std::ranges::find_if(types, [&](const Type& t) { return type.starts_with(t.beginning); });
+    const auto found =
+        std::ranges::find_if(types, [&](const Type& t) { return type.starts_with(t.beginning); });
     if (found == types.end()) fail(fmt::format("elements of the type \"{}\" are not known here", type));
     const ElementKind& kind = *element_kind(found->kind);
     const std::string& set = parameters_["ELSET"];
@@ -193,7 +206,8 @@ class AbaqusReader {
     MeshData::Element element{numbers.front(), line, kind.number, {}};
     for (std::size_t i = 1; i < numbers.size(); ++i) {
       const auto found = node_.find(numbers[i]);
-      if (found == node_.end()) fail(fmt::format("element {}: node {} is not defined", numbers.front(), numbers[i]));
+      if (found == node_.end())
+        fail(fmt::format("element {}: node {} is not defined", numbers.front(), numbers[i]));
       element.nodes.push_back(found->second);
     }
     data_.elements.push_back(std::move(element));
@@ -221,7 +235,8 @@ class AbaqusReader {
           members.push_back(element(number(cell, "the number of an element")));
         } else {
           const auto other = set_.find(upper(cell));
-          if (other == set_.end()) fail(fmt::format("element set \"{}\" is not defined before this line", cell));
+          if (other == set_.end())
+            fail(fmt::format("element set \"{}\" is not defined before this line", cell));
           const auto& others = sets_[other->second].second;
           members.insert(members.end(), others.begin(), others.end());
         }

@@ -8,8 +8,8 @@
 #include <numeric>
 
 #include "src/core/base/error.hpp"
-#include "src/fem/lists.hpp"
 #include "src/core/parallel/threads.hpp"
+#include "src/fem/lists.hpp"
 
 namespace whipple::fem {
 namespace {

@@ -2,9 +2,9 @@
 #include <algorithm>
 
 #include "src/core/base/error.hpp"
+#include "src/core/parallel/threads.hpp"
 #include "src/fem/element_kernels.hpp"
 #include "src/fem/step.hpp"
-#include "src/core/parallel/threads.hpp"
 
 namespace whipple::fem {
 

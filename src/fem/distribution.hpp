@@ -8,10 +8,10 @@
 #include <span>
 #include <vector>
 
+#include "src/core/parallel/mpi.hpp"
 #include "src/fem/bars.hpp"
 #include "src/fem/facets.hpp"
 #include "src/fem/mesh.hpp"
-#include "src/core/parallel/mpi.hpp"
 
 /// Elements on several ranks (docs/theory/fem.md, 10). Every element belongs to one rank. A node whose
 /// elements belong to several ranks has a copy on each of them: place, velocity and marks are the same bit

@@ -115,8 +115,9 @@ class GmshReader {
     const bool any = next_or_end();
     if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);  // byte order mark
     if (!any || text_ != "$MeshFormat") {
-      throw InputError(
-          fmt::format("{}: is no mesh of Gmsh (first line $MeshFormat), Abaqus (keywords *NODE, *ELEMENT) or VTK", path_.string()));
+      throw InputError(fmt::format(
+          "{}: is no mesh of Gmsh (first line $MeshFormat), Abaqus (keywords *NODE, *ELEMENT) or VTK",
+          path_.string()));
     }
     next("MeshFormat");
     version_ = number<double>("the version of the format");
@@ -211,7 +212,8 @@ class GmshReader {
     }
     for (const int p : physical) {
       // Negative in format 4.1 where the entity is reversed.
-      if (p == std::numeric_limits<int>::min()) fail(fmt::format("\"{}\" is not the tag of a physical group", p));
+      if (p == std::numeric_limits<int>::min())
+        fail(fmt::format("\"{}\" is not the tag of a physical group", p));
       if (p != 0)
         group(kind.dimension, std::abs(p))
             .elements.push_back(static_cast<std::uint32_t>(file_.elements.size()));

@@ -11,10 +11,10 @@
 
 #include "src/core/base/error.hpp"
 #include "src/core/base/vector_math.hpp"
+#include "src/core/parallel/threads.hpp"
 #include "src/fem/hexahedron.hpp"
 #include "src/fem/lists.hpp"
 #include "src/fem/order.hpp"
-#include "src/core/parallel/threads.hpp"
 
 namespace whipple::fem {
 namespace {

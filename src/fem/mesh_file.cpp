@@ -77,13 +77,13 @@ const MeshData::Group& MeshFile::find(const std::string& name, int dimension, in
   if (found == data_.groups.end()) found = std::ranges::find_if(data_.groups, tagged);
   if (found == data_.groups.end()) found = std::ranges::find_if(data_.groups, is_called);
   if (found == data_.groups.end()) {
-    throw InputError(fmt::format("{}: no {} \"{}\"{} The mesh has: {}", data_.path.string(), data_.called, name,
-                                 did_you_mean(name, names), fmt::join(names, ", ")));
+    throw InputError(fmt::format("{}: no {} \"{}\"{} The mesh has: {}", data_.path.string(), data_.called,
+                                 name, did_you_mean(name, names), fmt::join(names, ", ")));
   }
   constexpr std::array dimensions = {"points", "curves", "surfaces", "volumes"};
   if (found->dimension != dimension) {
-    throw InputError(fmt::format("{}: {} \"{}\" is one of {}, not of {}", data_.path.string(), data_.called, name,
-                                 dimensions[static_cast<std::size_t>(found->dimension)],
+    throw InputError(fmt::format("{}: {} \"{}\" is one of {}, not of {}", data_.path.string(), data_.called,
+                                 name, dimensions[static_cast<std::size_t>(found->dimension)],
                                  dimensions[static_cast<std::size_t>(dimension)]));
   }
   if (found->elements.empty()) {
@@ -92,16 +92,18 @@ const MeshData::Group& MeshFile::find(const std::string& name, int dimension, in
   for (const std::uint32_t e : found->elements) {
     const MeshData::Element& element = data_.elements[e];
     if (element.kind == kind) continue;
-    throw InputError(fmt::format(
-        "{}:{}: error: element {} of group \"{}\" is one of the {}; supported are {} (gmsh: transfinite volumes with "
-        "Recombine Surface, or Mesh.SubdivisionAlgorithm = 2)",
-        data_.path.string(), element.line, element.tag, name, element_kind(element.kind)->name,
-        element_kind(kind)->name));
+    throw InputError(
+        fmt::format("{}:{}: error: element {} of group \"{}\" is one of the {}; supported are {} (gmsh: "
+                    "transfinite volumes with "
+                    "Recombine Surface, or Mesh.SubdivisionAlgorithm = 2)",
+                    data_.path.string(), element.line, element.tag, name, element_kind(element.kind)->name,
+                    element_kind(kind)->name));
   }
   return *found;
 }
 
-std::vector<Vector3> MeshFile::own_nodes(const MeshData::Group& group, std::vector<std::uint32_t>& number) const {
+std::vector<Vector3> MeshFile::own_nodes(const MeshData::Group& group,
+                                         std::vector<std::uint32_t>& number) const {
   constexpr std::uint32_t unnumbered = 0xffffffff;
   number.assign(data_.nodes.size(), unnumbered);
   std::vector<Vector3> own;
@@ -116,8 +118,8 @@ std::vector<Vector3> MeshFile::own_nodes(const MeshData::Group& group, std::vect
 }
 
 std::string MeshFile::located(std::uint32_t element, const std::string& group) const {
-  return fmt::format("{}:{}: error: element {} of group \"{}\"", data_.path.string(), data_.elements[element].line,
-                     data_.elements[element].tag, group);
+  return fmt::format("{}:{}: error: element {} of group \"{}\"", data_.path.string(),
+                     data_.elements[element].line, data_.elements[element].tag, group);
 }
 
 Hexahedra MeshFile::hexahedra(const std::string& name) const {

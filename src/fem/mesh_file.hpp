@@ -81,7 +81,8 @@ class MeshFile {
   [[nodiscard]] const MeshData::Group& find(const std::string& group, int dimension, int kind) const;
   /// How messages name an element of a group: file and line, number, group.
   [[nodiscard]] std::string located(std::uint32_t element, const std::string& group) const;
-  [[nodiscard]] std::vector<Vector3> own_nodes(const MeshData::Group& group, std::vector<std::uint32_t>& number) const;
+  [[nodiscard]] std::vector<Vector3> own_nodes(const MeshData::Group& group,
+                                               std::vector<std::uint32_t>& number) const;
 
   MeshData data_;
 };

@@ -5,8 +5,8 @@
 #include "src/core/base/error.hpp"
 #include "src/core/base/marks.hpp"
 #include "src/core/base/vector_math.hpp"
-#include "src/fem/step.hpp"
 #include "src/core/parallel/threads.hpp"
+#include "src/fem/step.hpp"
 
 namespace whipple::fem {
 

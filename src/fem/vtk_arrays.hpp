@@ -13,10 +13,10 @@ struct VtkGrid {
     std::string name;
     std::vector<long> values;  ///< of each cell
   };
-  std::vector<double> points;             ///< x, y, z of each
+  std::vector<double> points;  ///< x, y, z of each
   std::vector<long> connectivity, offsets, types;
-  std::vector<CellArray> cell_data;       ///< arrays of integers, one component each
-  std::size_t line = 1;                   ///< of the file, where the cells begin
+  std::vector<CellArray> cell_data;  ///< arrays of integers, one component each
+  std::size_t line = 1;              ///< of the file, where the cells begin
 };
 
 /// Reads the text of a VTU file. @throws InputError that begins with `file`

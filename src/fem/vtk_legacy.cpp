@@ -19,16 +19,21 @@ class LegacyReader {
     line_of_text();
     line_of_text();  // a title
     if (const std::string_view form = word(); form != "ASCII") {
-      fail(fmt::format("is in the form \"{}\": only ASCII files of the legacy format are read; write a .vtu instead", form));
+      fail(fmt::format(
+          "is in the form \"{}\": only ASCII files of the legacy format are read; write a .vtu instead",
+          form));
     }
     if (word() != "DATASET") fail("expected DATASET");
-    if (const std::string_view kind = word(); kind != "UNSTRUCTURED_GRID") fail(fmt::format("the data set is {}, expected UNSTRUCTURED_GRID", kind));
+    if (const std::string_view kind = word(); kind != "UNSTRUCTURED_GRID")
+      fail(fmt::format("the data set is {}, expected UNSTRUCTURED_GRID", kind));
     for (std::string_view section = word(); !section.empty(); section = word()) read_section(section);
     return std::move(grid_);
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const { throw InputError(fmt::format("{}:{}: error: {}", file_, line_, what)); }
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(fmt::format("{}:{}: error: {}", file_, line_, what));
+  }
   void line_of_text() {
     const std::size_t end = rest_.find('\n');
     rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
@@ -36,7 +41,8 @@ class LegacyReader {
   }
   /// The next word, empty at the end.
   std::string_view word() {
-    while (!rest_.empty() && (rest_.front() == ' ' || rest_.front() == '\t' || rest_.front() == '\r' || rest_.front() == '\n')) {
+    while (!rest_.empty() && (rest_.front() == ' ' || rest_.front() == '\t' || rest_.front() == '\r' ||
+                              rest_.front() == '\n')) {
       if (rest_.front() == '\n') ++line_;
       rest_.remove_prefix(1);
     }
@@ -50,7 +56,8 @@ class LegacyReader {
     const std::string_view text = word();
     Number value{};
     const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (text.empty() || code != std::errc{} || end != text.data() + text.size()) fail(fmt::format("\"{}\" is not a number", text));
+    if (text.empty() || code != std::errc{} || end != text.data() + text.size())
+      fail(fmt::format("\"{}\" is not a number", text));
     return value;
   }
   /// A number of things that follow; they take memory one by one.
@@ -94,8 +101,11 @@ class LegacyReader {
       word();
       for (std::size_t i = 0; i < 3 * of_cells_; ++i) number<double>();
     } else {
-      fail(fmt::format("\"{}\" is not read here; known are POINTS, CELLS, CELL_TYPES, CELL_DATA and POINT_DATA with SCALARS, "
-                       "VECTORS, FIELD", section));
+      fail(
+          fmt::format("\"{}\" is not read here; known are POINTS, CELLS, CELL_TYPES, CELL_DATA and "
+                      "POINT_DATA with SCALARS, "
+                      "VECTORS, FIELD",
+                      section));
     }
   }
 
@@ -131,7 +141,8 @@ class LegacyReader {
     std::string_view next = word();
     if (next != "LOOKUP_TABLE") {
       const auto [end, code] = std::from_chars(next.data(), next.data() + next.size(), components);
-      if (code != std::errc{} || end != next.data() + next.size() || word() != "LOOKUP_TABLE") fail("expected LOOKUP_TABLE");
+      if (code != std::errc{} || end != next.data() + next.size() || word() != "LOOKUP_TABLE")
+        fail("expected LOOKUP_TABLE");
     }
     word();
     take(name, type, components, of_cells_);
@@ -162,6 +173,8 @@ class LegacyReader {
 
 }  // namespace
 
-VtkGrid read_legacy_vtk(const std::string& text, const std::string& file) { return LegacyReader(text, file).read(); }
+VtkGrid read_legacy_vtk(const std::string& text, const std::string& file) {
+  return LegacyReader(text, file).read();
+}
 
 }  // namespace whipple::fem

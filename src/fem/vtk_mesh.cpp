@@ -28,9 +28,22 @@ std::string_view begin_of(std::string_view text) {
 /// Kinds of cells by the numbers of VTK (vtkCellType.h); voxels are hexahedra with another order of corners.
 constexpr int voxel = 11;
 int kind_of(long type) {
-  static const std::map<long, int> kinds = {{1, 15}, {3, line_kind}, {5, 2}, {9, 3}, {10, 4}, {voxel, hexahedron_kind},
-                                            {12, hexahedron_kind}, {13, 6}, {14, 7}, {21, 8}, {22, 9}, {23, 16},
-                                            {24, 11}, {25, 17}, {26, 18}, {27, 19}};
+  static const std::map<long, int> kinds = {{1, 15},
+                                            {3, line_kind},
+                                            {5, 2},
+                                            {9, 3},
+                                            {10, 4},
+                                            {voxel, hexahedron_kind},
+                                            {12, hexahedron_kind},
+                                            {13, 6},
+                                            {14, 7},
+                                            {21, 8},
+                                            {22, 9},
+                                            {23, 16},
+                                            {24, 11},
+                                            {25, 17},
+                                            {26, 18},
+                                            {27, 19}};
   const auto found = kinds.find(type);
   return found == kinds.end() ? 0 : found->second;
 }
@@ -38,7 +51,8 @@ int kind_of(long type) {
 void add_nodes(const VtkGrid& grid, double length_unit, MeshData& data) {
   for (std::size_t i = 0; i + 2 < grid.points.size(); i += 3) {
     const Vector3 x(grid.points[i], grid.points[i + 1], grid.points[i + 2]);
-    if (!x.allFinite()) throw InputError(fmt::format("{}: error: point {} is not finite", data.path.string(), i / 3));
+    if (!x.allFinite())
+      throw InputError(fmt::format("{}: error: point {} is not finite", data.path.string(), i / 3));
     data.nodes.push_back(length_unit * x);
   }
 }
@@ -51,16 +65,20 @@ void add_elements(const VtkGrid& grid, MeshData& data) {
   long begin = 0;
   for (std::size_t cell = 0; cell < grid.types.size(); ++cell) {
     const long end = grid.offsets[cell];
-    if (end < begin || end > std::ssize(grid.connectivity)) fail(cell, "its offset is not in the connectivity");
+    if (end < begin || end > std::ssize(grid.connectivity))
+      fail(cell, "its offset is not in the connectivity");
     MeshData::Element element{cell, grid.line, kind_of(grid.types[cell]), {}};
-    if (element.kind == 0) fail(cell, fmt::format("cells of the type {} of VTK are not known here", grid.types[cell]));
+    if (element.kind == 0)
+      fail(cell, fmt::format("cells of the type {} of VTK are not known here", grid.types[cell]));
     for (long i = begin; i < end; ++i) {
       const long point = grid.connectivity[static_cast<std::size_t>(i)];
-      if (point < 0 || point >= std::ssize(data.nodes)) fail(cell, fmt::format("there is no point {}", point));
+      if (point < 0 || point >= std::ssize(data.nodes))
+        fail(cell, fmt::format("there is no point {}", point));
       element.nodes.push_back(static_cast<std::uint32_t>(point));
     }
     const ElementKind& kind = *element_kind(element.kind);
-    if (element.nodes.size() != kind.nodes) fail(cell, fmt::format("has {} points instead of {}", element.nodes.size(), kind.nodes));
+    if (element.nodes.size() != kind.nodes)
+      fail(cell, fmt::format("has {} points instead of {}", element.nodes.size(), kind.nodes));
     if (grid.types[cell] == voxel) {
       std::swap(element.nodes[2], element.nodes[3]);
       std::swap(element.nodes[6], element.nodes[7]);
@@ -73,7 +91,8 @@ void add_elements(const VtkGrid& grid, MeshData& data) {
 /// Groups of the cells of one dimension; a value that holds cells of several counts for the largest.
 void add_group(const std::string& name, std::vector<std::uint32_t> cells, MeshData& data) {
   int dimension = 0;
-  for (const std::uint32_t cell : cells) dimension = std::max(dimension, element_kind(data.elements[cell].kind)->dimension);
+  for (const std::uint32_t cell : cells)
+    dimension = std::max(dimension, element_kind(data.elements[cell].kind)->dimension);
   data.groups.push_back({dimension, static_cast<int>(data.groups.size()) + 1, name, std::move(cells)});
 }
 
@@ -86,7 +105,8 @@ void add_groups(const VtkGrid& grid, MeshData& data) {
     }
     const bool is_numbering = cells.size() > 1 && cells.size() == array.values.size();
     if (cells.size() > most_groups || is_numbering) continue;
-    for (auto& [value, members] : cells) add_group(fmt::format("{} {}", array.name, value), std::move(members), data);
+    for (auto& [value, members] : cells)
+      add_group(fmt::format("{} {}", array.name, value), std::move(members), data);
   }
   if (!data.groups.empty()) return;
   std::vector<std::uint32_t> all(data.elements.size());
@@ -111,7 +131,8 @@ MeshData read_vtk(const std::filesystem::path& path, double length_unit) {
   stream << file.rdbuf();
   if (!file) throw InputError(fmt::format("{}: cannot be read", path.string()));
   const std::string text = stream.str();
-  const VtkGrid grid = begin_of(text).starts_with(legacy_mark) ? read_legacy_vtk(text, path.string()) : read_vtu(text, path.string());
+  const VtkGrid grid = begin_of(text).starts_with(legacy_mark) ? read_legacy_vtk(text, path.string())
+                                                               : read_vtu(text, path.string());
   MeshData data;
   data.path = path;
   data.called = "group";
@@ -120,8 +141,8 @@ MeshData read_vtk(const std::filesystem::path& path, double length_unit) {
   if (data.elements.empty()) throw InputError(fmt::format("{}: error: has no cells", path.string()));
   for (const VtkGrid::CellArray& array : grid.cell_data) {
     if (array.values.size() != data.elements.size()) {
-      throw InputError(fmt::format("{}: error: the array \"{}\" has {} values for {} cells", path.string(), array.name,
-                                   array.values.size(), data.elements.size()));
+      throw InputError(fmt::format("{}: error: the array \"{}\" has {} values for {} cells", path.string(),
+                                   array.name, array.values.size(), data.elements.size()));
     }
   }
   add_groups(grid, data);

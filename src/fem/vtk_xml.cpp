@@ -20,7 +20,8 @@ namespace {
 
 using Tree = boost::property_tree::ptree;
 
-constexpr std::size_t most_bytes = std::size_t{1} << 34;  // of an array; a damaged length must not take all memory
+constexpr std::size_t most_bytes = std::size_t{1}
+                                   << 34;  // of an array; a damaged length must not take all memory
 
 class VtuReader {
  public:
@@ -35,7 +36,9 @@ class VtuReader {
       appended_ = std::string_view(text).substr(mark + 1);
     }
     const std::size_t cells = text.find("<Cells");
-    if (cells != std::string::npos) grid_.line = 1 + static_cast<std::size_t>(std::count(text.begin(), text.begin() + std::ptrdiff_t(cells), '\n'));
+    if (cells != std::string::npos)
+      grid_.line =
+          1 + static_cast<std::size_t>(std::count(text.begin(), text.begin() + std::ptrdiff_t(cells), '\n'));
     require_shallow(head);
     std::istringstream stream(head);
     try {
@@ -54,7 +57,8 @@ class VtuReader {
     header_ = attribute(root, "header_type") == "UInt64" ? 8 : 4;
     const std::string compressor = attribute(root, "compressor");
     is_packed_ = !compressor.empty();
-    if (is_packed_ && compressor != "vtkZLibDataCompressor") fail(fmt::format("is packed by {}: only vtkZLibDataCompressor is read", compressor));
+    if (is_packed_ && compressor != "vtkZLibDataCompressor")
+      fail(fmt::format("is packed by {}: only vtkZLibDataCompressor is read", compressor));
     const Tree& grid = child(root, "UnstructuredGrid");
     if (grid.count("Piece") != 1) fail(fmt::format("has {} pieces, expected one", grid.count("Piece")));
     const Tree& piece = child(grid, "Piece");
@@ -71,7 +75,9 @@ class VtuReader {
     if (const auto data = piece.get_child_optional("CellData")) {
       for (const auto& [name, array] : *data) {
         const std::string parts = attribute(array, "NumberOfComponents");
-        if (name != "DataArray" || (!parts.empty() && parts != "1") || attribute(array, "type").find("Int") == std::string::npos) continue;
+        if (name != "DataArray" || (!parts.empty() && parts != "1") ||
+            attribute(array, "type").find("Int") == std::string::npos)
+          continue;
         grid_.cell_data.push_back({attribute(array, "Name"), values<long>(array)});
       }
     }
@@ -79,14 +85,17 @@ class VtuReader {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const { throw InputError(fmt::format("{}: error: {}", file_, what)); }
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(fmt::format("{}: error: {}", file_, what));
+  }
   /// The parser calls itself for each element in another.
   void require_shallow(std::string_view head) const {
     constexpr int deepest = 64;
     int depth = 0;
     for (std::size_t at = head.find('<'); at != std::string_view::npos; at = head.find('<', at + 1)) {
       const char next = at + 1 < head.size() ? head[at + 1] : '/';
-      if (next != '/' && next != '?' && next != '!' && ++depth > deepest) fail("its elements are nested too deeply");
+      if (next != '/' && next != '?' && next != '!' && ++depth > deepest)
+        fail("its elements are nested too deeply");
       const std::size_t end = head.find('>', at);
       const bool closes = next == '/' || (end != std::string_view::npos && head[end - 1] == '/');
       if (closes && next != '?' && next != '!') --depth;
@@ -97,7 +106,9 @@ class VtuReader {
     if (found == tree.not_found()) fail(fmt::format("has no <{}>", name));
     return found->second;
   }
-  static std::string attribute(const Tree& tree, const char* name) { return tree.get<std::string>(Tree::path_type(std::string("<xmlattr>/") + name, '/'), ""); }
+  static std::string attribute(const Tree& tree, const char* name) {
+    return tree.get<std::string>(Tree::path_type(std::string("<xmlattr>/") + name, '/'), "");
+  }
 
   template <class Number>
   std::vector<Number> values(const Tree& array) const {
@@ -110,7 +121,8 @@ class VtuReader {
       const std::string word = attribute(array, "offset");
       std::size_t offset = 0;
       const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), offset);
-      if (code != std::errc{} || offset > appended_.size()) fail(fmt::format("the offset \"{}\" is not in the appended data", word));
+      if (code != std::errc{} || offset > appended_.size())
+        fail(fmt::format("the offset \"{}\" is not in the appended data", word));
       bytes = unpacked(appended_.substr(offset), is_raw_);
     } else {
       fail(fmt::format("an array has the format \"{}\", expected ascii, binary or appended", form));
@@ -138,7 +150,9 @@ class VtuReader {
       if (at == end) return result;
       Number value{};
       const auto [next, code] = std::from_chars(at, end, value);
-      if (code != std::errc{}) fail(fmt::format("\"{}\" is not a number", std::string_view(at, std::size_t(std::min<std::ptrdiff_t>(end - at, 12)))));
+      if (code != std::errc{})
+        fail(fmt::format("\"{}\" is not a number",
+                         std::string_view(at, std::size_t(std::min<std::ptrdiff_t>(end - at, 12)))));
       result.push_back(value);
       at = next;
     }
@@ -146,7 +160,8 @@ class VtuReader {
 
   template <class Stored, class Number>
   std::vector<Number> as(const std::string& bytes) const {
-    if (std::is_floating_point_v<Stored> && std::is_integral_v<Number>) fail("an array of integers is one of reals");
+    if (std::is_floating_point_v<Stored> && std::is_integral_v<Number>)
+      fail("an array of integers is one of reals");
     if (bytes.size() % sizeof(Stored) != 0) fail("an array is no whole number of values");
     std::vector<Number> result(bytes.size() / sizeof(Stored));
     for (std::size_t i = 0; i < result.size(); ++i) {
@@ -163,7 +178,8 @@ class VtuReader {
     Bytes(std::string_view text, bool raw) : text_(text), raw_(raw) {}
     /// The next bytes; fewer if the stream ends before.
     std::string take(std::size_t count) {
-      while (!raw_ && left_.size() < count && decode()) {}
+      while (!raw_ && left_.size() < count && decode()) {
+      }
       if (raw_) {
         const std::string_view taken = text_.substr(0, count);
         text_.remove_prefix(taken.size());
@@ -184,7 +200,9 @@ class VtuReader {
         while (signs < 4 && !text_.empty()) {
           const char letter = text_.front();
           const std::size_t digit = digits.find(letter);
-          if (digit == std::string_view::npos && letter != '=' && letter != ' ' && letter != '\n' && letter != '\r' && letter != '\t') return finish(decoded);
+          if (digit == std::string_view::npos && letter != '=' && letter != ' ' && letter != '\n' &&
+              letter != '\r' && letter != '\t')
+            return finish(decoded);
           text_.remove_prefix(1);
           if (letter == '=') ++padding;
           if (digit == std::string_view::npos && letter != '=') continue;
@@ -192,8 +210,10 @@ class VtuReader {
           ++signs;
         }
         if (signs < 4) return finish(decoded);
-        for (std::size_t k = 0; k + std::min<std::size_t>(padding, 2) < 3; ++k) decoded += static_cast<char>(bits >> (16U - 8U * k) & 255U);
-        if (padding > 0) break;  // the end of a part of the stream: the next one begins with a new group of four
+        for (std::size_t k = 0; k + std::min<std::size_t>(padding, 2) < 3; ++k)
+          decoded += static_cast<char>(bits >> (16U - 8U * k) & 255U);
+        if (padding > 0)
+          break;  // the end of a part of the stream: the next one begins with a new group of four
       }
       return finish(decoded);
     }
@@ -233,10 +253,13 @@ class VtuReader {
       const std::string packed = bytes.take(sizes[i]);
       uLongf room = i + 1 == blocks && last > 0 ? last : whole;
       const std::uint64_t expected = room;
-      if (packed.size() < sizes[i] || expected > 1100 * (sizes[i] + 64)) fail("a packed array is damaged");  // zlib packs 1032 to 1 at most
+      if (packed.size() < sizes[i] || expected > 1100 * (sizes[i] + 64))
+        fail("a packed array is damaged");  // zlib packs 1032 to 1 at most
       std::string block(room, '\0');
-      if (uncompress(reinterpret_cast<Bytef*>(block.data()), &room, reinterpret_cast<const Bytef*>(packed.data()),  // NOLINT
-                     packed.size()) != Z_OK || room != expected) {
+      if (uncompress(reinterpret_cast<Bytef*>(block.data()), &room,
+                     reinterpret_cast<const Bytef*>(packed.data()),  // NOLINT
+                     packed.size()) != Z_OK ||
+          room != expected) {
         fail("a packed array is damaged");
       }
       result += block;

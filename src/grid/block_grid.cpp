@@ -7,8 +7,8 @@
 
 namespace whipple::grid {
 
-void BlockGrid::activate(std::span<const Vector3> position, std::span<const Vector3> velocity, double lookahead,
-                         Stencil stencil, std::size_t guests) {
+void BlockGrid::activate(std::span<const Vector3> position, std::span<const Vector3> velocity,
+                         double lookahead, Stencil stencil, std::size_t guests) {
   Topology::activate(position, velocity, lookahead, stencil);
   forget_fields();
   lay_out_nodes();
@@ -95,7 +95,8 @@ template <class Combine>
 void BlockGrid::receive_nodes(Part part, SharedSlots to, Combine&& combine) {
   const std::size_t registers = part == Part::both ? 2 : 1;
   receive(
-      peers(), node_messages_, to, [&](std::size_t slot) { return node_blocks(slot) * registers * nodes_per_block; },
+      peers(), node_messages_, to,
+      [&](std::size_t slot) { return node_blocks(slot) * registers * nodes_per_block; },
       [&](std::size_t slot, const Lanes* in) {
         for (std::size_t i = 0; i < node_blocks(slot); ++i) {
           Node* of_block = &all_nodes()[node_block(slot, i) * nodes_per_block];

@@ -38,7 +38,9 @@ struct NodeMotion {
   [[nodiscard]] double mass_for_contact() const { return increment_and_heat[3]; }
   void set_relaxation(double beta) { velocity_and_relaxation[3] = beta; }
   void set_heat(double heat) { increment_and_heat[3] = heat; }
-  void accelerate(const Vector3& change) { increment_and_heat += Lanes{change[0], change[1], change[2], 0.0}; }
+  void accelerate(const Vector3& change) {
+    increment_and_heat += Lanes{change[0], change[1], change[2], 0.0};
+  }
 };
 
 /// Scalars of a node, such as capacity and temperature in conduction: sums over points, and values kept meanwhile.

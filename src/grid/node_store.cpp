@@ -12,7 +12,8 @@ constexpr std::size_t most_nodes_ahead = (std::size_t{1} << 30) / sizeof(Node);
 
 }  // namespace
 
-NodeStore::NodeStore(const Geometry& geometry, MPI_Comm communicator) : VelocityFields(geometry, communicator) {
+NodeStore::NodeStore(const Geometry& geometry, MPI_Comm communicator)
+    : VelocityFields(geometry, communicator) {
   for (int face = 0; face < 6; ++face) {
     const Boundary boundary = geometry.boundary[static_cast<std::size_t>(face)];
     if (boundary == Boundary::outflow) continue;
@@ -68,8 +69,7 @@ void NodeStore::find_mirror_nodes() {
     for (std::size_t b = 0; b < nodes_.size() / nodes_per_block; ++b) {
       const BlockCoordinate& block = coordinate(slot_of_block(b));
       const std::int32_t first = block[axis] * edge;
-      const std::int32_t least_inside =
-          std::min((at - first) * outward, (at - first - (edge - 1)) * outward);
+      const std::int32_t least_inside = std::min((at - first) * outward, (at - first - (edge - 1)) * outward);
       if (least_inside > mirror_reach) continue;  // a block inside the domain
       const int field = field_of_block(b);
       const bool bonded = (bonded_[static_cast<std::size_t>(mirror.face)] >> std::max(field, 0) & 1U) != 0;
@@ -85,8 +85,7 @@ void NodeStore::find_mirror_nodes() {
         if (inside >= 0) continue;
         if (bonded) outside_[index] = 1;
         std::array<std::int32_t, 3> place{};
-        for (std::size_t a = 0; a < 3; ++a)
-          place[a] = block[a] * block_shape().along(a) + inside_block[a];
+        for (std::size_t a = 0; a < 3; ++a) place[a] = block[a] * block_shape().along(a) + inside_block[a];
         place[axis] = 2 * at - along;
         const std::uint32_t image = active_node(place, field);
         // Without an active image no particle reaches so far beyond the plane: its stencil is symmetric.
@@ -139,9 +138,8 @@ std::uint32_t NodeStore::active_node(const std::array<std::int32_t, 3>& place, i
   if (field >= 0 && !reaches(slot, static_cast<unsigned>(field))) return no_node;
   const std::size_t of_field = field < 0 ? slot : block_of_field(slot, static_cast<unsigned>(field));
   const BlockShape shape = block_shape();
-  const int in_block =
-      shape.node(place[0] - block[0] * shape.edge, place[1] - block[1] * shape.edge,
-                  place[2] - block[2] * shape.edge_z);
+  const int in_block = shape.node(place[0] - block[0] * shape.edge, place[1] - block[1] * shape.edge,
+                                  place[2] - block[2] * shape.edge_z);
   return static_cast<std::uint32_t>(of_field * nodes_per_block + static_cast<std::size_t>(in_block));
 }
 

@@ -71,7 +71,7 @@ class NodeStore : public VelocityFields {
   std::size_t layout_ = 0;
   std::vector<MirrorPlane> planes_;
   std::array<std::uint64_t, 6> bonded_{};  // bit per field, of each face
-  std::vector<std::uint8_t> outside_;      // of each node: an image across a plane where its field is continuous
+  std::vector<std::uint8_t> outside_;  // of each node: an image across a plane where its field is continuous
   std::vector<std::uint8_t> awaited_, border_;  // of each slot; empty without ghost blocks
 };
 

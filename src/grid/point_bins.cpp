@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where the points of the grid are: the block of each, its place there, the lists of the blocks, and which of
 // the blocks rest (docs/theory/mpm.md, section 8).
+#include "src/grid/point_bins.hpp"
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <numeric>
 
-#include "src/grid/point_bins.hpp"
-#include "src/grid/block_reach.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/parallel/threads.hpp"
+#include "src/grid/block_reach.hpp"
 
 namespace whipple::grid {
 
@@ -310,7 +311,8 @@ void PointBins::count_cells(std::span<const Vector3> position, std::span<const V
   cell_count_.assign(slots() * nodes_per_block, 0);
   const auto count = [&](std::size_t slot, const Vector3& point) {
     const std::array<int, 3> cell = floor_of_three(in_cells(point) - corner(slot));
-    ++cell_count_[slot * nodes_per_block + static_cast<std::size_t>(block_shape().node(cell[0], cell[1], cell[2]))];
+    ++cell_count_[slot * nodes_per_block +
+                  static_cast<std::size_t>(block_shape().node(cell[0], cell[1], cell[2]))];
   };
   for (std::size_t p = 0; p < position.size(); ++p) {
     count(static_cast<std::size_t>(slot_of_particle_[p]), position[p]);

@@ -87,7 +87,8 @@ class PointBins : public Topology {
   [[nodiscard]] double radius_at_bin(std::size_t p) const {
     const auto slot = static_cast<std::size_t>(slot_of_particle_[p]);
     const PlaceInStencil& place = place_of_particle_[p];
-    const double first = block_shape().edge * coordinate(slot)[1] + place.first_node_along_y_in_plane(stencil_);
+    const double first =
+        block_shape().edge * coordinate(slot)[1] + place.first_node_along_y_in_plane(stencil_);
     return (first + place.from_first(1)) * cell_size(slot);
   }
 

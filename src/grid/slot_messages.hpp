@@ -41,8 +41,8 @@ std::vector<std::size_t> begins(const std::vector<std::uint32_t>& shared, Size&&
 
 /// Calls pack(slot of `from`, buffer) and sends the buffers; size(slot) values of each slot.
 template <class Value, class Size, class Pack>
-void send(MPI_Comm communicator, const std::vector<BlockSet::Peer>& peers, SlotMessages<Value>& messages, int tag,
-          SharedSlots from, SharedSlots to, Size&& size, Pack&& pack) {
+void send(MPI_Comm communicator, const std::vector<BlockSet::Peer>& peers, SlotMessages<Value>& messages,
+          int tag, SharedSlots from, SharedSlots to, Size&& size, Pack&& pack) {
   static_assert(sizeof(Value) % sizeof(double) == 0);
   constexpr int words = sizeof(Value) / sizeof(double);
   auto& [outgoing, incoming, requests] = messages;
@@ -51,23 +51,23 @@ void send(MPI_Comm communicator, const std::vector<BlockSet::Peer>& peers, SlotM
   requests.assign(2 * peers.size(), MPI_REQUEST_NULL);
   for (std::size_t i = 0; i < peers.size(); ++i) {
     incoming[i].resize(begins(peers[i].*to, size).back());
-    MPI_Irecv(incoming[i].data(), words * static_cast<int>(incoming[i].size()), MPI_DOUBLE, peers[i].rank, tag,
-              communicator, &requests[2 * i]);
+    MPI_Irecv(incoming[i].data(), words * static_cast<int>(incoming[i].size()), MPI_DOUBLE, peers[i].rank,
+              tag, communicator, &requests[2 * i]);
   }
   for (std::size_t i = 0; i < peers.size(); ++i) {
     const std::vector<std::uint32_t>& sent = peers[i].*from;
     const std::vector<std::size_t> begin = begins(sent, size);
     outgoing[i].resize(begin.back());
     parallel::for_each(sent.size(), [&](std::size_t s) { pack(sent[s], &outgoing[i][begin[s]]); });
-    MPI_Isend(outgoing[i].data(), words * static_cast<int>(outgoing[i].size()), MPI_DOUBLE, peers[i].rank, tag,
-              communicator, &requests[2 * i + 1]);
+    MPI_Isend(outgoing[i].data(), words * static_cast<int>(outgoing[i].size()), MPI_DOUBLE, peers[i].rank,
+              tag, communicator, &requests[2 * i + 1]);
   }
 }
 
 /// Waits for the buffers and calls unpack(slot of `to`, buffer).
 template <class Value, class Size, class Unpack>
-void receive(const std::vector<BlockSet::Peer>& peers, SlotMessages<Value>& messages, SharedSlots to, Size&& size,
-             Unpack&& unpack) {
+void receive(const std::vector<BlockSet::Peer>& peers, SlotMessages<Value>& messages, SharedSlots to,
+             Size&& size, Unpack&& unpack) {
   messages.wait();
   for (std::size_t i = 0; i < peers.size(); ++i) {  // in the order of the ranks: sums are repeatable
     const std::vector<std::uint32_t>& received = peers[i].*to;

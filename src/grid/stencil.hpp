@@ -95,8 +95,10 @@ class PlaceInStencil {
   }
   /// Returns the first node counted from the lower corner of the block, by direction.
   [[nodiscard]] WHIPPLE_INLINE std::array<int, 3> first_node(Stencil stencil) const {
-    const int edge = stencil.edge(), edge_z = stencil.edge_z(), before = stencil.before(), first = first_node();
-    return {first / (edge * edge_z) - before, first / edge_z % edge - before, first % edge_z - stencil.before_z()};
+    const int edge = stencil.edge(), edge_z = stencil.edge_z(), before = stencil.before(),
+              first = first_node();
+    return {first / (edge * edge_z) - before, first / edge_z % edge - before,
+            first % edge_z - stencil.before_z()};
   }
 
  private:
@@ -115,7 +117,9 @@ class StencilPlaces {
   /// First node of the stencil, in cells like `local`.
   /// @param local  position in cells from the block's lower corner, inside the block
   [[nodiscard]] Lanes first_node(Lanes local) const { return floor(local - shift_); }
-  [[nodiscard]] WHIPPLE_INLINE PlaceInStencil operator()(Lanes local) const { return at(local, first_node(local)); }
+  [[nodiscard]] WHIPPLE_INLINE PlaceInStencil operator()(Lanes local) const {
+    return at(local, first_node(local));
+  }
   /// @param first  as of `first_node`
   [[nodiscard]] WHIPPLE_INLINE PlaceInStencil at(Lanes local, Lanes first) const {
     const Lanes parts = multiply_add(first, strides_, origin_);

@@ -9,10 +9,10 @@
 
 #include "src/core/base/error.hpp"
 #include "src/core/base/vector_math.hpp"
-#include "src/grid/block_reach.hpp"
-#include "src/grid/slot_messages.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/parallel/threads.hpp"
+#include "src/grid/block_reach.hpp"
+#include "src/grid/slot_messages.hpp"
 
 namespace whipple::grid {
 namespace {
@@ -45,8 +45,8 @@ std::optional<BlockCoordinate> Topology::block_of(const Vector3& position) const
 }
 
 std::vector<WantedBlock> Topology::wanted_blocks(std::span<const Vector3> position,
-                                                  std::span<const Vector3> velocity, double lookahead,
-                                                  Stencil stencil, const Work& work) const {
+                                                 std::span<const Vector3> velocity, double lookahead,
+                                                 Stencil stencil, const Work& work) const {
   // Blocks with particles, and for each the neighbours that its particles reach now and within the
   // look-ahead: first of particles that follow one another in one block.
   struct Home {
@@ -153,7 +153,7 @@ void Topology::for_each_mirror_block(const BlockCoordinate& block, Function&& f)
 }
 
 void Topology::adapt(std::span<const Vector3> position, std::span<const Vector3> velocity, double lookahead,
-                      Stencil stencil, const Work& work) {
+                     Stencil stencil, const Work& work) {
   ++adaptations_;
   wanted_ = wanted_blocks(position, velocity, lookahead, stencil, work);
   forest_.adapt(wanted_);
@@ -194,7 +194,7 @@ void Topology::owners_reached(const Vector3& position, Stencil stencil, std::vec
 }
 
 void Topology::activate(std::span<const Vector3> position, std::span<const Vector3> velocity,
-                         double lookahead, Stencil stencil) {
+                        double lookahead, Stencil stencil) {
   // Particles may have come and gone since `adapt`, unless there is no other rank.
   if (parallel::size(communicator_) > 1) {
     wanted_ = wanted_blocks(position, velocity, lookahead, stencil, {});
@@ -239,10 +239,10 @@ void Topology::join_bits_of_ranks(std::vector<std::uint64_t>& of_slot) {
   constexpr int tag = 13;
   const auto one = [](std::size_t) { return std::size_t{1}; };
   const auto pack = [&](std::size_t slot, std::uint64_t* out) { *out = of_slot[slot]; };
-  exchange<std::uint64_t>(communicator_, peers(), tag, &BlockSet::Peer::borrowed, &BlockSet::Peer::lent, one, pack,
-                          [&](std::size_t slot, const std::uint64_t* in) { of_slot[slot] |= *in; });
-  exchange<std::uint64_t>(communicator_, peers(), tag, &BlockSet::Peer::lent, &BlockSet::Peer::borrowed, one, pack,
-                          [&](std::size_t slot, const std::uint64_t* in) { of_slot[slot] = *in; });
+  exchange<std::uint64_t>(communicator_, peers(), tag, &BlockSet::Peer::borrowed, &BlockSet::Peer::lent, one,
+                          pack, [&](std::size_t slot, const std::uint64_t* in) { of_slot[slot] |= *in; });
+  exchange<std::uint64_t>(communicator_, peers(), tag, &BlockSet::Peer::lent, &BlockSet::Peer::borrowed, one,
+                          pack, [&](std::size_t slot, const std::uint64_t* in) { of_slot[slot] = *in; });
 }
 
 }  // namespace whipple::grid

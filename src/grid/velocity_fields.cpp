@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 
-#include "src/grid/block_reach.hpp"
 #include "src/core/parallel/threads.hpp"
+#include "src/grid/block_reach.hpp"
 
 namespace whipple::grid {
 namespace {
@@ -47,8 +47,7 @@ bool VelocityFields::find_fields(Stencil stencil, const FieldPoints& particles, 
       if (!std::ranges::any_of(neighbours(s), counts)) return;
       const auto reach = [&](std::span<const std::uint32_t> members, const FieldPoints& points) {
         for (const std::uint32_t p : members) {
-          const std::uint32_t touched =
-              touched_neighbours(in_cells(points.position[p]) - corner(s), stencil);
+          const std::uint32_t touched = touched_neighbours(in_cells(points.position[p]) - corner(s), stencil);
           for_each_bit(touched, [&](unsigned n) { reached[s][n] |= std::uint64_t{1} << points.field[p]; });
         }
       };

@@ -113,7 +113,8 @@ template <class Points>
 void read_points(const hdf5::Group& group, Points& points, const Ranks& ranks) {
   require_fields(group, points);
   const std::int64_t declared = group.integer_attribute("count");
-  if (declared < 0) throw InputError(fmt::format("{}: is declared to hold {} points", group.name(), declared));
+  if (declared < 0)
+    throw InputError(fmt::format("{}: is declared to hold {} points", group.name(), declared));
   const auto total = static_cast<std::uint64_t>(declared);
   const std::vector<std::string> found = group.names();
   // Before any room is made: what the file declares, it must hold.

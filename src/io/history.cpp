@@ -78,9 +78,8 @@ void History::append(std::span<const HistoryValue> row) {
   std::string text = header_of(row);
   if (text != header_) {
     if (continued_) {
-      throw InputError(
-          fmt::format("{}: the run to resume has other columns:\n{}\nthis program writes\n{}",
-                      path_.string(), header_, text));
+      throw InputError(fmt::format("{}: the run to resume has other columns:\n{}\nthis program writes\n{}",
+                                   path_.string(), header_, text));
     }
     if (!header_.empty())
       throw InternalError(fmt::format("{}: columns changed between rows", path_.string()));

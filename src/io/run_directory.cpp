@@ -33,8 +33,9 @@ std::regex own(const std::string& names) {
   return std::regex("(" + names + R"()((\.[0-9a-f]{8})?\.partial)?)");
 }
 const std::regex& own_outputs() {
-  static const std::regex names = own(R"((run\.toml|(history|gauges|steering)\.csv|log\.txt|(profile|status)\.json))"
-                                      R"(|.+\.(particles|elements)\.(hdf\.series|[0-9]{6,}\.hdf))");
+  static const std::regex names =
+      own(R"((run\.toml|(history|gauges|steering)\.csv|log\.txt|(profile|status)\.json))"
+          R"(|.+\.(particles|elements)\.(hdf\.series|[0-9]{6,}\.hdf))");
   return names;
 }
 const std::regex& own_checkpoints() {
@@ -116,7 +117,8 @@ std::shared_ptr<const FileLock> lock_run(const fs::path& path) {
 bool is_running(const fs::path& path) {
   const int lock = ::open((path / lock_name).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
   if (lock < 0) return false;
-  const bool is_held = ::flock(lock, LOCK_SH | LOCK_NB) != 0;  // or the file system has no locks: the file counts
+  const bool is_held =
+      ::flock(lock, LOCK_SH | LOCK_NB) != 0;  // or the file system has no locks: the file counts
   ::close(lock);
   return is_held;
 }
@@ -151,7 +153,8 @@ RunDirectory RunDirectory::create(const fs::path& path, const std::string& name,
     fs::create_directory(directory.checkpoint_folder(), error);
     if (error) fail(directory.checkpoint_folder(), "make the folder", error.value());
   }
-  if (fs::is_directory(directory.control_folder())) remove_matching(directory.control_folder(), own_requests());
+  if (fs::is_directory(directory.control_folder()))
+    remove_matching(directory.control_folder(), own_requests());
   if (fs::is_directory(directory.failed_folder())) {
     remove_matching(directory.failed_folder(), own_checkpoints());
     fs::remove(directory.failed_folder(), error);  // stays if it holds something else

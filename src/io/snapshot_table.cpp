@@ -61,13 +61,15 @@ void read_cells(const hdf5::Group& vtk, const std::string& file, SnapshotTable& 
   table.connectivity = vtk.open_dataset("Connectivity").read_all<std::int64_t>();
   const auto offsets = vtk.open_dataset("Offsets").read_all<std::int64_t>();
   const std::size_t ranks = points_of.size();
-  if (cells_of.size() != ranks || ids_of.size() != ranks) fail("its numbers of points and cells differ in length");
+  if (cells_of.size() != ranks || ids_of.size() != ranks)
+    fail("its numbers of points and cells differ in length");
   std::int64_t point = 0, cell = 0, id = 0, offset = 0;
   const std::int64_t points = std::ssize(table.points) / 3, cells = std::ssize(table.types),
                      ids = std::ssize(table.connectivity);
   for (std::size_t rank = 0; rank < ranks; ++rank) {
     if (points_of[rank] < 0 || cells_of[rank] < 0 || ids_of[rank] < 0 || points_of[rank] > points - point ||
-        cells_of[rank] > cells - cell || ids_of[rank] > ids - id || cells_of[rank] >= std::ssize(offsets) - offset) {
+        cells_of[rank] > cells - cell || ids_of[rank] > ids - id ||
+        cells_of[rank] >= std::ssize(offsets) - offset) {
       fail("its parts do not add up to its points and cells");
     }
     for (std::int64_t i = id; i < id + ids_of[rank]; ++i) {
@@ -91,7 +93,8 @@ void read_cells(const hdf5::Group& vtk, const std::string& file, SnapshotTable& 
 }
 
 void keep(std::vector<SnapshotTable::Column>& columns, const std::vector<std::string>& fields) {
-  std::erase_if(columns, [&](const auto& column) { return std::ranges::find(fields, column.name) == fields.end(); });
+  std::erase_if(columns,
+                [&](const auto& column) { return std::ranges::find(fields, column.name) == fields.end(); });
 }
 
 std::string title_of(const std::string& name, const std::string& unit) {
@@ -111,9 +114,9 @@ class Appended {
                              : std::is_same_v<Number, std::uint8_t>  ? "UInt8"
                              : std::is_same_v<Number, std::uint16_t> ? "UInt16"
                                                                      : "UInt64";
-    const std::string element =
-        fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n", type,
-                    name, components, bytes_.size());
+    const std::string element = fmt::format(
+        "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n",
+        type, name, components, bytes_.size());
     append(std::uint64_t{values.size_bytes()});
     bytes_.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());  // NOLINT
     return element;
@@ -151,7 +154,8 @@ std::string component_name(const SnapshotTable::Column& column, std::size_t k) {
 
 }  // namespace
 
-SnapshotTable read_snapshot_table(const std::filesystem::path& path, double time, const std::vector<std::string>& fields) {
+SnapshotTable read_snapshot_table(const std::filesystem::path& path, double time,
+                                  const std::vector<std::string>& fields) {
   const hdf5::File file = hdf5::File::open(path);
   const hdf5::Group vtk = file.root.open_group("VTKHDF");
   SnapshotTable table;
@@ -181,12 +185,14 @@ std::string vtu_text(const SnapshotTable& table) {
   const std::array time = {table.time};
   std::string text =
       "<?xml version=\"1.0\"?>\n"
-      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
+      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+      "header_type=\"UInt64\">\n"
       "<UnstructuredGrid>\n<FieldData>\n";
   std::string time_element = data.array<double>("TimeValue", 1, time);
   time_element.insert(time_element.find(" format"), " NumberOfTuples=\"1\"");
   text += time_element + "</FieldData>\n";
-  text += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", table.points.size() / 3, table.types.size());
+  text += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", table.points.size() / 3,
+                      table.types.size());
   text += "<PointData>\n" + data.columns(table.point_data) + "</PointData>\n";
   text += "<CellData>\n" + data.columns(table.cell_data) + "</CellData>\n";
   text += "<Points>\n" + data.array<float>("Points", 3, table.points) + "</Points>\n<Cells>\n";
@@ -198,7 +204,8 @@ std::string vtu_text(const SnapshotTable& table) {
 }
 
 std::string csv_text(const SnapshotTable& table) {
-  const bool of_points = std::ranges::all_of(table.types, [](std::uint8_t type) { return type == vtk_vertex; });
+  const bool of_points =
+      std::ranges::all_of(table.types, [](std::uint8_t type) { return type == vtk_vertex; });
   const std::vector<SnapshotTable::Column>& columns = of_points ? table.point_data : table.cell_data;
   std::vector<std::string> heads = {"x [m]", "y [m]", "z [m]"};
   for (const auto& column : columns) {
@@ -215,7 +222,8 @@ std::string csv_text(const SnapshotTable& table) {
         sum += table.points[3 * static_cast<std::size_t>(table.connectivity[i]) + axis];
       }
       if (axis > 0) text += ',';
-      fmt::format_to(std::back_inserter(text), "{}", static_cast<float>(sum / std::max<double>(double(last - first), 1.0)));
+      fmt::format_to(std::back_inserter(text), "{}",
+                     static_cast<float>(sum / std::max<double>(double(last - first), 1.0)));
     }
     for (const auto& column : columns) {
       std::visit(

@@ -15,7 +15,9 @@ struct SnapshotTable {
   struct Column {
     std::string name, unit;
     std::size_t components = 1;
-    std::variant<std::vector<float>, std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<std::uint64_t>> values;
+    std::variant<std::vector<float>, std::vector<std::uint8_t>, std::vector<std::uint16_t>,
+                 std::vector<std::uint64_t>>
+        values;
   };
   double time = 0.0;                       ///< s
   std::vector<float> points;               ///< x, y, z of each, m
@@ -28,7 +30,8 @@ struct SnapshotTable {
 /// Reads a snapshot of particles or of elements; parts of several ranks become one.
 /// @param fields  names of those that are kept; empty: all
 /// @throws InputError naming the file if it is none, is damaged, or lacks one of the fields
-SnapshotTable read_snapshot_table(const std::filesystem::path& file, double time, const std::vector<std::string>& fields);
+SnapshotTable read_snapshot_table(const std::filesystem::path& file, double time,
+                                  const std::vector<std::string>& fields);
 
 /// Returns the table as a file of VTK: an unstructured grid in XML, arrays appended as they are, little endian. Arrays are
 /// called "pressure [Pa]", as the columns of a CSV file are.

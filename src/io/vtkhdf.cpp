@@ -72,9 +72,10 @@ Array history_array(const HistoryField& field, const Particles& particles, const
   return std::visit(
       [&]<class Value>(const std::vector<Value>&) {
         const auto* values = found == nullptr ? nullptr : &std::get<std::vector<Value>>(found->values);
-        return Array(field.name, slab, [values, neutral = neutral_value<Value>(field.neutral)](std::size_t i) {
-          return values == nullptr || values->empty() ? neutral : (*values)[i];
-        });
+        return Array(field.name, slab,
+                     [values, neutral = neutral_value<Value>(field.neutral)](std::size_t i) {
+                       return values == nullptr || values->empty() ? neutral : (*values)[i];
+                     });
       },
       History(field).values);
 }

@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "src/core/hdf5/hdf5.hpp"
+#include "src/core/parallel/threads.hpp"
 #include "src/io/output_fields.hpp"
 #include "src/io/ranks.hpp"
-#include "src/core/parallel/threads.hpp"
 
 /// Writes the common parts of the VTKHDF files of particles and of elements (docs/manual/output.md).
 namespace whipple::io {

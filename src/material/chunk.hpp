@@ -66,21 +66,21 @@ struct Chunk {
   Kinematics motion;        // its deviator becomes the new one
   Lanes acting_pressure;    // Pa, of the end of the step, after failure
   // Scratch of the models:
-  Lanes solid_fraction;          // of the stiffness that a point still has
-  SymmetricLanes old_deviator;   // of schemes that integrate the energy
+  Lanes solid_fraction;         // of the stiffness that a point still has
+  SymmetricLanes old_deviator;  // of schemes that integrate the energy
   Lanes solid_modulus, increment;
-  Lanes elastic_energy;          // J/m^3, of the deviator
-  Lanes energy, half_change;     // J/kg and m^3/kg, given to the equation of state
+  Lanes elastic_energy;       // J/m^3, of the deviator
+  Lanes energy, half_change;  // J/kg and m^3/kg, given to the equation of state
   Lanes bulk_sound_speed, bulk_modulus;
-  Lanes least_pressure;          // of brittle material only: the tension at which its gaps open
-  Lanes threshold_factor;        // scatter of the failure threshold
-  Lanes whole_volume;            // of material and void, before voids grow
+  Lanes least_pressure;    // of brittle material only: the tension at which its gaps open
+  Lanes threshold_factor;  // scatter of the failure threshold
+  Lanes whole_volume;      // of material and void, before voids grow
   std::array<std::uint8_t, chunk_size> old_failed;
-  Lanes kept;                    // fraction of the deviator, where the chunk loses some
+  Lanes kept;  // fraction of the deviator, where the chunk loses some
   bool loses = false;
-  Lanes old_distension;          // of porous material only
-  bool burns = false;            // some point is at a front of detonation
-  Lanes burning;                 // then: 1 where it burns or is about to
+  Lanes old_distension;  // of porous material only
+  bool burns = false;    // some point is at a front of detonation
+  Lanes burning;         // then: 1 where it burns or is about to
 
   template <class Array>
   auto view(Array& array) {

@@ -35,7 +35,8 @@ inline void energy_ahead(const Step& step, Chunk& chunk, WithoutElastic without_
                               s.yz * (l[5][k] + l[7][k]) + s.zx * (l[2][k] + l[6][k]);
     const double power = deviatoric - (chunk.pressure[k] + viscosity[k]) * chunk.motion.divergence[k];
     const double specific_volume = chunk.volume[k] / chunk.mass[k];
-    chunk.energy[k] = chunk.specific_internal_energy[k] + without_elastic(k, s, half_step * power) * specific_volume;
+    chunk.energy[k] =
+        chunk.specific_internal_energy[k] + without_elastic(k, s, half_step * power) * specific_volume;
   }
 }
 /// Prepares the energy step of the schemes without a work identity (eq. 14), e = e_0 - h p(e): e_0, which holds all

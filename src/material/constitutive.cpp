@@ -19,7 +19,8 @@ std::size_t Constitutive::declare(const HistoryField& field) {
   const std::size_t lane = lanes_;
   lanes_ += components_of(field.rank);
   if (lanes_ >= most_history) {  // the last lane belongs to no field
-    throw InternalError(fmt::format("the history fields of a material have more than {} components", most_history - 1));
+    throw InternalError(
+        fmt::format("the history fields of a material have more than {} components", most_history - 1));
   }
   history_.push_back({field, lane});
   return lane;

@@ -25,8 +25,8 @@ ConstitutiveEntry entry() {
 
 const Catalogue<ConstitutiveEntry>& catalogue() {
   static const Catalogue<ConstitutiveEntry> all("constitutive model", {
-      entry<NeoHookeanModel>(),
-  });
+                                                                          entry<NeoHookeanModel>(),
+                                                                      });
   return all;
 }
 
@@ -35,7 +35,8 @@ const std::vector<HistoryField>& history_fields() {
     std::vector<HistoryField> fields = EosStrength::fields();
     for (const ConstitutiveEntry& model : catalogue()) {
       for (const HistoryField& field : model.fields) {  // models may share a field
-        if (std::ranges::find(fields, field.name, &HistoryField::name) == fields.end()) fields.push_back(field);
+        if (std::ranges::find(fields, field.name, &HistoryField::name) == fields.end())
+          fields.push_back(field);
       }
     }
     return fields;

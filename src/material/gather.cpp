@@ -48,7 +48,8 @@ void pad(std::span<Lanes> lanes, std::size_t size) {
 void gather_history(const Step& step, Chunk& chunk) {
   for (const auto& [field, lane] : step.material.constitutive->history()) {
     const History* const history = step.points.history.find(field.name);
-    if (history == nullptr) throw InternalError("points without the history of their material: " + field.name);
+    if (history == nullptr)
+      throw InternalError("points without the history of their material: " + field.name);
     std::visit(
         [&]<class Value>(const std::vector<Value>& values) {
           if constexpr (std::is_same_v<Value, double>) {

@@ -157,8 +157,9 @@ namespace {
 
 const Explosive& explosive_of(const Material& material) {
   if (material.explosive != nullptr) return *material.explosive;
-  throw InputError(fmt::format("material '{}' is no explosive: its equation of state is that of no detonation products",
-                               material.name));
+  throw InputError(
+      fmt::format("material '{}' is no explosive: its equation of state is that of no detonation products",
+                  material.name));
 }
 
 }  // namespace
@@ -166,14 +167,15 @@ const Explosive& explosive_of(const Material& material) {
 Material burning(const Material& material, double detonation_velocity) {
   Explosive explosive = explosive_of(material);
   if (!material.failure.empty()) {
-    throw InputError(fmt::format("material '{}': an explosive that burns takes no [[failure]]: products do not fail",
-                                 material.name));
+    throw InputError(fmt::format(
+        "material '{}': an explosive that burns takes no [[failure]]: products do not fail", material.name));
   }
   if (detonation_velocity > 0.0) explosive.detonation_velocity = detonation_velocity;
-  Material result = with_eos(
-      material, std::make_shared<const BurningExplosive>(std::make_shared<const Explosive>(std::move(explosive))));
+  Material result = with_eos(material, std::make_shared<const BurningExplosive>(
+                                           std::make_shared<const Explosive>(std::move(explosive))));
   if (!result.burns() || dynamic_cast<const material::EosStrength*>(result.constitutive.get()) == nullptr) {
-    throw InputError(fmt::format("material '{}': an explosive that burns takes another [strength] or none", material.name));
+    throw InputError(fmt::format("material '{}': an explosive that burns takes another [strength] or none",
+                                 material.name));
   }
   return result;
 }
@@ -258,7 +260,8 @@ void initialise(const Material& material, MaterialPoints& points, std::size_t be
         [&]<class Value>(std::vector<Value>& values) {
           if (!values.empty()) {
             std::fill(values.begin() + static_cast<std::ptrdiff_t>(begin),
-                      values.begin() + static_cast<std::ptrdiff_t>(end), neutral_value<Value>(history.field.neutral));
+                      values.begin() + static_cast<std::ptrdiff_t>(end),
+                      neutral_value<Value>(history.field.neutral));
           }
         },
         history.values);
@@ -270,12 +273,14 @@ std::string Material::constants() const {
   std::string text = file.empty() ? "" : fmt::format("# read from {}\n", file.string());
   text += fmt::format("name = {}\nsource = {}\n", toml_string(name), toml_string(source));
   if (!note.empty()) text += fmt::format("note = {}\n", toml_string(note));
-  text += fmt::format("[eos]\nmodel = {}\n{}", toml_string(burns() ? explosive->products->model() : eos->model()),
-                      eos->constants());
+  text += fmt::format("[eos]\nmodel = {}\n{}",
+                      toml_string(burns() ? explosive->products->model() : eos->model()), eos->constants());
   if (burns()) {
     const eos::EquationOfState& unreacted = *explosive->unreacted;
-    text += fmt::format("\n[eos.unreacted]\nmodel = {}\n{}", toml_string(unreacted.model()), unreacted.constants());
-    if (explosive->reaction != nullptr) text += fmt::format("\n[reaction]\n{}", explosive->reaction->constants());
+    text += fmt::format("\n[eos.unreacted]\nmodel = {}\n{}", toml_string(unreacted.model()),
+                        unreacted.constants());
+    if (explosive->reaction != nullptr)
+      text += fmt::format("\n[reaction]\n{}", explosive->reaction->constants());
   }
   text += constitutive->constants(*this);
   if (conductivity > 0.0 || stores_cold_work()) {

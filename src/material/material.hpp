@@ -45,8 +45,9 @@ struct Material {
   /// What the products of the equation of state are made of by burning; null: no explosive. The material itself is the
   /// products, burnt from the start, unless it `burns`.
   std::shared_ptr<const Explosive> explosive;
-  std::shared_ptr<const BurningExplosive> burn;  ///< the equation of state of an explosive that burns, else null
-  double reference_bulk_modulus = 0.0;              ///< Pa, rho c^2 of the reference state
+  std::shared_ptr<const BurningExplosive>
+      burn;                             ///< the equation of state of an explosive that burns, else null
+  double reference_bulk_modulus = 0.0;  ///< Pa, rho c^2 of the reference state
   const failure::Criterion* void_growth = nullptr;  ///< the one of `failure` that grows voids; null: none
   eos::State reference;  ///< the state that bodies start from: p = 0 at the reference temperature
 

@@ -13,9 +13,9 @@
 #include "eos/files/models.hpp"
 #include "eos/models/jwl.hpp"
 #include "eos/models/simulated_crystal.hpp"
+#include "src/core/base/catalogue.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/log.hpp"
-#include "src/core/base/catalogue.hpp"
 #include "src/core/base/text.hpp"
 #include "src/core/input/document.hpp"
 #include "src/material/constitutive_catalogue.hpp"
@@ -170,9 +170,9 @@ fs::path find_material(const fs::path& path, const fs::path& beside) {
   }
   std::vector<std::string> known;
   for (const auto& [stem, file] : library_files()) known.push_back(stem);
-  throw InputError(fmt::format("no material file '{}'{}; searched: {}; 'whipple materials' lists the {} of the library",
-                               path.string(), did_you_mean(path.stem().string(), known), fmt::join(searched, ", "),
-                               known.size()));
+  throw InputError(fmt::format(
+      "no material file '{}'{}; searched: {}; 'whipple materials' lists the {} of the library", path.string(),
+      did_you_mean(path.stem().string(), known), fmt::join(searched, ", "), known.size()));
 }
 
 Material read_material(const fs::path& path, const fs::path& beside) {
@@ -189,7 +189,8 @@ Material read_changed_material(const fs::path& file,
   std::shared_ptr<const Explosive> explosive;
   if (declared.unreacted.build) {
     std::shared_ptr<const reaction::Reaction> reaction;
-    if (declared.reaction.build) reaction = build(declared.reaction.build, declared.reaction_line, "reaction");
+    if (declared.reaction.build)
+      reaction = build(declared.reaction.build, declared.reaction_line, "reaction");
     explosive = build([&] { return make_explosive(eos, declared.unreacted.build(), std::move(reaction)); },
                       declared.unreacted_line, "eos.unreacted");
   } else if (eos->model() == eos::Jwl::name) {
@@ -238,8 +239,8 @@ void require_usable(const Material& material) {
   if (material.explosive == nullptr || material.explosive->estimated) return;
   const eos::Audit of_unreacted = eos::audit(*material.explosive->unreacted, eos::AuditDepth::brief);
   if (of_unreacted.verdict() == eos::Verdict::not_usable) {
-    throw InputError(fmt::format("{}: error: [eos.unreacted] {}: {}", material.file.string(), of_unreacted.model,
-                                 of_unreacted.summary()));
+    throw InputError(fmt::format("{}: error: [eos.unreacted] {}: {}", material.file.string(),
+                                 of_unreacted.model, of_unreacted.summary()));
   }
 }
 

@@ -89,7 +89,8 @@ Covariance joined(Covariance all, const Covariance& other) {
   matrix.topLeftCorner(former, former) = all.matrix;
   for (std::size_t i = 0; i < places.size(); ++i) {
     for (std::size_t k = 0; k < places.size(); ++k) {
-      matrix(places[i], places[k]) += other.matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
+      matrix(places[i], places[k]) +=
+          other.matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
     }
   }
   all.matrix = matrix;
@@ -100,8 +101,8 @@ Covariance joined(Covariance all, const Covariance& other) {
 struct Errors {
   Covariance fit;
   std::optional<Covariance> spread;
-  Covariance defaults;                ///< with known errors
-  std::vector<std::string> unknown;   ///< defaults without
+  Covariance defaults;               ///< with known errors
+  std::vector<std::string> unknown;  ///< defaults without
 };
 
 Errors read_errors(const std::filesystem::path& file, ErrorTier tier) {
@@ -129,11 +130,14 @@ Errors read_errors(const std::filesystem::path& file, ErrorTier tier) {
         key("unknown", "", "defaults without a known error", &errors.unknown)};
     defaults->read(keys);
     defaults->accept("sources");
-    if (deviations.size() != errors.defaults.names.size() || errors.defaults.units.size() != deviations.size()) {
-      defaults->error(fmt::format("[default_errors] has {} errors and {} units for {} names", deviations.size(),
-                                  errors.defaults.units.size(), errors.defaults.names.size()));
+    if (deviations.size() != errors.defaults.names.size() ||
+        errors.defaults.units.size() != deviations.size()) {
+      defaults->error(fmt::format("[default_errors] has {} errors and {} units for {} names",
+                                  deviations.size(), errors.defaults.units.size(),
+                                  errors.defaults.names.size()));
     } else {
-      const Eigen::Map<const Eigen::VectorXd> sigma(deviations.data(), static_cast<Eigen::Index>(deviations.size()));
+      const Eigen::Map<const Eigen::VectorXd> sigma(deviations.data(),
+                                                    static_cast<Eigen::Index>(deviations.size()));
       errors.defaults.matrix = sigma.cwiseAbs2().asDiagonal();
     }
   }
@@ -142,8 +146,9 @@ Errors read_errors(const std::filesystem::path& file, ErrorTier tier) {
                             "provenance", "defaults"}) {
     root.accept(other);
   }
-  for (const char* other : {"matrix", "statistical", "correlation", "statistical_error", "bootstrap_replicates", "bootstrap_error",
-                            "chi_squared", "degrees_of_freedom", "fisher_eigenvalues"}) {
+  for (const char* other :
+       {"matrix", "statistical", "correlation", "statistical_error", "bootstrap_replicates",
+        "bootstrap_error", "chi_squared", "degrees_of_freedom", "fisher_eigenvalues"}) {
     table->accept(other);
   }
   document.finish();
@@ -152,15 +157,15 @@ Errors read_errors(const std::filesystem::path& file, ErrorTier tier) {
 
 }  // namespace
 
-MaterialSamples sample_material(const std::filesystem::path& path, int count, std::uint64_t seed, ErrorTier tier,
-                                const std::filesystem::path& beside) {
+MaterialSamples sample_material(const std::filesystem::path& path, int count, std::uint64_t seed,
+                                ErrorTier tier, const std::filesystem::path& beside) {
   const std::filesystem::path file = find_material(path, beside);
   const Errors errors = read_errors(file, tier);
   if (over_potentials(tier) && !errors.spread) {
-    throw InputError(
-        fmt::format("{} has no table [potential_spread]: fit the stores of several potentials of the element together "
-                    "(whipple fit A.md.h5 B.md.h5 -o FOLDER/)",
-                    file.string()));
+    throw InputError(fmt::format(
+        "{} has no table [potential_spread]: fit the stores of several potentials of the element together "
+        "(whipple fit A.md.h5 B.md.h5 -o FOLDER/)",
+        file.string()));
   }
   MaterialSamples samples;
   Covariance covariance;

@@ -31,7 +31,8 @@ struct NeoHookean {
   static constexpr const char* name = "neo_hookean";
   static constexpr const char* summary = "compressible neo-Hookean solid (rubber), no dissipation";
   static constexpr const char* theory =
-      "s = G rho/rho0 dev b', b' = J^(-2/3) F F^T; pressure and thermal energy of the equation of state, whose energy\n"
+      "s = G rho/rho0 dev b', b' = J^(-2/3) F F^T; pressure and thermal energy of the equation of state, "
+      "whose energy\n"
       "is that of the point less G/(2 rho0) (tr b' - 3). The bulk modulus is that of the equation of state.\n"
       "Source: Bonet and Wood, Nonlinear Continuum Mechanics for Finite Element Analysis (2008), sec. 6.5.2.";
 };
@@ -40,8 +41,8 @@ class NeoHookeanModel final : public Constitutive {
  public:
   using Constants = NeoHookean;
   static std::vector<HistoryField> fields() {
-    return {{"deformation_gradient", "1", "deformation since the start, xx xy xz yx yy yz zx zy zz", Rank::tensor,
-             Convection::deformed, 1.0}};
+    return {{"deformation_gradient", "1", "deformation since the start, xx xy xz yx yy yz zx zy zz",
+             Rank::tensor, Convection::deformed, 1.0}};
   }
 
   explicit NeoHookeanModel(const NeoHookean& constants)
@@ -54,12 +55,14 @@ class NeoHookeanModel final : public Constitutive {
   }
   [[nodiscard]] std::shared_ptr<const Constitutive> adapted(const Material& material) const override {
     if (material.eos->has_phases() || material.eos->initial_distension() > 1.0) {
-      throw InputError("constitutive model \"neo_hookean\" takes an equation of state without phases and pores");
+      throw InputError(
+          "constitutive model \"neo_hookean\" takes an equation of state without phases and pores");
     }
     return std::make_shared<const NeoHookeanModel>(constants_);
   }
   [[nodiscard]] double sound_speed(const Material&, const eos::State& state) const override {
-    return std::sqrt(state.sound_speed * state.sound_speed + 5.0 / 3.0 * constants_.shear_modulus / state.density);
+    return std::sqrt(state.sound_speed * state.sound_speed +
+                     5.0 / 3.0 * constants_.shear_modulus / state.density);
   }
   void update(const Step& in, Chunk& out) const override {
     const double least = 0.01 * in.material.reference.sound_speed * in.material.reference.sound_speed;
@@ -80,8 +83,10 @@ class NeoHookeanModel final : public Constitutive {
     SymmetricLanes& s = out.motion.deviator;
     const double per_density = constants_.shear_modulus / in.material.reference.density;
     for (std::size_t k = 0; k < out.size; ++k) {
-      const auto product = [&](std::size_t i, std::size_t j) {  // of the rows i and j of F: component ij of F F^T
-        return f[3 * i][k] * f[3 * j][k] + f[3 * i + 1][k] * f[3 * j + 1][k] + f[3 * i + 2][k] * f[3 * j + 2][k];
+      const auto product = [&](std::size_t i,
+                               std::size_t j) {  // of the rows i and j of F: component ij of F F^T
+        return f[3 * i][k] * f[3 * j][k] + f[3 * i + 1][k] * f[3 * j + 1][k] +
+               f[3 * i + 2][k] * f[3 * j + 2][k];
       };
       const double determinant = f[0][k] * (f[4][k] * f[8][k] - f[5][k] * f[7][k]) -
                                  f[1][k] * (f[3][k] * f[8][k] - f[5][k] * f[6][k]) +

@@ -32,7 +32,9 @@ enum Status {
   unsupported = 415
 };
 
-Answer text(int status, std::string body) { return {status, "text/plain; charset=utf-8", std::move(body) + "\n"}; }
+Answer text(int status, std::string body) {
+  return {status, "text/plain; charset=utf-8", std::move(body) + "\n"};
+}
 Answer data(const json& body, int status = ok) {
   return {status, "application/json", body.dump(-1, ' ', false, json::error_handler_t::replace)};
 }
@@ -41,7 +43,8 @@ Answer data(const json& body, int status = ok) {
 bool equal_texts(std::string_view a, std::string_view b) {
   unsigned char different = a.size() == b.size() ? 0 : 1;
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
-    different |= static_cast<unsigned char>(static_cast<unsigned char>(a[i]) ^ static_cast<unsigned char>(b[i]));
+    different |=
+        static_cast<unsigned char>(static_cast<unsigned char>(a[i]) ^ static_cast<unsigned char>(b[i]));
   }
   return different == 0;
 }
@@ -73,7 +76,8 @@ class Query {
       const std::string_view part = query.substr(0, query.find('&'));
       query.remove_prefix(std::min(part.size() + 1, query.size()));
       const std::size_t equals = part.find('=');
-      const std::string_view value = equals == std::string_view::npos ? std::string_view() : part.substr(equals + 1);
+      const std::string_view value =
+          equals == std::string_view::npos ? std::string_view() : part.substr(equals + 1);
       values_[decoded(part.substr(0, equals))].push_back(decoded(value));
     }
   }
@@ -106,8 +110,12 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 3> types = {
 }  // namespace
 
 Desk::Desk(Folder folder, Access access, fs::path page, fs::path view, fs::path cases, Start start)
-    : folder_(std::move(folder)), access_(std::move(access)), page_(std::move(page)), view_(std::move(view)),
-      cases_(std::move(cases)), start_(std::move(start)) {}
+    : folder_(std::move(folder)),
+      access_(std::move(access)),
+      page_(std::move(page)),
+      view_(std::move(view)),
+      cases_(std::move(cases)),
+      start_(std::move(start)) {}
 
 /// Other pages of the same browser can reach this address, under another name too; their browsers say where they are
 /// from.
@@ -174,16 +182,21 @@ Answer Desk::read(const std::string& path, const std::string& query) {
   const Query keys(query);
   using Answers = std::map<std::string_view, std::function<Answer()>>;
   const Answers answers = {
-      {"/runs", [&] {
-         return data({{"folder", fs::absolute(folder_.path()).string()}, {"runs", folder_.runs()},
+      {"/runs",
+       [&] {
+         return data({{"folder", fs::absolute(folder_.path()).string()},
+                      {"runs", folder_.runs()},
                       {"cases", access_.read_only ? std::vector<std::string>() : cases()},
-                      {"read_only", access_.read_only}, {"started", folder_.started()}});
+                      {"read_only", access_.read_only},
+                      {"started", folder_.started()}});
        }},
       {"/run", [&] { return data(folder_.describe(keys.one("run"))); }},
-      {"/curves", [&] {
+      {"/curves",
+       [&] {
          const std::optional<Table> table = value_of<Table>(keys.one("table"));
          if (!table) throw InputError("\"table\" of the query is history or gauges");
-         return data(folder_.curves(keys.one("run"), *table, keys.one("x"), keys.all("y"), keys.number("points")));
+         return data(
+             folder_.curves(keys.one("run"), *table, keys.one("x"), keys.all("y"), keys.number("points")));
        }},
       {"/cloud", [&] {
          return Answer{ok, "application/octet-stream",
@@ -209,12 +222,14 @@ Answer Desk::resume(const json& wish) {
 Answer Desk::begin(const json& wish) {
   const std::string name = text_of(wish, "case"), run = text_of(wish, "run");
   const std::vector<std::string> known = cases();
-  if (std::ranges::find(known, name) == known.end()) throw InputError(fmt::format("there is no case \"{}\"", name));
+  if (std::ranges::find(known, name) == known.end())
+    throw InputError(fmt::format("there is no case \"{}\"", name));
   const auto is_plain = [](char letter) {
     return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_' || letter == '-';
   };
   if (run.empty() || run.size() > 100 || run.front() == '-' || !std::ranges::all_of(run, is_plain)) {
-    throw InputError("the name of a run has letters, digits, _ and - only, and begins with none of these signs");
+    throw InputError(
+        "the name of a run has letters, digits, _ and - only, and begins with none of these signs");
   }
   const fs::path folder = folder_.path() / run;
   if (fs::exists(folder)) throw InputError(fmt::format("{} exists already", folder.string()));

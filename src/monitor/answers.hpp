@@ -40,8 +40,8 @@ class Desk {
   /// @param page   folder of the page's files
   /// @param view   folder of the viewer's modules
   /// @param cases  folder whose sub-folders with a case.toml can be started; empty: none
-  Desk(Folder folder, Access access, std::filesystem::path page, std::filesystem::path view, std::filesystem::path cases,
-       Start start);
+  Desk(Folder folder, Access access, std::filesystem::path page, std::filesystem::path view,
+       std::filesystem::path cases, Start start);
 
   /// Answers whatever is asked; errors are answers too.
   [[nodiscard]] Answer answer(const Question& question);

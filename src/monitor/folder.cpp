@@ -59,7 +59,8 @@ json last_lines(const fs::path& file, std::size_t lines) {
   std::vector<std::string> all;
   for (std::string line; std::getline(in, line);) all.push_back(line);
   if (size > most && !all.empty()) all.erase(all.begin());  // the rest of a line
-  for (std::size_t i = all.size() > lines ? all.size() - lines : 0; i < all.size(); ++i) list.push_back(all[i]);
+  for (std::size_t i = all.size() > lines ? all.size() - lines : 0; i < all.size(); ++i)
+    list.push_back(all[i]);
   return list;
 }
 
@@ -71,8 +72,12 @@ json answers_json(const fs::path& file) {
   while (std::getline(in, line)) {
     const std::vector<std::string> cells = csv_cells(line);
     if (cells.size() != 7) continue;
-    list.push_back({{"time", cells[0]}, {"step", cells[1]}, {"request", cells[3]}, {"value", cells[4]},
-                    {"answer", cells[5]}, {"detail", cells[6]}});
+    list.push_back({{"time", cells[0]},
+                    {"step", cells[1]},
+                    {"request", cells[3]},
+                    {"value", cells[4]},
+                    {"answer", cells[5]},
+                    {"detail", cells[6]}});
   }
   return list;
 }
@@ -140,7 +145,8 @@ json Folder::describe(const std::string& name) {
   try {
     const analysis::Run& run = snapshots_of(name);
     answer["title"] = run.title;
-    for (const analysis::SnapshotEntry& snapshot : run.snapshots) answer["snapshots"].push_back(number(snapshot.time));
+    for (const analysis::SnapshotEntry& snapshot : run.snapshots)
+      answer["snapshots"].push_back(number(snapshot.time));
   } catch (const InputError& error) {
     answer["no_snapshots"] = error.what();
   }
@@ -175,9 +181,11 @@ json Folder::curves(const std::string& name, Table table, const std::string& x,
 
 std::string Folder::cloud(const std::string& name, std::size_t index, std::size_t most) {
   const analysis::Run& run = snapshots_of(name);
-  if (index >= run.snapshots.size()) throw InputError(fmt::format("{} has {} snapshots", name, run.snapshots.size()));
+  if (index >= run.snapshots.size())
+    throw InputError(fmt::format("{} has {} snapshots", name, run.snapshots.size()));
   const analysis::Snapshot snapshot = analysis::read_snapshot(run.snapshots[index]);
-  const std::size_t one_of = std::max<std::size_t>((snapshot.size() + most - 1) / std::max<std::size_t>(most, 1), 1);
+  const std::size_t one_of =
+      std::max<std::size_t>((snapshot.size() + most - 1) / std::max<std::size_t>(most, 1), 1);
   return view::gzipped(view::pack_cloud(run, snapshot, {.fields = {}, .one_of = one_of}));
 }
 

@@ -7,10 +7,9 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
-
-#include <nlohmann/json.hpp>
 
 #include "src/analysis/run.hpp"
 #include "src/core/base/words.hpp"
@@ -57,7 +56,7 @@ class Folder {
     explicit Known(const std::filesystem::path& run)
         : history(run / "history.csv"), gauges(run / "gauges.csv") {}
     GrowingTable history, gauges;
-    std::unique_ptr<analysis::Run> run;              // as of the index of snapshots below
+    std::unique_ptr<analysis::Run> run;  // as of the index of snapshots below
     std::filesystem::file_time_type index_written{};
   };
   Known& known(const std::string& name);

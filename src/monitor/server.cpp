@@ -3,13 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <optional>
-#include <utility>  // Boost 1.74 needs it and does not include it
-
 #include <boost/asio.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
+#include <optional>
 #include <random>
+#include <utility>  // Boost 1.74 needs it and does not include it
 
 #include "src/core/base/error.hpp"
 
@@ -58,7 +57,9 @@ namespace {
 /// One connection: reads a question, writes the answer, and so on.
 class Session : public std::enable_shared_from_this<Session> {
  public:
-  Session(Server::Connections& all, tcp::socket socket) : all_(all), stream_(std::move(socket)) { ++all_.open; }
+  Session(Server::Connections& all, tcp::socket socket) : all_(all), stream_(std::move(socket)) {
+    ++all_.open;
+  }
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
   ~Session() { --all_.open; }
@@ -68,18 +69,22 @@ class Session : public std::enable_shared_from_this<Session> {
     parser_->body_limit(most_body);
     parser_->header_limit(most_head);
     stream_.expires_after(silence);
-    http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](beast::error_code error, std::size_t) {
-      if (error == http::error::body_limit) return self->write({413, "text/plain", "too long\n"}, false);
-      if (error == http::error::header_limit) return self->write({431, "text/plain", "too long\n"}, false);
-      if (!error) self->answer(self->parser_->release());
-    });
+    http::async_read(stream_, buffer_, *parser_,
+                     [self = shared_from_this()](beast::error_code error, std::size_t) {
+                       if (error == http::error::body_limit)
+                         return self->write({413, "text/plain", "too long\n"}, false);
+                       if (error == http::error::header_limit)
+                         return self->write({431, "text/plain", "too long\n"}, false);
+                       if (!error) self->answer(self->parser_->release());
+                     });
   }
 
  private:
   void answer(const Request& request) {
     all_.asked = Clock::now();
     const bool changes = request.method() == http::verb::post;
-    if (!changes && request.method() != http::verb::get) return write({405, "text/plain", "GET or POST\n"}, false);
+    if (!changes && request.method() != http::verb::get)
+      return write({405, "text/plain", "GET or POST\n"}, false);
     const Question question{.changes = changes,
                             .target = text(request.target()),
                             .host = text(request[http::field::host]),
@@ -152,7 +157,8 @@ Server::Server(std::uint16_t port) : connections_(std::make_unique<Connections>(
   if (!error) acceptor.set_option(asio::socket_base::reuse_address(true), error);
   if (!error) acceptor.bind(here, error);
   if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
-  if (error) throw InputError(fmt::format("port {} of this machine cannot be used: {}", port, error.message()));
+  if (error)
+    throw InputError(fmt::format("port {} of this machine cannot be used: {}", port, error.message()));
 }
 
 Server::~Server() = default;

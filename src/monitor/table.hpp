@@ -32,9 +32,9 @@ class GrowingTable {
   void add(const std::string& line);
 
   std::filesystem::path file_;
-  std::uintmax_t read_ = 0;    // bytes
-  std::string first_line_;     // as read, to notice another table
-  std::string unfinished_;     // line
+  std::uintmax_t read_ = 0;  // bytes
+  std::string first_line_;   // as read, to notice another table
+  std::string unfinished_;   // line
   std::vector<std::string> heads_;
   std::vector<std::vector<double>> columns_;
 };

@@ -11,10 +11,18 @@ namespace whipple {
 
 History::History(HistoryField declared) : field(std::move(declared)) {
   switch (field.rank) {
-    case Rank::scalar: values.emplace<0>(); break;
-    case Rank::vector: values.emplace<1>(); break;
-    case Rank::symmetric_tensor: values.emplace<2>(); break;
-    case Rank::tensor: values.emplace<3>(); break;
+    case Rank::scalar:
+      values.emplace<0>();
+      break;
+    case Rank::vector:
+      values.emplace<1>();
+      break;
+    case Rank::symmetric_tensor:
+      values.emplace<2>();
+      break;
+    case Rank::tensor:
+      values.emplace<3>();
+      break;
   }
 }
 
@@ -35,11 +43,9 @@ History& Histories::add(const HistoryField& field) {
 }
 
 void Histories::declare(const HistoryField& field, std::size_t count) {
-  std::visit(
-      [&]<class Value>(std::vector<Value>& values) {
-        values.resize(count, neutral_value<Value>(field.neutral));
-      },
-      add(field).values);
+  std::visit([&]<class Value>(
+                 std::vector<Value>& values) { values.resize(count, neutral_value<Value>(field.neutral)); },
+             add(field).values);
 }
 
 }  // namespace whipple

@@ -34,17 +34,22 @@ struct HistoryField {
   std::string meaning;
   Rank rank = Rank::scalar;
   Convection convection = Convection::kept;
-  double neutral = 0.0;  ///< of an undisturbed point and of points that do not need the field; tensors: times identity
-  Range range = {};      ///< of the components that a checkpoint may hold
+  double neutral =
+      0.0;  ///< of an undisturbed point and of points that do not need the field; tensors: times identity
+  Range range = {};  ///< of the components that a checkpoint may hold
 };
 
 /// Numbers of a value.
 constexpr std::size_t components_of(Rank rank) {
   switch (rank) {
-    case Rank::scalar: return 1;
-    case Rank::vector: return 3;
-    case Rank::symmetric_tensor: return 6;
-    case Rank::tensor: return 9;
+    case Rank::scalar:
+      return 1;
+    case Rank::vector:
+      return 3;
+    case Rank::symmetric_tensor:
+      return 6;
+    case Rank::tensor:
+      return 9;
   }
   return 0;
 }
@@ -90,7 +95,8 @@ class Histories {
   [[nodiscard]] const std::vector<Value>& values(const std::string& name) const {
     const History* history = find(name);
     const auto* values = history == nullptr ? nullptr : std::get_if<std::vector<Value>>(&history->values);
-    if (values == nullptr) throw InternalError("no model of these points declares the field \"" + name + "\"");
+    if (values == nullptr)
+      throw InternalError("no model of these points declares the field \"" + name + "\"");
     return *values;
   }
   template <class Value>
@@ -98,7 +104,9 @@ class Histories {
     return const_cast<std::vector<Value>&>(std::as_const(*this).template values<Value>(name));
   }
   /// Numbers of a field of rank `scalar`.
-  [[nodiscard]] const std::vector<double>& scalar(const std::string& name) const { return values<double>(name); }
+  [[nodiscard]] const std::vector<double>& scalar(const std::string& name) const {
+    return values<double>(name);
+  }
   [[nodiscard]] std::vector<double>& scalar(const std::string& name) { return values<double>(name); }
   /// Tensors of a field of rank `symmetric_tensor`.
   [[nodiscard]] const std::vector<SymmetricTensor>& symmetric(const std::string& name) const {

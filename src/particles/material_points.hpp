@@ -127,7 +127,8 @@ WHIPPLE_INLINE inline void prefetch_state(const MaterialPoints& points, std::siz
   });
   for (const History& history : points.history) {
     if (const auto* numbers = std::get_if<std::vector<double>>(&history.values)) prefetch(first, *numbers);
-    if (const auto* tensors = std::get_if<std::vector<SymmetricTensor>>(&history.values)) prefetch(first, *tensors);
+    if (const auto* tensors = std::get_if<std::vector<SymmetricTensor>>(&history.values))
+      prefetch(first, *tensors);
     if (const auto* tensors = std::get_if<std::vector<Matrix3>>(&history.values)) prefetch(first, *tensors);
   }
 }

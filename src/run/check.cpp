@@ -5,13 +5,13 @@
 #include <array>
 
 #include "eos/table/table.hpp"
+#include "src/case/build/tables.hpp"
+#include "src/case/remarks.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/machine.hpp"
 #include "src/core/base/text.hpp"
-#include "src/io/ranks.hpp"
 #include "src/core/parallel/threads.hpp"
-#include "src/case/remarks.hpp"
-#include "src/case/build/tables.hpp"
+#include "src/io/ranks.hpp"
 #include "src/run/forecast.hpp"
 #include "src/run/preparation.hpp"
 #include "src/run/run.hpp"
@@ -72,10 +72,11 @@ std::string check_case(const RunOptions& options, MPI_Comm communicator) {
   text += fmt::format("steps: {:.0f} to {:.0f} to t = {:.6g} us\n", cost.least_steps, cost.most_steps,
                       1e6 * setup.time.end);
   text += fmt::format(
-      "estimated time: {} to {} on {} threads ({:.0f} ns per particle{} and step, measured; on average {:.0f} % of "
+      "estimated time: {} to {} on {} threads ({:.0f} ns per particle{} and step, measured; on average "
+      "{:.0f} % of "
       "them take part)\n",
-      format_duration(cost.least_time), format_duration(cost.most_time), parallel::threads(), cost.nanoseconds,
-      setup.has_elements() ? " or element" : "", 1e2 * cost.moving_share);
+      format_duration(cost.least_time), format_duration(cost.most_time), parallel::threads(),
+      cost.nanoseconds, setup.has_elements() ? " or element" : "", 1e2 * cost.moving_share);
   return text;
 }
 

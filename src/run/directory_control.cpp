@@ -44,7 +44,8 @@ std::optional<Answer> find_answer(const fs::path& table, const std::string& file
   for (std::string line; std::getline(rows, line);) {
     const std::vector<std::string> cells = csv_cells(line);
     if (cells.size() != 7 || cells[2] != file) continue;
-    if (const std::optional<Verdict> verdict = value_of<Verdict>(cells[5])) found = Answer{*verdict, cells[6]};
+    if (const std::optional<Verdict> verdict = value_of<Verdict>(cells[5]))
+      found = Answer{*verdict, cells[6]};
   }
   return found;
 }
@@ -55,7 +56,8 @@ DirectoryControl::DirectoryControl(const io::RunDirectory& directory, std::chron
     : folder_(directory.control_folder()), table_(directory.steering_file()), interval_(interval) {
   std::error_code fault;
   fs::create_directory(folder_, fault);
-  if (fault) throw InputError(fmt::format("{}: cannot make the folder: {}", folder_.string(), fault.message()));
+  if (fault)
+    throw InputError(fmt::format("{}: cannot make the folder: {}", folder_.string(), fault.message()));
 }
 
 void DirectoryControl::look() {
@@ -64,7 +66,8 @@ void DirectoryControl::look() {
   next_look_ = now + std::chrono::duration_cast<Clock::duration>(interval_);
   std::error_code ignored;  // whoever removes the folder asks for nothing
   for (fs::directory_iterator entry(folder_, ignored), last; entry != last; entry.increment(ignored)) {
-    if (entry->path().extension() == ".toml" && entry->is_regular_file(ignored)) waiting_.push_back(entry->path());
+    if (entry->path().extension() == ".toml" && entry->is_regular_file(ignored))
+      waiting_.push_back(entry->path());
   }
   std::ranges::sort(waiting_);
 }
@@ -103,7 +106,8 @@ Request DirectoryControl::take(const fs::path& file, const Moment& moment, const
   if (!reason.empty()) request = {};
   const bool accepted = reason.empty();
   write(moment, file.filename().string(), words,
-        accepted ? Answer{Verdict::accepted, replaced_by(request, moment.schedule)} : Answer{Verdict::refused, reason});
+        accepted ? Answer{Verdict::accepted, replaced_by(request, moment.schedule)}
+                 : Answer{Verdict::refused, reason});
   fs::remove(taken, fault);
   return request;
 }
@@ -114,16 +118,18 @@ void DirectoryControl::write(const Moment& moment, const std::string& file, cons
   const bool is_new = !fs::exists(table_, ignored);
   std::ofstream table(table_, std::ios::app | std::ios::binary);
   if (is_new) table << header << '\n';
-  table << fmt::format("{},{},{},{},{},{},{}\n", moment.time(), moment.step(), csv_cell(file), csv_cell(words.request),
-                       csv_cell(words.value), word_of(answer.verdict), csv_cell(answer.detail));
+  table << fmt::format("{},{},{},{},{},{},{}\n", moment.time(), moment.step(), csv_cell(file),
+                       csv_cell(words.request), csv_cell(words.value), word_of(answer.verdict),
+                       csv_cell(answer.detail));
   table.flush();
-  if (!table) log::warning("{}: cannot write the line; is the disk full?", table_.string());  // the run goes on
+  if (!table)
+    log::warning("{}: cannot write the line; is the disk full?", table_.string());  // the run goes on
   log::info("request {}{}{}: {}{}{}", words.request, words.value.empty() ? "" : " ", words.value,
             word_of(answer.verdict), answer.detail.empty() ? "" : ", ", answer.detail);
 }
 
 std::optional<Answer> steer(const fs::path& run, const std::string& word, const std::string& value,
-                  std::chrono::duration<double> patience) {
+                            std::chrono::duration<double> patience) {
   (void)parse_request(word, value);
   const fs::path folder = run / "control";
   if (!fs::is_regular_file(run / "run.toml"))
@@ -137,7 +143,9 @@ std::optional<Answer> steer(const fs::path& run, const std::string& word, const 
   std::error_code missing;
   io::write_text_atomically(file, request_toml(word, value));
 
-  const auto is_waiting = [&] { return fs::exists(file, missing) || fs::exists(file.string() + ".taken", missing); };
+  const auto is_waiting = [&] {
+    return fs::exists(file, missing) || fs::exists(file.string() + ".taken", missing);
+  };
   constexpr auto pause = std::chrono::milliseconds(50);
   for (const auto begin = std::chrono::steady_clock::now(); is_waiting();) {
     if (std::chrono::steady_clock::now() - begin >= patience) return std::nullopt;

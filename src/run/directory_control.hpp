@@ -24,7 +24,8 @@ constexpr std::array<Word<Verdict>, 2> words(Verdict) {
 /// The answer of a run to a request: a line of steering.csv.
 struct Answer {
   Verdict verdict = Verdict::accepted;
-  std::string detail;  ///< of an accepted request the number that it replaces, if any; of a refused one the reason
+  std::string
+      detail;  ///< of an accepted request the number that it replaces, if any; of a refused one the reason
 };
 
 /// Takes requests from the folder control/ of a run: files *.toml with one request each, in the order of their
@@ -48,7 +49,8 @@ class DirectoryControl : public RunControl {
   /// Removes a file of the folder, answers it, and returns what is to be done.
   /// @param too_late  why nothing is followed any more; empty: what the run can follow is followed
   Request take(const std::filesystem::path& file, const Moment& moment, const std::string& too_late = "");
-  void write(const Moment& moment, const std::string& file, const RequestWords& words, const Answer& answer) const;
+  void write(const Moment& moment, const std::string& file, const RequestWords& words,
+             const Answer& answer) const;
 
   using Clock = std::chrono::steady_clock;
   std::filesystem::path folder_, table_;
@@ -61,7 +63,7 @@ class DirectoryControl : public RunControl {
 /// @param patience  s to wait; a run answers at the end of the step under way
 /// @returns the answer; nothing if none came in that time
 /// @throws InputError if the request is wrong, or the run does not go on or ends before it has followed it
-std::optional<Answer> steer(const std::filesystem::path& run, const std::string& word, const std::string& value,
-                  std::chrono::duration<double> patience = {});
+std::optional<Answer> steer(const std::filesystem::path& run, const std::string& word,
+                            const std::string& value, std::chrono::duration<double> patience = {});
 
 }  // namespace whipple::run

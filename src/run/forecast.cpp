@@ -51,7 +51,9 @@ double moving_share(const solver::Simulation& s) {
   const std::size_t count = s.bodies().size();
   std::vector<Box> moving(count);
   double fastest = 0.0, points = 0.0;
-  const auto is_active = [](const solver::Point& point) { return point.is_stressed || !point.velocity.isZero(0.0); };
+  const auto is_active = [](const solver::Point& point) {
+    return point.is_stressed || !point.velocity.isZero(0.0);
+  };
   const auto for_each_point = [&](const std::function<void(const solver::Point& point)>& visit) {
     for (const solver::Carrier* carrier : s.carriers()) carrier->for_each_point(visit);
   };
@@ -102,7 +104,9 @@ double growing_steps(const cases::TimeControl& control, double time, double allo
 }
 
 /// Counts them when steps end at the times of snapshots, too.
-double steps_between_snapshots(double steps, double snapshots) { return snapshots * std::ceil(steps / snapshots); }
+double steps_between_snapshots(double steps, double snapshots) {
+  return snapshots * std::ceil(steps / snapshots);
+}
 
 }  // namespace
 

@@ -8,8 +8,8 @@ namespace whipple::run {
 /// Holds the expected cost of a run as ranges. All cases of the repository lie within those of the steps.
 struct Forecast {
   double least_steps = 0.0, most_steps = 0.0;
-  double nanoseconds = 0.0;     ///< per particle or element and step, measured with no block inactive
-  double moving_share = 1.0;    ///< mean active fraction of the particles and elements over the run
+  double nanoseconds = 0.0;   ///< per particle or element and step, measured with no block inactive
+  double moving_share = 1.0;  ///< mean active fraction of the particles and elements over the run
   double least_time = 0.0, most_time = 0.0;  ///< s of wall time
 };
 

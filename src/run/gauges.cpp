@@ -83,7 +83,8 @@ double spline(double x) {
 std::string checkpoint_name(const cases::Gauge& gauge) { return "gauge_particle." + gauge.name; }
 
 /// Finds the particle nearest to each moving gauge; of several, the one of the least number. Collective.
-std::vector<std::uint64_t> nearest(const std::vector<cases::Gauge>& gauges, const solver::Simulation& simulation) {
+std::vector<std::uint64_t> nearest(const std::vector<cases::Gauge>& gauges,
+                                   const solver::Simulation& simulation) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   std::vector<double> closest(gauges.size(), -infinity), number(gauges.size(), -infinity);
   const auto distance = [&](std::size_t g, const Part& part) {
@@ -176,7 +177,8 @@ std::vector<io::HistoryValue> GaugeRecorder::row(const solver::Simulation& simul
       row.push_back({fmt::format("{}.{}", gauges_[g].name, "xyz"[a]), "m", x});
     }
     for (std::size_t a = 0; a < 3; ++a) {
-      row.push_back({fmt::format("{}.velocity_{}", gauges_[g].name, "xyz"[a]), "m/s", s.velocity[a] / s.mass});
+      row.push_back(
+          {fmt::format("{}.velocity_{}", gauges_[g].name, "xyz"[a]), "m/s", s.velocity[a] / s.mass});
     }
     for (std::size_t q = 0; q < quantities.size(); ++q) {
       const double weight = quantities[q].by_volume ? s.volume : s.mass;

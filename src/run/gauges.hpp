@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "src/case/gauges.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/history.hpp"
-#include "src/case/gauges.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple::run {

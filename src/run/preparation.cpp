@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "src/case/build/placement.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/machine.hpp"
 #include "src/core/base/text.hpp"
 #include "src/core/parallel/address_space.hpp"
 #include "src/core/parallel/threads.hpp"
-#include "src/case/build/placement.hpp"
 
 namespace whipple::run {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "src/core/parallel/mpi.hpp"
 #include "src/case/case.hpp"
+#include "src/core/parallel/mpi.hpp"
 
 namespace whipple::run {
 

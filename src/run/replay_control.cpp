@@ -40,8 +40,10 @@ ReplayControl::ReplayControl(const std::filesystem::path& table) {
       if (value_of<Verdict>(cells[5]) != Verdict::accepted) continue;
       const std::int64_t step = step_of(cells[1]);
       if (!rows_.empty() && step < rows_.back().first) {
-        throw InputError(fmt::format("step {} after step {}: the run was continued from an earlier checkpoint, and cannot "
-                                     "be repeated from this table", step, rows_.back().first));
+        throw InputError(
+            fmt::format("step {} after step {}: the run was continued from an earlier checkpoint, and cannot "
+                        "be repeated from this table",
+                        step, rows_.back().first));
       }
       rows_.emplace_back(step, parse_request(cells[3], cells[4]));
     } catch (const InputError& error) {

@@ -103,7 +103,8 @@ Request parse_request(const std::string& word, const std::string& value) {
                                  did_you_mean(word, words), fmt::join(words, ", ")));
   }
   if (entry->changes == nullptr) {
-    if (!value.empty()) throw InputError(fmt::format("\"{}\" takes no value, found {}", word, toml_string(value)));
+    if (!value.empty())
+      throw InputError(fmt::format("\"{}\" takes no value, found {}", word, toml_string(value)));
     return {entry->act};
   }
   if (value.empty()) {
@@ -114,8 +115,8 @@ Request parse_request(const std::string& word, const std::string& value) {
   try {
     const double number = info.unit.empty() ? whole_number(value) : units::parse_quantity(value, info.unit);
     if (!std::isfinite(number) || !info.range.contains(number)) {
-      throw InputError(fmt::format("must be {}{}{}, found {}", info.range.text(), info.unit.empty() ? "" : " ",
-                                   info.unit, toml_string(value)));
+      throw InputError(fmt::format("must be {}{}{}, found {}", info.range.text(),
+                                   info.unit.empty() ? "" : " ", info.unit, toml_string(value)));
     }
     return {entry->act, number};
   } catch (const InputError& error) {

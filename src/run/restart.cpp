@@ -17,8 +17,8 @@
 #include "src/core/base/error.hpp"
 #include "src/core/base/hash.hpp"
 #include "src/core/base/log.hpp"
-#include "src/material/failure/catalogue.hpp"
 #include "src/core/parallel/mpi.hpp"
+#include "src/material/failure/catalogue.hpp"
 #include "src/run/checkpointing.hpp"
 
 namespace whipple::run {
@@ -64,9 +64,11 @@ std::map<std::string, std::string> keys_of(std::string_view toml) {
       if (!list.empty() && name.starts_with(owner + ".")) name = list + name.substr(owner.size());
       table = of_list ? fmt::format("{}[{}]", name, entries[name]++) : name;
       if (of_list && name.find('.') == std::string::npos) list = table;
-    } else if (const std::size_t equals = line.find(" = "); equals != std::string_view::npos && line[0] != '#') {
+    } else if (const std::size_t equals = line.find(" = ");
+               equals != std::string_view::npos && line[0] != '#') {
       line = line.substr(0, line.rfind("  # "));
-      keys[fmt::format("{}{}{}", table, table.empty() ? "" : ".", line.substr(0, equals))] = line.substr(equals + 3);
+      keys[fmt::format("{}{}{}", table, table.empty() ? "" : ".", line.substr(0, equals))] =
+          line.substr(equals + 3);
     }
   }
   return keys;
@@ -149,7 +151,9 @@ class Checker {
     });
   }
 
-  [[noreturn]] void fail(const std::string& what) const { throw InputError(fmt::format("{}: {}", file_, what)); }
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(fmt::format("{}: {}", file_, what));
+  }
 
  private:
   std::string file_;
@@ -171,7 +175,8 @@ void remember_input(const cases::Case& setup, io::CheckpointValues& values) {
 }
 
 std::string require_same_input(const cases::Case& setup, const io::CheckpointValues& values) {
-  const std::map<std::string, std::string> now = keys_of(text_of(setup)), then = keys_of(values.text("input"));
+  const std::map<std::string, std::string> now = keys_of(text_of(setup)),
+                                           then = keys_of(values.text("input"));
   std::set<std::string> keys;
   for (const auto& list : {now, then})
     for (const auto& [key, value] : list) keys.insert(key);
@@ -193,7 +198,8 @@ std::string require_same_input(const cases::Case& setup, const io::CheckpointVal
   }
   if (!fixed.empty()) {
     throw InputError(fmt::format(
-        "{}: is a checkpoint of another input than run.toml and its files:\n  {}\n  Grid, bodies, materials and "
+        "{}: is a checkpoint of another input than run.toml and its files:\n  {}\n  Grid, bodies, materials "
+        "and "
         "gauges are those of the checkpoint: put them back, or start over with whipple run CASE.toml -o DIR",
         values.source, fmt::join(fixed, "\n  ")));
   }
@@ -237,8 +243,9 @@ solver::Simulation resume(const cases::Case& setup, io::Checkpoint& checkpoint, 
   if (!changed.empty()) log::info("changed since the checkpoint: {}", changed);
   const solver::RunState state = from_checkpoint(checkpoint.values);
   if (setup.time.end < state.time) {
-    throw InputError(fmt::format("'time.end' is {} s, and the run is at t = {} s already: expected at least that",
-                                 setup.time.end, state.time));
+    throw InputError(
+        fmt::format("'time.end' is {} s, and the run is at t = {} s already: expected at least that",
+                    setup.time.end, state.time));
   }
   try {
     return {setup,        std::move(checkpoint.particles), state,

@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "src/io/checkpoint.hpp"
 #include "src/case/case.hpp"
+#include "src/io/checkpoint.hpp"
 #include "src/solver/simulation.hpp"
 
 /// Checks that a checkpoint belongs to a case: it holds the input that it was written with, and only numbers that

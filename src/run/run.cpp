@@ -11,14 +11,14 @@
 #include <memory>
 #include <optional>
 
+#include "src/case/build/tables.hpp"
+#include "src/case/remarks.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/base/text.hpp"
-#include "src/io/checkpoint.hpp"
-#include "src/io/run_directory.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/parallel/threads.hpp"
-#include "src/case/remarks.hpp"
-#include "src/case/build/tables.hpp"
+#include "src/io/checkpoint.hpp"
+#include "src/io/run_directory.hpp"
 #include "src/run/directory_control.hpp"
 #include "src/run/material_copies.hpp"
 #include "src/run/observers/checkpoints.hpp"
@@ -88,10 +88,11 @@ fs::path output_directory(const RunOptions& options, const fs::path& case_file) 
 }
 
 /// Lists the observers of a run, in the order in which they follow a step.
-Observers observers_of(solver::Simulation& simulation, const io::RunDirectory& directory, const RunOptions& options,
-                       const io::Ranks& ranks) {
+Observers observers_of(solver::Simulation& simulation, const io::RunDirectory& directory,
+                       const RunOptions& options, const io::Ranks& ranks) {
   const cases::Case& setup = simulation.setup();
-  const Table::Options history{directory.history_file(), "history_rows", &Schedule::history_every, options.force};
+  const Table::Options history{directory.history_file(), "history_rows", &Schedule::history_every,
+                               options.force};
   const Table::Options gauges{directory.gauges_file(), "gauges_rows", &Schedule::gauges_every, options.force};
   Observers all;
   all.push_back(std::make_unique<ProgressBar>(ranks));
@@ -144,7 +145,8 @@ int go_on(const RunOptions& options, MPI_Comm communicator) {
   ranks.on_root([&] { lock = io::lock_run(options.output_directory); });
   cases::Case setup = cases::read_case(options.output_directory / "run.toml", options.overrides);
   cases::tabulate_materials(setup, ranks);
-  io::Checkpoint checkpoint = io::read_latest_checkpoint(options.output_directory / "checkpoint", communicator);
+  io::Checkpoint checkpoint =
+      io::read_latest_checkpoint(options.output_directory / "checkpoint", communicator);
   const io::RunDirectory directory =
       io::RunDirectory::open(options.output_directory, checkpoint.values.text("run_name"));
   if (ranks.is_root()) log::set_file(directory.log_file());

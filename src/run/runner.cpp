@@ -64,7 +64,8 @@ int Runner::run(std::span<RunControl* const> controls) {
   } catch (const StateError& error) {
     throw StateError(failed({Outcome::Kind::left_range, static_cast<int>(ExitCode::state), error.what()}));
   } catch (const InputError& error) {  // the input was read: a file that cannot be written
-    throw ResourceError(failed({Outcome::Kind::out_of_resources, static_cast<int>(ExitCode::state), error.what()}));
+    throw ResourceError(
+        failed({Outcome::Kind::out_of_resources, static_cast<int>(ExitCode::state), error.what()}));
   } catch (const std::bad_alloc&) {
     throw ResourceError(failed({Outcome::Kind::out_of_resources, static_cast<int>(ExitCode::state),
                                 "the memory that this process may use is exhausted"}));
@@ -126,9 +127,11 @@ bool Runner::has_ended() const { return now().is_last() || requests_.stop(); }
 Outcome Runner::outcome() const {
   if (now().is_last()) return {};
   if (requests_.signal != 0) {
-    return {Outcome::Kind::stopped, 128 + requests_.signal, fmt::format("stopped by signal {}", requests_.signal)};
+    return {Outcome::Kind::stopped, 128 + requests_.signal,
+            fmt::format("stopped by signal {}", requests_.signal)};
   }
-  if (requests_.out_of_time) return {Outcome::Kind::stopped, out_of_time_code, "stopped by the limit of wall time"};
+  if (requests_.out_of_time)
+    return {Outcome::Kind::stopped, out_of_time_code, "stopped by the limit of wall time"};
   return {Outcome::Kind::stopped, 128 + SIGTERM, "stopped on request"};
 }
 

@@ -59,13 +59,15 @@ RunStatus read_status(const std::filesystem::path& run) {
 
 std::vector<std::filesystem::path> find_runs(const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
-  if (!fs::is_directory(folder)) throw InputError(fmt::format("{}: there is no such folder", folder.string()));
+  if (!fs::is_directory(folder))
+    throw InputError(fmt::format("{}: there is no such folder", folder.string()));
   const auto is_run = [](const fs::path& path) { return fs::exists(path / "status.json"); };
   if (is_run(folder)) return {folder};
   std::vector<fs::path> runs;
   std::error_code changed;  // a folder that is removed meanwhile
   constexpr auto passing = fs::directory_options::skip_permission_denied;
-  for (fs::recursive_directory_iterator entry(folder, passing, changed), last; entry != last; entry.increment(changed)) {
+  for (fs::recursive_directory_iterator entry(folder, passing, changed), last; entry != last;
+       entry.increment(changed)) {
     if (changed) break;
     if (!entry->is_directory(changed) || !is_run(entry->path())) continue;
     runs.push_back(entry->path());

@@ -6,13 +6,14 @@
 namespace whipple::solver {
 
 Load uniform_load(std::string name, std::function<Vector3(double time)> acceleration, double begin) {
-  return {.name = std::move(name),
-          .add =
-              [acceleration = std::move(acceleration)](const LoadedPoints&, double time, std::span<Vector3> sum) {
-                const Vector3 of_all = acceleration(time);
-                for (Vector3& of_point : sum) of_point += of_all;
-              },
-          .next_event = [begin](double time) { return std::max(begin, time); }};
+  return {
+      .name = std::move(name),
+      .add =
+          [acceleration = std::move(acceleration)](const LoadedPoints&, double time, std::span<Vector3> sum) {
+            const Vector3 of_all = acceleration(time);
+            for (Vector3& of_point : sum) of_point += of_all;
+          },
+      .next_event = [begin](double time) { return std::max(begin, time); }};
 }
 
 Load gravity(const cases::Gravity& gravity) {

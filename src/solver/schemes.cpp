@@ -84,15 +84,16 @@ void step_symplectic(Stages& s, double until) {
   s.elements.compute_forces();               // f^n of elements on their nodes (docs/theory/fem.md)
   bin_particles(s);                          // blocks follow the material
   conduct_heat(s);                           // e
-  s.transfers.to_grid(send_sums(s));                 // (3.1)-(3.3) m, (mv)^n, f^n on nodes
+  s.transfers.to_grid(send_sums(s));         // (3.1)-(3.3) m, (mv)^n, f^n on nodes
   find_surfaces(s);
-  s.transfers.advance_grid(contact(s));         // (3.4)-(3.5) v^{n+1} = v^n + dt f^n / m, then contact of bodies
+  s.transfers.advance_grid(contact(s));  // (3.4)-(3.5) v^{n+1} = v^n + dt f^n / m, then contact of bodies
   s.transfers.apply_full_mass_matrix();
   s.material.update("grid to particles", Energy::by_work_identity, [&](const Take& take) {
-    s.transfers.to_particles(take, receive(s));  // (4.2)-(4.8) v, C, x, e at n+1; by grad v^{n+1} stress, p, T, phase
+    s.transfers.to_particles(
+        take, receive(s));  // (4.2)-(4.8) v, C, x, e at n+1; by grad v^{n+1} stress, p, T, phase
   });
-  s.elements.advance();                      // the same of nodes and elements
-  end_step(s);                               // walls and outflow; energy and momentum
+  s.elements.advance();  // the same of nodes and elements
+  end_step(s);           // walls and outflow; energy and momentum
 }
 
 /// Update stress first (Bardenhagen, J. Comput. Phys. 180 (2002) 383; docs/theory/mpm.md, 5).
@@ -100,12 +101,12 @@ void step_usf(Stages& s, double until) {
   begin_step(s, until);  // (6.1)
   bin_particles(s);
   conduct_heat(s);
-  s.contact.find_surfaces_at_walls();          // not from this step, in which the grid has not been advanced
+  s.contact.find_surfaces_at_walls();  // not from this step, in which the grid has not been advanced
   s.transfers.momentum_to_grid(send_momentum(s));  // (5.5) v^n on nodes
   s.material.update("velocity gradient", Energy::by_constitutive_model, [&](const Take& take) {
     s.transfers.gradient_to_particles(take, receive(s));  // (5.6) grad v^n, by it stress and e
   });
-  s.transfers.to_grid(send_sums(s));          // (3.1)-(3.3) with the new stress
+  s.transfers.to_grid(send_sums(s));  // (3.1)-(3.3) with the new stress
   find_surfaces(s);
   s.transfers.advance_grid(contact(s));  // (3.4), (5.9)
   s.transfers.apply_full_mass_matrix();
@@ -124,7 +125,8 @@ void step_usl(Stages& s, double until) {
   s.transfers.advance_grid(contact(s));  // (3.4), (5.9)
   s.transfers.apply_full_mass_matrix();
   s.material.update("grid to particles", Energy::by_constitutive_model, [&](const Take& take) {
-    s.transfers.velocity_to_particles(take, receive(s));  // (5.1)-(5.2) v, x at n+1; (5.7) by grad v^{n+1} stress, e
+    s.transfers.velocity_to_particles(
+        take, receive(s));  // (5.1)-(5.2) v, x at n+1; (5.7) by grad v^{n+1} stress, e
   });
   end_step(s);
 }
@@ -140,9 +142,10 @@ void step_musl(Stages& s, double until) {
   s.transfers.advance_grid(contact(s));  // (3.4), (5.9)
   s.transfers.apply_full_mass_matrix();
   move_particles(s);  // (5.1)-(5.2) v, x at n+1; the grid sees the places of before
-  s.transfers.momentum_to_grid(send_momentum(s));     // (5.3) grid velocity from the new v
+  s.transfers.momentum_to_grid(send_momentum(s));  // (5.3) grid velocity from the new v
   s.material.update("velocity gradient", Energy::by_constitutive_model, [&](const Take& take) {
-    s.transfers.gradient_to_particles(take, receive(s));  // (5.4) grad v at the old places, by it stress and e
+    s.transfers.gradient_to_particles(take,
+                                      receive(s));  // (5.4) grad v at the old places, by it stress and e
   });
   end_step(s);
 }

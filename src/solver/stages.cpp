@@ -5,8 +5,8 @@
 
 namespace whipple::solver {
 
-Stages::Stages(const cases::Case& setup, MPI_Comm communicator, const RunState& run, std::vector<fem::Mesh> meshes,
-               std::vector<fem::Bars> bars)
+Stages::Stages(const cases::Case& setup, MPI_Comm communicator, const RunState& run,
+               std::vector<fem::Mesh> meshes, std::vector<fem::Bars> bars)
     : state(setup, communicator, run),
       particles(state),
       hexahedra(state, loads, std::move(meshes)),

@@ -57,8 +57,8 @@ std::string State::describe_particle(std::size_t p, double time, const std::stri
       "step {}, t = {} s, body \"{}\", particle {}: {}\n  position ({}, {}, {}) m, velocity ({}, "
       "{}, {}) m/s\n  density "
       "{} kg/m^3, specific internal energy {} J/kg, pressure {} Pa, temperature {} K, failed {}",
-      run.step + 1, time, setup.bodies[particles.body[p]].name, particles.id[p], reason, x[0], x[1], x[2], v[0],
-      v[1], v[2], particles.mass[p] / particles.volume[p], particles.specific_internal_energy[p],
+      run.step + 1, time, setup.bodies[particles.body[p]].name, particles.id[p], reason, x[0], x[1], x[2],
+      v[0], v[1], v[2], particles.mass[p] / particles.volume[p], particles.specific_internal_energy[p],
       particles.pressure[p], particles.temperature[p], particles.failed[p]);
 }
 

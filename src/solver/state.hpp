@@ -56,7 +56,8 @@ struct RunState {
   double time_step = 0.0;             ///< s, of the last step; 0 before the first
   double unclipped_step = 0.0;        ///< s, the same if it had not been shortened to meet a time
   double maximum_acceleration = 0.0;  ///< m/s^2, in the last step
-  double compression_rate = 0.0;  ///< 1/s, that all but a thousandth of the material under pressure kept below
+  double compression_rate =
+      0.0;  ///< 1/s, that all but a thousandth of the material under pressure kept below
   double squeezed_beside_voids = 0.0;  ///< kg, intact, under pressure in cells that it does not fill
   double first_touch = 1e300;  ///< s, at which bodies that have not touched yet next do; 1e300: not in sight
   transfer::FirstTouches::Words touched;  ///< what has
@@ -74,17 +75,17 @@ struct State {
   transfer::ShapeFunction shape;  ///< that of the case, in two dimensions its planar form
   MPI_Comm communicator;
   grid::BlockGrid grid;
-  Particles particles;                     ///< of this rank
-  std::vector<cases::BodySummary> bodies;  ///< as seeded; `first` and `count` are those of this rank now
-  transfer::TransitionNodes transition;    ///< nodes of elements that move with the grid in this step
+  Particles particles;                         ///< of this rank
+  std::vector<cases::BodySummary> bodies;      ///< as seeded; `first` and `count` are those of this rank now
+  transfer::TransitionNodes transition;        ///< nodes of elements that move with the grid in this step
   std::vector<std::uint32_t> transition_body;  ///< of each of these nodes
   std::vector<double> initial_density;         ///< kg/m^3, of each body
   RunState run;
   TimeStepBound time_step_bound = TimeStepBound::none;  ///< that determined the last step
   Totals totals;                                        ///< over all ranks, at the end of the last step
   std::size_t particle_count = 0, element_count = 0;    ///< of all ranks
-  Ledger booked;                            ///< what happened on this rank in the step under way
-  std::vector<BodyOutflow> booked_outflow;  ///< the same, of each body
+  Ledger booked;                                        ///< what happened on this rank in the step under way
+  std::vector<BodyOutflow> booked_outflow;              ///< the same, of each body
   /// Largest rates in the step under way: what the next time step depends on.
   struct Rates {
     double squared_change = 0.0;       ///< m^2/s^2, of a particle's velocity
@@ -108,7 +109,8 @@ struct State {
   /// Counts the part of a body that left the domain, by the totals of the body before and after.
   void book_outflow(std::size_t body, const Totals& before, Totals after);
   /// Describes a particle at a time (s) for an error message; the step is the one under way.
-  [[nodiscard]] std::string describe_particle(std::size_t particle, double time, const std::string& reason) const;
+  [[nodiscard]] std::string describe_particle(std::size_t particle, double time,
+                                              const std::string& reason) const;
 };
 
 }  // namespace whipple::solver

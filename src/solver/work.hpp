@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "src/fem/mesh.hpp"
-#include "src/case/case.hpp"
 #include "src/case/build/seeding.hpp"
+#include "src/case/case.hpp"
+#include "src/fem/mesh.hpp"
 
 /// Work of a step, by which the blocks are shared out among the ranks: counted, not timed, so that a run on
 /// so many ranks gives the same bits every time (docs/manual/architecture.md). Unit: the transfers of one particle.

@@ -92,8 +92,9 @@ void conduct_heat(Particles& particles, BlockGrid& grid, double dt, std::span<co
   join_fields(grid, touch);
   for_each_owned_node([&](std::size_t i) {
     const double capacity = nodes[i].scalars.kept[0];
-    nodes[i].scalars.sums =
-        capacity > no_capacity && !grid.is_image(i) ? nodes[i].scalars.sums * (dt / capacity) : broadcast(0.0);
+    nodes[i].scalars.sums = capacity > no_capacity && !grid.is_image(i)
+                                ? nodes[i].scalars.sums * (dt / capacity)
+                                : broadcast(0.0);
   });
   share(grid);
 

@@ -12,9 +12,10 @@ namespace whipple::transfer {
 /// Destination of the kinetic energy that the transfers of a step remove from a particle
 /// (docs/theory/dissipation.md, 2).
 struct Losses {
-  bool kept = false;            ///< false: it is heat at once
-  double heat_share = 0.0;      ///< f: of the work of the artificial viscosity that heats
-  double collision_rate = 0.0;  ///< r: fraction of the unresolved energy per fraction of the volume that closes
+  bool kept = false;        ///< false: it is heat at once
+  double heat_share = 0.0;  ///< f: of the work of the artificial viscosity that heats
+  double collision_rate =
+      0.0;  ///< r: fraction of the unresolved energy per fraction of the volume that closes
   std::span<const double> initial_density;  ///< kg/m^3, of each body
 };
 
@@ -33,7 +34,8 @@ inline bool is_loose(const Particles& particles, std::size_t p, double initial_d
   constexpr double round_off = 1e-9;  // of rho c^2 and of the density
   const double mass = particles.mass[p], volume = particles.volume[p], c = particles.sound_speed[p];
   return particles.failed[p] != 0 || particles.void_volume[p] > 0.0 ||
-         particles.pressure[p] * volume < -round_off * mass * c * c || mass < (1.0 - round_off) * initial_density * volume;
+         particles.pressure[p] * volume < -round_off * mass * c * c ||
+         mass < (1.0 - round_off) * initial_density * volume;
 }
 
 /// Divides the loss of the transfers (J/kg, >= 0 but for round-off) and the work of the artificial viscosity

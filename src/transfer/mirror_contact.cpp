@@ -225,7 +225,8 @@ double MirrorContact::meet(const Plane& plane, const Couple& couple, std::span<N
   grid::NodeMotion& node = nodes[couple.node].motion;
   grid::NodeMotion& mirror = nodes[couple.mirror].motion;
   // The image at the node.
-  const Lanes v = node.velocity_and_relaxation, d = node.increment_and_heat, v_image = sign * mirror.velocity_and_relaxation, d_image = sign * mirror.increment_and_heat;
+  const Lanes v = node.velocity_and_relaxation, d = node.increment_and_heat,
+              v_image = sign * mirror.velocity_and_relaxation, d_image = sign * mirror.increment_and_heat;
   const double n = plane.of.outward();
   const double w = n * (v_image - v)[plane.of.axis], e = n * (d_image - d)[plane.of.axis];
   const double beta = common_relaxation(mass, v[3], other_mass, v_image[3]);

@@ -50,7 +50,8 @@ struct Positions {
 template <class Shape>
 void MirrorContact::extend(const Particles& particles, std::span<const Vector3> guests, BlockGrid& grid) {
   static constexpr grid::BlockShape block_shape = Shape::stencil.block();
-  static constexpr grid::ReachMap map = grid::reach_map(block_shape.edge), map_z = grid::reach_map(block_shape.edge_z);
+  static constexpr grid::ReachMap map = grid::reach_map(block_shape.edge),
+                                  map_z = grid::reach_map(block_shape.edge_z);
   constexpr int count = Shape::count;
   const grid::Geometry& geometry = grid.geometry();
   const Lanes upper_corner = {geometry.upper(0), geometry.upper(1), geometry.upper(2), 0.0};

@@ -107,7 +107,9 @@ WHIPPLE_INLINE inline Both multiply_add(Both a, Both b, Both c) {
 }
 WHIPPLE_INLINE inline Lanes first_of(Both both) { return both.first; }
 WHIPPLE_INLINE inline Lanes second_of(Both both) { return both.second; }
-WHIPPLE_INLINE inline Both load_node(const grid::Node& node) { return {node.registers.first, node.registers.second}; }
+WHIPPLE_INLINE inline Both load_node(const grid::Node& node) {
+  return {node.registers.first, node.registers.second};
+}
 WHIPPLE_INLINE inline void store_node(grid::Node& node, Both value) {
   node.registers = {value.first, value.second};
 }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/transfer/shape_function.hpp"
 #include "src/transfer/shock_conduction.hpp"
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include "src/core/parallel/threads.hpp"
 #include "src/transfer/kernels.hpp"
 #include "src/transfer/scalar_fields.hpp"
+#include "src/transfer/shape_function.hpp"
 
 namespace whipple::transfer {
 namespace {

@@ -39,14 +39,16 @@ bool is_code(const io::FieldFunction& function) {
          std::holds_alternative<std::uint16_t (*)(const io::FieldSource&, std::size_t)>(function);
 }
 
-void add_velocity(const io::OutputField& field, const analysis::Snapshot& snapshot, std::vector<FieldOfCloud>& fields) {
+void add_velocity(const io::OutputField& field, const analysis::Snapshot& snapshot,
+                  std::vector<FieldOfCloud>& fields) {
   const auto& velocity = snapshot.velocity;
   const std::string unit(field.unit);
   fields.push_back({"speed", unit, "magnitude of the velocity", false,
                     [&velocity](std::size_t i) { return velocity[i].norm(); }});
   for (const Eigen::Index axis : {0, 1, 2}) {
     const char letter = "xyz"[axis];
-    fields.push_back({fmt::format("{}_{}", field.name, letter), unit, fmt::format("{} along {}", field.name, letter), false,
+    fields.push_back({fmt::format("{}_{}", field.name, letter), unit,
+                      fmt::format("{} along {}", field.name, letter), false,
                       [&velocity, axis](std::size_t i) { return velocity[i][axis]; }});
   }
 }
@@ -55,22 +57,27 @@ std::vector<FieldOfCloud> fields_of(const analysis::Snapshot& snapshot) {
   std::map<std::string, const std::vector<double>*, std::less<>> left = {{"mass", &snapshot.mass}};
   for (const auto& [name, values] : snapshot.scalars) left[name] = &values;
   std::vector<FieldOfCloud> fields;
-  const auto add = [&](const std::string& name, std::string unit, std::string meaning, bool codes, const auto* values) {
-    fields.push_back({name, std::move(unit), std::move(meaning), codes, [values](std::size_t i) { return (*values)[i]; }});
+  const auto add = [&](const std::string& name, std::string unit, std::string meaning, bool codes,
+                       const auto* values) {
+    fields.push_back(
+        {name, std::move(unit), std::move(meaning), codes, [values](std::size_t i) { return (*values)[i]; }});
   };
   for (const io::OutputField& field : io::output_fields()) {
     if (std::holds_alternative<Vector3 (*)(const io::FieldSource&, std::size_t)>(field.value)) {
       add_velocity(field, snapshot, fields);
     } else if (const auto found = left.find(field.name); found != left.end()) {
-      add(found->first, std::string(field.unit), std::string(field.meaning), is_code(field.value), found->second);
+      add(found->first, std::string(field.unit), std::string(field.meaning), is_code(field.value),
+          found->second);
       left.erase(found);
     }
   }
-  for (const auto& [name, values] : left) add(name, "", "field that this program does not know", false, values);
+  for (const auto& [name, values] : left)
+    add(name, "", "field that this program does not know", false, values);
   return fields;
 }
 
-std::vector<FieldOfCloud> chosen_fields(const analysis::Snapshot& snapshot, const std::vector<std::string>& names) {
+std::vector<FieldOfCloud> chosen_fields(const analysis::Snapshot& snapshot,
+                                        const std::vector<std::string>& names) {
   std::vector<FieldOfCloud> fields = fields_of(snapshot);
   if (names.empty()) return fields;
   const std::vector<std::string> known = cloud_fields(snapshot);
@@ -80,7 +87,8 @@ std::vector<FieldOfCloud> chosen_fields(const analysis::Snapshot& snapshot, cons
                                    did_you_mean(name, known), fmt::join(known, ", ")));
     }
   }
-  std::erase_if(fields, [&](const FieldOfCloud& field) { return std::ranges::find(names, field.name) == names.end(); });
+  std::erase_if(
+      fields, [&](const FieldOfCloud& field) { return std::ranges::find(names, field.name) == names.end(); });
   return fields;
 }
 
@@ -117,7 +125,8 @@ struct CloudFile {
   void end_plane() { planes.append((4 - planes.size() % 4) % 4, '\0'); }
 };
 
-void append_positions(const analysis::Snapshot& snapshot, const std::vector<std::size_t>& kept, CloudFile& file) {
+void append_positions(const analysis::Snapshot& snapshot, const std::vector<std::size_t>& kept,
+                      CloudFile& file) {
   Vector3 lower = snapshot.position[kept.front()], upper = lower;
   for (const std::size_t i : kept) {
     lower = lower.cwiseMin(snapshot.position[i]);
@@ -147,8 +156,11 @@ void append_codes(const FieldOfCloud& field, const std::vector<std::size_t>& kep
     }
   }
   file.end_plane();
-  file.header["fields"].push_back({{"name", field.name}, {"unit", field.unit}, {"meaning", field.meaning},
-                                   {"type", narrow ? "u8" : "u16"}, {"codes", true}});
+  file.header["fields"].push_back({{"name", field.name},
+                                   {"unit", field.unit},
+                                   {"meaning", field.meaning},
+                                   {"type", narrow ? "u8" : "u16"},
+                                   {"codes", true}});
 }
 
 template <class Number>
@@ -166,11 +178,16 @@ void append_reals(const FieldOfCloud& field, const std::vector<std::size_t>& kep
   for (const std::size_t i : kept) {
     const double value = field.value(i);
     const double share = size > 0.0 ? (value - lowest) / size : 0.0;
-    append_number(file.planes, std::isfinite(value) ? static_cast<Number>(std::lround(share * steps)) : missing<Number>);
+    append_number(file.planes,
+                  std::isfinite(value) ? static_cast<Number>(std::lround(share * steps)) : missing<Number>);
   }
   file.end_plane();
-  file.header["fields"].push_back({{"name", field.name}, {"unit", field.unit}, {"meaning", field.meaning},
-                                   {"type", sizeof(Number) == 1 ? "u8" : "u16"}, {"lo", lowest}, {"hi", highest}});
+  file.header["fields"].push_back({{"name", field.name},
+                                   {"unit", field.unit},
+                                   {"meaning", field.meaning},
+                                   {"type", sizeof(Number) == 1 ? "u8" : "u16"},
+                                   {"lo", lowest},
+                                   {"hi", highest}});
 }
 
 /// Appends the increments of the numbers, which are ascending: zeros and ones that vanish in compression.
@@ -179,19 +196,24 @@ void append_ids(const analysis::Snapshot& snapshot, const std::vector<std::size_
   for (const std::size_t i : kept) {
     const std::uint64_t step = snapshot.id[i] - last;
     if (step > std::numeric_limits<std::uint32_t>::max()) {
-      throw InputError(fmt::format("the number of particle {} is too far from that of the next", snapshot.id[i]));
+      throw InputError(
+          fmt::format("the number of particle {} is too far from that of the next", snapshot.id[i]));
     }
     append_number(file.planes, static_cast<std::uint32_t>(step));
     last = snapshot.id[i];
   }
   file.end_plane();
-  file.header["fields"].push_back({{"name", "id"}, {"unit", ""}, {"meaning", "number of the particle, kept for its life"},
-                                   {"type", "u32"}, {"increments", true}});
+  file.header["fields"].push_back({{"name", "id"},
+                                   {"unit", ""},
+                                   {"meaning", "number of the particle, kept for its life"},
+                                   {"type", "u32"},
+                                   {"increments", true}});
 }
 
-nlohmann::ordered_json header_of(const analysis::Run& run, const analysis::Snapshot& snapshot, std::size_t kept,
-                                 std::uint64_t one_of) {
-  nlohmann::ordered_json header = {{"n", kept}, {"of", snapshot.size()}, {"one_of", one_of}, {"time", snapshot.time},
+nlohmann::ordered_json header_of(const analysis::Run& run, const analysis::Snapshot& snapshot,
+                                 std::size_t kept, std::uint64_t one_of) {
+  nlohmann::ordered_json header = {{"n", kept},          {"of", snapshot.size()},
+                                   {"one_of", one_of},   {"time", snapshot.time},
                                    {"title", run.title}, {"dimension", std::string(word_of(run.dimension))}};
   for (const std::optional<double>& plane : run.mirror_planes) {
     header["mirrors"].push_back(plane ? nlohmann::ordered_json(*plane) : nlohmann::ordered_json());
@@ -211,8 +233,10 @@ std::vector<std::string> cloud_fields(const analysis::Snapshot& snapshot) {
   return names;
 }
 
-std::string pack_cloud(const analysis::Run& run, const analysis::Snapshot& snapshot, const CloudOptions& options) {
-  if (snapshot.size() == 0) throw InputError(fmt::format("the snapshot at {} s has no particles", snapshot.time));
+std::string pack_cloud(const analysis::Run& run, const analysis::Snapshot& snapshot,
+                       const CloudOptions& options) {
+  if (snapshot.size() == 0)
+    throw InputError(fmt::format("the snapshot at {} s has no particles", snapshot.time));
   const std::vector<std::size_t> kept = kept_particles(snapshot, std::max<std::uint64_t>(options.one_of, 1));
   CloudFile file;
   file.header = header_of(run, snapshot, kept.size(), std::max<std::uint64_t>(options.one_of, 1));

@@ -24,6 +24,7 @@ std::vector<std::string> cloud_fields(const analysis::Snapshot& snapshot);
 /// Packs a snapshot as a `.wpv` file: header in JSON, then positions in 16 bits, fields in 8 or 16. Which particles a
 /// level of detail keeps depends on their numbers alone, so that one particle is seen through all times.
 /// @throws InputError if a field is unknown, or the snapshot has no particles
-std::string pack_cloud(const analysis::Run& run, const analysis::Snapshot& snapshot, const CloudOptions& options);
+std::string pack_cloud(const analysis::Run& run, const analysis::Snapshot& snapshot,
+                       const CloudOptions& options);
 
 }  // namespace whipple::view

@@ -41,8 +41,9 @@ std::string packed_times(const analysis::Run& run, const std::vector<std::size_t
   for (const std::size_t index : times) {
     const analysis::SnapshotEntry& entry = run.snapshots[index];
     const std::string cloud = pack_cloud(run, analysis::read_snapshot(entry), options);
-    elements += fmt::format("<script type=\"application/octet-stream\" class=\"cloud\" data-time=\"{}\">{}</script>\n",
-                            entry.time, base64(gzipped(cloud)));
+    elements += fmt::format(
+        "<script type=\"application/octet-stream\" class=\"cloud\" data-time=\"{}\">{}</script>\n",
+        entry.time, base64(gzipped(cloud)));
   }
   return elements;
 }
@@ -51,10 +52,17 @@ std::string escaped(std::string_view text) {
   std::string html;
   for (const char letter : text) {
     switch (letter) {
-      case '&': html += "&amp;"; break;
-      case '<': html += "&lt;"; break;
-      case '>': html += "&gt;"; break;
-      default: html += letter;
+      case '&':
+        html += "&amp;";
+        break;
+      case '<':
+        html += "&lt;";
+        break;
+      case '>':
+        html += "&gt;";
+        break;
+      default:
+        html += letter;
     }
   }
   return html;
@@ -71,7 +79,8 @@ void fill(std::string& html, std::string_view mark, std::string_view text) {
 std::string empty_page(const analysis::Run& run, const fs::path& viewer) {
   std::string html = io::read_text(viewer / "page.html");
   const std::string script = joined_modules(viewer / "main.js");
-  if (script.find("</script") != std::string::npos) throw InternalError("the viewer's modules end their own script");
+  if (script.find("</script") != std::string::npos)
+    throw InternalError("the viewer's modules end their own script");
   fill(html, "@TITLE@", escaped(run.title.empty() ? run.folder.filename().string() : run.title));
   fill(html, "@STYLE@", io::read_text(viewer / "style.css"));
   fill(html, "@SCRIPT@", script);
@@ -103,7 +112,8 @@ void append_module(const fs::path& file, std::set<fs::path>& done, std::string& 
 std::string gzipped(std::string_view bytes) {
   constexpr int level = 6, window_of_gzip = 15 + 16, memory = 8;
   z_stream stream = {};
-  if (bytes.size() > std::numeric_limits<uInt>::max()) throw InputError("a snapshot is too large for the viewer");
+  if (bytes.size() > std::numeric_limits<uInt>::max())
+    throw InputError("a snapshot is too large for the viewer");
   if (deflateInit2(&stream, level, Z_DEFLATED, window_of_gzip, memory, Z_DEFAULT_STRATEGY) != Z_OK) {
     throw InternalError("zlib refuses to compress");
   }
@@ -124,7 +134,9 @@ std::string base64(std::string_view bytes) {
   constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
   text.reserve((bytes.size() + 2) / 3 * 4);
-  const auto byte = [&](std::size_t i) { return i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0U; };
+  const auto byte = [&](std::size_t i) {
+    return i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0U;
+  };
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     const unsigned group = byte(i) << 16U | byte(i + 1) << 8U | byte(i + 2);
     for (const unsigned shift : {18U, 12U, 6U, 0U}) text += digits[group >> shift & 63U];
@@ -142,7 +154,8 @@ std::string joined_modules(const fs::path& main) {
 }
 
 Page make_page(const analysis::Run& run, const PageOptions& options, const fs::path& viewer) {
-  if (run.snapshots.empty()) throw InputError(fmt::format("{}: error: has no snapshots", run.folder.string()));
+  if (run.snapshots.empty())
+    throw InputError(fmt::format("{}: error: has no snapshots", run.folder.string()));
   std::string html = empty_page(run, viewer);
   const std::vector<std::size_t> times = chosen_times(run.snapshots.size(), options.times);
   const double room = options.most_bytes - static_cast<double>(html.size());
@@ -151,11 +164,13 @@ Page make_page(const analysis::Run& run, const PageOptions& options, const fs::p
   const auto detail = [](double excess) { return static_cast<std::uint64_t>(std::ceil(excess)); };
   // The last snapshot packs worst: it tells how many particles there may be.
   const std::string last = packed_times(run, {times.back()}, {options.fields, 1, options.bits});
-  page.one_of = std::max<std::uint64_t>(1, detail(0.8 * static_cast<double>(last.size() * times.size()) / std::max(room, 1.0)));
+  page.one_of = std::max<std::uint64_t>(
+      1, detail(0.8 * static_cast<double>(last.size() * times.size()) / std::max(room, 1.0)));
   for (;;) {
     if (page.one_of > least_detail || room <= 0.0) {
-      throw InputError(fmt::format("no page of {:.3g} MB can hold {} times: allow more, or ask for fewer times or fields",
-                                   1e-6 * options.most_bytes, times.size()));
+      throw InputError(
+          fmt::format("no page of {:.3g} MB can hold {} times: allow more, or ask for fewer times or fields",
+                      1e-6 * options.most_bytes, times.size()));
     }
     const std::string clouds = packed_times(run, times, {options.fields, page.one_of, options.bits});
     const double excess = static_cast<double>(clouds.size()) / room;
@@ -168,8 +183,10 @@ Page make_page(const analysis::Run& run, const PageOptions& options, const fs::p
   }
 }
 
-std::size_t write_clouds(const analysis::Run& run, const std::vector<std::string>& fields, const fs::path& folder) {
-  if (run.snapshots.empty()) throw InputError(fmt::format("{}: error: has no snapshots", run.folder.string()));
+std::size_t write_clouds(const analysis::Run& run, const std::vector<std::string>& fields,
+                         const fs::path& folder) {
+  if (run.snapshots.empty())
+    throw InputError(fmt::format("{}: error: has no snapshots", run.folder.string()));
   std::error_code fault;
   fs::create_directories(folder, fault);
   if (fault) throw InputError(fmt::format("{}: error: {}", folder.string(), fault.message()));

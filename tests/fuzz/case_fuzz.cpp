@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "src/case/build/placement.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
 #include "src/core/base/log.hpp"
-#include "src/io/run_directory.hpp"
 #include "src/core/parallel/mpi.hpp"
-#include "src/case/build/placement.hpp"
+#include "src/io/run_directory.hpp"
 #include "src/material/material_file.hpp"
 #include "src/solver/simulation.hpp"
 #include "tests/fuzz/trials.hpp"

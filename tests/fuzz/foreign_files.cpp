@@ -10,18 +10,18 @@
 #include "eos/files/sesame.hpp"
 #include "eos/files/table_file.hpp"
 #include "src/analysis/run.hpp"
+#include "src/case/case.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/hdf5/hdf5.hpp"
+#include "src/decks/import.hpp"
+#include "src/fem/mesh_file.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/particle_series.hpp"
 #include "src/io/run_directory.hpp"
 #include "src/io/sealed_file.hpp"
 #include "src/material/material_file.hpp"
-#include "src/case/case.hpp"
 #include "src/run/restart.hpp"
-#include "src/decks/import.hpp"
-#include "src/fem/mesh_file.hpp"
 #include "tests/fuzz/trials.hpp"
 #include "tests/unit/eos_support.hpp"
 #include "tests/unit/folder_test.hpp"
@@ -46,7 +46,8 @@ class ForeignFiles : public FolderTest {
     FolderTest::TearDown();
   }
   /// Reads changed copies of a sound file. It must be right often enough to reach what lies behind its first line.
-  static void try_all(const char* kind, const fs::path& path, const Change& change, const std::function<void()>& read) {
+  static void try_all(const char* kind, const fs::path& path, const Change& change,
+                      const std::function<void()>& read) {
     const std::string whole = io::read_text(path);
     read();
     fuzz::try_inputs(kind, 40, [&](Random& random) {
@@ -153,7 +154,8 @@ TEST_F(ForeignFiles, SesameTables) {
   }
   const fs::path path = folder_ / "test.ses";
   eos::write_sesame(path, {&table, 1});
-  std::ofstream(folder_ / "test.toml") << "name = \"t\"\nsource = \"t\"\n[eos]\nmodel = \"sesame\"\nfile = \"test.ses\"\n";
+  std::ofstream(folder_ / "test.toml")
+      << "name = \"t\"\nsource = \"t\"\n[eos]\nmodel = \"sesame\"\nfile = \"test.ses\"\n";
   try_all("SESAME", path, garbled, [&] {
     static_cast<void>(eos::read_sesame(path));
     static_cast<void>(read_material(folder_ / "test.toml"));

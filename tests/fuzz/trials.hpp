@@ -81,7 +81,8 @@ Outcomes try_inputs(const char* kind, int trials, Read read) {
       read(random);
       ++outcomes.read;
     } catch (const InputError& error) {
-      EXPECT_GT(std::string_view(error.what()).size(), 20U) << kind << ", trial " << trial;  // it names what is wrong
+      EXPECT_GT(std::string_view(error.what()).size(), 20U)
+          << kind << ", trial " << trial;  // it names what is wrong
       ++outcomes.refused;
     } catch (const StateError&) {
       ++outcomes.stopped;
@@ -97,8 +98,8 @@ Outcomes try_inputs(const char* kind, int trials, Read read) {
       slowest = trial;
     }
   }
-  std::printf("%s: %d read, %d refused, %d stopped, %d faulty; slowest: trial %d, %.1f s\n", kind, outcomes.read,
-              outcomes.refused, outcomes.stopped, outcomes.faulty, slowest, slowest_time);
+  std::printf("%s: %d read, %d refused, %d stopped, %d faulty; slowest: trial %d, %.1f s\n", kind,
+              outcomes.read, outcomes.refused, outcomes.stopped, outcomes.faulty, slowest, slowest_time);
   return outcomes;
 }
 
@@ -125,8 +126,9 @@ inline std::string damaged(std::string bytes, Random& random) {
 
 /// Returns a text with words and lines replaced, doubled, left out.
 inline std::string garbled(std::string text, Random& random) {
-  static const std::vector<std::string> words = {"nan", "-1", "1e999", "0", "", "\n", ",", ";", "\"", "2", "1e30",
-                                                 "\xc3\xa4", "#", "\t", "-", "+", ".", " ", "99999999999"};
+  static const std::vector<std::string> words = {"nan", "-1", "1e999", "0",    "",           "\n", ",",
+                                                 ";",   "\"", "2",     "1e30", "\xc3\xa4",   "#",  "\t",
+                                                 "-",   "+",  ".",     " ",    "99999999999"};
   for (std::size_t n = 1 + any(random, 4); n > 0; --n) {
     const std::size_t at = any(random, text.size()), length = any(random, 12);
     switch (any(random, 5)) {

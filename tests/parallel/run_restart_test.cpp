@@ -17,13 +17,13 @@
 #include <sstream>
 #include <thread>
 
+#include "src/case/case.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/base/progress.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/material/constitutive_catalogue.hpp"
-#include "src/case/case.hpp"
 #include "src/run/restart.hpp"
 #include "src/run/run.hpp"
 #include "tests/parallel/debris_case.hpp"
@@ -217,7 +217,8 @@ class Restart : public Run {
  protected:
   void SetUp() override {
     Run::SetUp();
-    fs::copy_file(WHIPPLE_SOURCE_DIR "/eos/materials/aluminium_1100_mie_gruneisen.toml", folder_ / "metal.toml");
+    fs::copy_file(WHIPPLE_SOURCE_DIR "/eos/materials/aluminium_1100_mie_gruneisen.toml",
+                  folder_ / "metal.toml");
     std::ofstream(folder_ / "debris.toml") << R"(
 [domain]
 lower = ["-3 mm", "-3 mm", "-3 mm"]
@@ -278,7 +279,8 @@ TEST_F(Restart, WithAnotherSnapshotIntervalGoesOnAtItsMultiples) {
   ASSERT_EQ(run_in_child(again), 0);
   const std::string index = text(folder_ / "run" / "debris.particles.hdf.series");
   std::size_t snapshots = 0;
-  for (std::size_t at = index.find("\"time\""); at != std::string::npos; at = index.find("\"time\"", at + 1)) ++snapshots;
+  for (std::size_t at = index.find("\"time\""); at != std::string::npos; at = index.find("\"time\"", at + 1))
+    ++snapshots;
   EXPECT_EQ(snapshots, 6U) << "at the start, after the first step, and at 1, 2, 3 and 4 us: " << index;
 }
 
@@ -302,7 +304,8 @@ TEST_F(Restart, WithAnotherInputIsRefusedAndNamesWhatDiffers) {
           "domain.cell_size = \"0.0009 m\", was \"0.001 m\"");
   refused("run.toml", "radius = \"0.002 m\"", "radius = \"2.1 mm\"", "body[0].shape");
   refused("run.toml", "name = \"rear\"", "name = \"back\"", "gauge[0].name = \"back\", was \"rear\"");
-  refused("materials/metal.toml", "\ngruneisen = 1.97", "\ngruneisen = 1.96", "the material of body \"ball\" is another");
+  refused("materials/metal.toml", "\ngruneisen = 1.97", "\ngruneisen = 1.96",
+          "the material of body \"ball\" is another");
   EXPECT_EQ(restart({{"gauge.0.position", "[\"0 m\", \"0 m\", \"0 m\"]"}}), 2);
   EXPECT_THAT(error(), HasSubstr("gauge[0].position"));
   EXPECT_EQ(restart({{"time.end", "5 us"}, {"output.snapshot_every", "2 us"}}), 124) << error();
@@ -313,7 +316,8 @@ TEST_F(Restart, WithAMethodThatTheStateDoesNotServeNamesTheKeyAndLeavesTheInput)
   begin({{"contact.method", "none"}});
   const std::string before = text(folder_ / "run" / "run.toml");
   EXPECT_EQ(restart({{"contact.method", "multi_field"}}), 2);
-  EXPECT_THAT(error(), testing::HasSubstr("changed since then: contact.method = \"multi_field\", was \"none\""));
+  EXPECT_THAT(error(),
+              testing::HasSubstr("changed since then: contact.method = \"multi_field\", was \"none\""));
   EXPECT_EQ(text(folder_ / "run" / "run.toml"), before);
 }
 
@@ -347,7 +351,8 @@ TEST_F(Restart, WithNumbersThatNoStateHasIsRefused) {
       {"particles/maximum_pressure", [](io::Checkpoint& c) { c.particles.maximum_pressure[9] = nan; }},
       {"particles/melting_time", [](io::Checkpoint& c) { c.particles.melting_time[1] = -2.0; }},
       {"particles/position", [](io::Checkpoint& c) { c.particles.position[3][1] = nan; }},
-      {"particles/deviatoric_stress", [](io::Checkpoint& c) { c.particles.deviatoric_stress[2].xy = 1.0 / 0.0; }},
+      {"particles/deviatoric_stress",
+       [](io::Checkpoint& c) { c.particles.deviatoric_stress[2].xy = 1.0 / 0.0; }},
       {"values/initial_mass", [](io::Checkpoint& c) { c.values.reals["initial_mass"] = nan; }},
       {"values/time", [](io::Checkpoint& c) { c.values.reals["time"] = nan; }},
       {"values/step", [](io::Checkpoint& c) { c.values.integers["step"] = -1; }},

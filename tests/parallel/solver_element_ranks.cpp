@@ -17,10 +17,10 @@
 #include <vector>
 
 #include "src/analysis/run.hpp"
+#include "src/core/parallel/mpi.hpp"
 #include "src/io/element_series.hpp"
 #include "src/io/particle_series.hpp"
 #include "src/io/ranks.hpp"
-#include "src/core/parallel/mpi.hpp"
 #include "tests/parallel/solver_ranks.hpp"
 #include "tests/verification/same_state.hpp"
 #include "tests/verification/solver_problems.hpp"
@@ -335,7 +335,8 @@ step = ["0 mm", "1.5 mm", "0 mm"]
   const fem::Bars& of_one = alone.bars().front();
   EXPECT_GT(fem::internal_energy(of_one), 0.0);
   EXPECT_EQ(known.size(), of_one.nodes.size());
-  EXPECT_EQ(std::accumulate(bars_of.begin(), bars_of.end(), 0.0), static_cast<double>(of_one.elements.size()));
+  EXPECT_EQ(std::accumulate(bars_of.begin(), bars_of.end(), 0.0),
+            static_cast<double>(of_one.elements.size()));
 }
 
 TEST_F(ElementRanks, SnapshotsAreThoseOfOneRank) {

@@ -17,9 +17,9 @@
 #include <map>
 
 #include "src/core/base/error.hpp"
+#include "src/core/parallel/mpi.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/ranks.hpp"
-#include "src/core/parallel/mpi.hpp"
 #include "src/particles/migrate.hpp"
 #include "src/run/checkpointing.hpp"
 #include "src/run/gauges.hpp"
@@ -204,7 +204,8 @@ TEST_F(SolverRanks, AgreeWithOneRankInEveryOption) {
 
 // Blocks of rings lie in one layer; the hoop force is that of the particles of each rank; a checkpoint goes on.
 TEST_F(SolverRanks, AgreeWithOneRankInAxisymmetry) {
-  const Overrides rings = {{"domain.dimension", "axisymmetric"}, {"domain.axis", "z"}, {"domain.cell_size", "0.4 mm"}};
+  const Overrides rings = {
+      {"domain.dimension", "axisymmetric"}, {"domain.axis", "z"}, {"domain.cell_size", "0.4 mm"}};
   Simulation together(read(rings), MPI_COMM_WORLD);
   advance_to(together, 0.7e-6);
   const fs::path file = io::write_checkpoint(folder_ / "rings", together.state().step, together.particles(),
@@ -237,7 +238,8 @@ boundary = { x_lower = "separating" }
 end = "400 us"
 [[body]]
 name = "block"
-)" << "material = \"" WHIPPLE_SOURCE_DIR "/tests/data/rubber.toml\"\n" << R"(
+)" << "material = \"" WHIPPLE_SOURCE_DIR "/tests/data/rubber.toml\"\n"
+                                           << R"(
 velocity = ["-25 m/s", "0 m/s", "0 m/s"]
 shape = { box = { lower = ["5 mm", "0 mm", "0 mm"], upper = ["15 mm", "4 mm", "4 mm"] } }
 )";
@@ -326,7 +328,8 @@ TEST_F(SolverRanks, GaugesAgreeWithOneRankAndFollowTheSameParticles) {
   EXPECT_EQ(of_all.integers.size(), 2U);
   advance_to(together, 0.5e-6);
   advance_on_root(alone, 0.5e-6);
-  const std::vector<io::HistoryValue> a = all.row(together), b = run::GaugeRecorder(gauges, of_one).row(alone);
+  const std::vector<io::HistoryValue> a = all.row(together),
+                                      b = run::GaugeRecorder(gauges, of_one).row(alone);
   if (!is_root()) return;
   ASSERT_EQ(a.size(), b.size());
   std::map<std::string, double> value;
@@ -373,8 +376,8 @@ TEST_F(SolverRanks, GoOnFromACheckpointOfAnotherNumberOfRanks) {
   const fs::path of_all = io::write_checkpoint(folder_ / "all", together.state().step, together.particles(),
                                                run::to_checkpoint(together.state()), MPI_COMM_WORLD);
   ranks_.on_root([&] {
-    io::write_checkpoint(folder_ / "one", alone.state().step, alone.particles(), run::to_checkpoint(alone.state()),
-                         MPI_COMM_SELF);
+    io::write_checkpoint(folder_ / "one", alone.state().step, alone.particles(),
+                         run::to_checkpoint(alone.state()), MPI_COMM_SELF);
   });
   advance_on_root(alone, 1e-6);
 

@@ -45,8 +45,9 @@ inline void expect_same_on_all_ranks(const Simulation& together) {
   for_each_number(ledger.initial, add);
   for_each_number(ledger.outflow, add);
   own.insert(own.end(), ledger.wall_impulse.begin(), ledger.wall_impulse.end());
-  own.insert(own.end(), {ledger.external_work, ledger.transfer_heat, ledger.contact_heat, ledger.friction_heat,
-                         ledger.contact_impulse, ledger.converted_mass, ledger.conversion_heat});
+  own.insert(own.end(),
+             {ledger.external_work, ledger.transfer_heat, ledger.contact_heat, ledger.friction_heat,
+              ledger.contact_impulse, ledger.converted_mass, ledger.conversion_heat});
   const auto ranks = static_cast<std::size_t>(parallel::size(MPI_COMM_WORLD));
   EXPECT_EQ(parallel::exchange(MPI_COMM_WORLD, std::vector(ranks, own)), std::vector(ranks, own));
 }

@@ -10,8 +10,8 @@
 
 #include "src/afemp/conversion.hpp"
 #include "src/afemp/transition.hpp"
-#include "src/fem/structured.hpp"
 #include "src/core/parallel/mpi.hpp"
+#include "src/fem/structured.hpp"
 
 namespace whipple::afemp {
 namespace {

@@ -73,7 +73,8 @@ struct Trial {
   [[nodiscard]] double scale() const {
     double sum = 0.0;
     for (std::size_t s = 0; s < mass.size(); ++s) {
-      sum += mass[s] * (before[s].motion.velocity().squaredNorm() + before[s].motion.increment().squaredNorm());
+      sum +=
+          mass[s] * (before[s].motion.velocity().squaredNorm() + before[s].motion.increment().squaredNorm());
     }
     return sum;
   }
@@ -147,7 +148,9 @@ TEST_F(Pressed, TwoThatTouchMoveAsOneAlongTheNormal) {
     const Vector3 normal = t.meetings[0].normal;
     if (t.balance.impulse == 0.0) {
       for (std::size_t s = 0; s < 2; ++s) {
-        for (int c = 0; c < 4; ++c) EXPECT_EQ(t.after[s].motion.velocity_and_relaxation[c], t.before[s].motion.velocity_and_relaxation[c]);
+        for (int c = 0; c < 4; ++c)
+          EXPECT_EQ(t.after[s].motion.velocity_and_relaxation[c],
+                    t.before[s].motion.velocity_and_relaxation[c]);
       }
       continue;
     }
@@ -166,8 +169,8 @@ TEST_F(Pressed, AGapClosesExactly) {
     Trial t = trial(2, false);
     const Vector3 normal = t.meetings[0].normal;
     const auto closing = [&](const std::vector<grid::Node>& nodes) {
-      return -normal.dot(nodes[1].motion.velocity() + nodes[1].motion.increment() - nodes[0].motion.velocity() -
-                         nodes[0].motion.increment()) *
+      return -normal.dot(nodes[1].motion.velocity() + nodes[1].motion.increment() -
+                         nodes[0].motion.velocity() - nodes[0].motion.increment()) *
              dt;
     };
     t.meetings[0].open = uniform(0.0, 1e-5);
@@ -177,7 +180,9 @@ TEST_F(Pressed, AGapClosesExactly) {
       EXPECT_NEAR(closing(t.after), t.meetings[0].open, 1e-17);
     } else {
       for (std::size_t s = 0; s < 2; ++s) {
-        for (int c = 0; c < 4; ++c) EXPECT_EQ(t.after[s].motion.velocity_and_relaxation[c], t.before[s].motion.velocity_and_relaxation[c]);
+        for (int c = 0; c < 4; ++c)
+          EXPECT_EQ(t.after[s].motion.velocity_and_relaxation[c],
+                    t.before[s].motion.velocity_and_relaxation[c]);
       }
     }
     if (closing(t.before) < t.meetings[0].open) {
@@ -220,7 +225,8 @@ TEST(SurfacePoints, HoldTheAreaVectorsOfTheFacets) {
     for (std::uint64_t id = 0; id < 8; ++id) mesh.nodes.id.push_back(id);
     SurfacePoints all;
     all.add(mesh, facets, 1, 0.35, nullptr);
-    EXPECT_NEAR(std::accumulate(all.area.begin(), all.area.end(), Vector3(Vector3::Zero())).norm(), 0.0, 1e-14);
+    EXPECT_NEAR(std::accumulate(all.area.begin(), all.area.end(), Vector3(Vector3::Zero())).norm(), 0.0,
+                1e-14);
     for (const fem::Facet& facet : facets) {
       SCOPED_TRACE(facet[0]);
       std::array<Vector3, 4> x;
@@ -236,7 +242,8 @@ TEST(SurfacePoints, HoldTheAreaVectorsOfTheFacets) {
       }
       const Vector3 exact = 0.5 * (x[2] - x[0]).cross(x[3] - x[1]);
       EXPECT_NEAR((area - exact).norm(), 0.0, 1e-14);
-      EXPECT_EQ(std::ranges::count(points.node, SurfacePoints::no_node), static_cast<long>(points.count()) - 4);
+      EXPECT_EQ(std::ranges::count(points.node, SurfacePoints::no_node),
+                static_cast<long>(points.count()) - 4);
       if (warped > 0.0) continue;
       EXPECT_NEAR(size, exact.norm(), 1e-14);
       EXPECT_NEAR((moment / size - 0.25 * (x[0] + x[1] + x[2] + x[3])).norm(), 0.0, 1e-14);

@@ -49,7 +49,8 @@ TEST(EosAudit, FindsExplosivesThatDoNotExist) {
   EXPECT_EQ(audit(ModelEquationOfState<Jwl>(tetryl(1730, 586.83e9, 4.4))).verdict(), Verdict::sound);
   const Audit dense = audit(ModelEquationOfState<Jwl>(tetryl(1.73e6, 586.83e9, 4.4)));
   EXPECT_EQ(dense.verdict(), Verdict::not_usable);
-  EXPECT_THAT(dense.summary(), AllOf(HasSubstr("no material at rest has more"), HasSubstr("detonates with 0.25")));
+  EXPECT_THAT(dense.summary(),
+              AllOf(HasSubstr("no material at rest has more"), HasSubstr("detonates with 0.25")));
   EXPECT_EQ(audit(ModelEquationOfState<Jwl>(tetryl(17.3, 586.83e9, 4.4))).verdict(), Verdict::not_usable);
   // Searches end where there is no detonation to find.
   EXPECT_THROW(ModelEquationOfState<Jwl>(tetryl(1730, 0.1, 0.999999999)), InputError);

@@ -109,8 +109,9 @@ TEST(Calibration, WidthAndErrorsAreThoseOfTheirSources) {
   EXPECT_NEAR(scatter.measurement_error.front(), noise, 3.0 * noise / std::sqrt(2.0 * 21.0));
   EXPECT_NEAR(scatter.deviation.front(), sigma_C, 3.0 * sigma_C / std::sqrt(120.0));
   EXPECT_NEAR(scatter.median_half_width, 1.96 * sigma_C / (C + S * 1250.0), 0.004);
-  EXPECT_NEAR(scatter.pull[3], (scatter.model[3] - experiment.ordinate[3]) /
-                                   std::hypot(scatter.deviation[3], scatter.measurement_error[3]),
+  EXPECT_NEAR(scatter.pull[3],
+              (scatter.model[3] - experiment.ordinate[3]) /
+                  std::hypot(scatter.deviation[3], scatter.measurement_error[3]),
               1e-12);
   // Stated errors replace the scatter; that of the abscissa counts by the slope of the model.
   experiment.ordinate_error.assign(24, 30.0);

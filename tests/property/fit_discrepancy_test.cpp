@@ -97,8 +97,10 @@ std::pair<double, double> pulls(ErrorStructure structure) {
     bend(store.points, ModelErrors{}.shock_velocity, seed);
     const ScaledFit fit = solid_fit(store.points, one_window(structure, false));
     const eos::GrayConstants& found = fit.constants.gray;
-    intercept += std::pow(found.hugoniot_intercept - true_constants().hugoniot_intercept, 2) / fit.covariance(1, 1) / seeds;
-    slope += std::pow(found.hugoniot_slope - true_constants().hugoniot_slope, 2) / fit.covariance(2, 2) / seeds;
+    intercept += std::pow(found.hugoniot_intercept - true_constants().hugoniot_intercept, 2) /
+                 fit.covariance(1, 1) / seeds;
+    slope +=
+        std::pow(found.hugoniot_slope - true_constants().hugoniot_slope, 2) / fit.covariance(2, 2) / seeds;
   }
   return {std::sqrt(intercept), std::sqrt(slope)};
 }
@@ -127,8 +129,9 @@ TEST(FitDiscrepancy, CorrelationIsThatOfASmoothFunction) {
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(6, 6);
   const std::vector<Eigen::Index> rows = {5, 4, 0};
   const std::vector<double> place = {0.0, 0.3, 1.0};
-  add_discrepancy({{2.0, 3.0, 1.0}, [&](std::size_t i, std::size_t k) { return matern(place[i] - place[k], 1.0); }},
-                  rows, covariance);
+  add_discrepancy(
+      {{2.0, 3.0, 1.0}, [&](std::size_t i, std::size_t k) { return matern(place[i] - place[k], 1.0); }}, rows,
+      covariance);
   EXPECT_DOUBLE_EQ(covariance(5, 5), 4.0);
   EXPECT_DOUBLE_EQ(covariance(4, 5), 6.0 * matern(0.3, 1.0));
   EXPECT_DOUBLE_EQ(covariance(0, 4), 3.0 * matern(0.7, 1.0));
@@ -255,8 +258,9 @@ TEST(FitIdentifiability, EigenvaluesAndErrorsOfAKnownCovariance) {
   EXPECT_NEAR(result.constants[0].conditional_error, 40.0 * 0.8, 1e-9);  // (1 - 0.6^2)^(1/2)
   EXPECT_NEAR(result.constants[1].inflation, 1.25, 1e-9);
   EXPECT_NEAR(result.constants[1].correlation, -0.6, 1e-12);
-  EXPECT_NE(identifiability_text(fit).find("hugoniot_slope: 1.2, -0.60 with hugoniot_intercept; known to 2 %"),
-            std::string::npos)
+  EXPECT_NE(
+      identifiability_text(fit).find("hugoniot_slope: 1.2, -0.60 with hugoniot_intercept; known to 2 %"),
+      std::string::npos)
       << identifiability_text(fit);
   const Fit lost = two_constants(4000.0, 0.02, covariance);
   EXPECT_NE(identifiability_text(lost).find("not distinguished from zero"), std::string::npos);

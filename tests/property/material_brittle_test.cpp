@@ -241,7 +241,9 @@ TEST(JohnsonHolmquist2, BulkingTurnsTheLostShearEnergyIntoCompression) {
     const double lost = yield * yield / (6 * c.stiffness()) * volume;  // J
     EXPECT_NEAR(body.p(), std::sqrt(p * p + 2 * beta * K1 * lost / volume), 1e-4 * p);
     // The rest is heat; energy that the compression of the material takes is that of its own equation of state.
-    const double mass = body.points.mass[0], alpha = body.points.history.find("distension") != nullptr ? body.points.history.scalar("distension")[0] : 1.0;
+    const double mass = body.points.mass[0], alpha = body.points.history.find("distension") != nullptr
+                                                         ? body.points.history.scalar("distension")[0]
+                                                         : 1.0;
     const auto cold_energy = [&](double density) {
       return material.eos->state_at_temperature(density, 300.0);
     };

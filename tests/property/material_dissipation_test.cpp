@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "src/material/material_file.hpp"
 #include "src/material/failure/tensile_pressure.hpp"
+#include "src/material/material_file.hpp"
 #include "src/material/strength/viscous_fluid.hpp"
 #include "tests/unit/material_support.hpp"
 
@@ -124,7 +124,8 @@ void wander(const Material& material, std::uint64_t seed, Check check) {
   for (int step = 0; step < 40; ++step) {
     std::vector<Matrix3> gradients;
     for (std::size_t i = 0; i < points.mass.size(); ++i) gradients.push_back(random_matrix(generator, 3e5));
-    for (double& e : points.specific_internal_energy) e = std::max(0.0, e + 1e4 * random_matrix(generator, 1.0)(0, 0));
+    for (double& e : points.specific_internal_energy)
+      e = std::max(0.0, e + 1e4 * random_matrix(generator, 1.0)(0, 0));
     UpdateSettings settings = without_viscosity(1e-8);
     settings.time = step * 1e-8;
     check(update_material(material, points, 0, points.mass.size(), gradients, settings), points);
@@ -133,9 +134,10 @@ void wander(const Material& material, std::uint64_t seed, Check check) {
 
 // The second law for every kind of model of the library: flow laws, damage, brittle strength, pores, voids, fluids.
 TEST(Dissipation, IsNeverNegativeInAnyStateOfAnyModel) {
-  for (const char* name : {"copper", "copper_johnson_cook", "copper_taylor", "tantalum", "lead", "steel_4340_mie_gruneisen",
-                           "tungsten_nickel_iron", "basalt_tillotson", "concrete_35mpa_rht", "concrete_48mpa_hjc",
-                           "alumina_99_5_jh2", "float_glass_jh2", "ballistic_gelatin_10", "polycarbonate", "water"}) {
+  for (const char* name :
+       {"copper", "copper_johnson_cook", "copper_taylor", "tantalum", "lead", "steel_4340_mie_gruneisen",
+        "tungsten_nickel_iron", "basalt_tillotson", "concrete_35mpa_rht", "concrete_48mpa_hjc",
+        "alumina_99_5_jh2", "float_glass_jh2", "ballistic_gelatin_10", "polycarbonate", "water"}) {
     const Material material = read_material(std::string(name));
     double sum = 0.0;
     for (const std::uint64_t seed : {1U, 2U}) {
@@ -145,7 +147,8 @@ TEST(Dissipation, IsNeverNegativeInAnyStateOfAnyModel) {
         sum += report.dissipation;
       });
     }
-    EXPECT_EQ(sum > 0.0, material.strength->carries_deviator() || material.strength->viscosity() > 0.0) << name;
+    EXPECT_EQ(sum > 0.0, material.strength->carries_deviator() || material.strength->viscosity() > 0.0)
+        << name;
   }
 }
 
@@ -159,8 +162,9 @@ TEST(Dissipation, IsThePlasticWorkOfAMetalAndTheViscousWorkOfAFluid) {
   EXPECT_GT(of_metal.dissipation, 0.0);
   EXPECT_EQ(of_metal.dissipation, of_metal.plastic_work);
 
-  const Material oil = make_material("oil", std::make_shared<LinearInEnergy>(),
-                                     std::make_shared<strength::ViscousFluidModel>(strength::ViscousFluid{50.0}));
+  const Material oil =
+      make_material("oil", std::make_shared<LinearInEnergy>(),
+                    std::make_shared<strength::ViscousFluidModel>(strength::ViscousFluid{50.0}));
   MaterialPoints fluid = points_of(oil, 1);
   const MaterialReport of_fluid = update_material(oil, fluid, 0, 1, std::span(&gradient, 1), settings);
   const double expected = 50.0 * 1e10 * 1e-6 * 1e-9;  // eta (dv/dy)^2 dt V

@@ -95,7 +95,8 @@ TEST(KinematicHardening, StressAndBackStressTurnWithTheMatter) {
   const Material material = of<strength::VonMisesModel>(constants);
   MaterialPoints points = points_of(material, 1);
   stretch(material, points, 0.02, 100);
-  const Matrix3 stress = points.deviatoric_stress[0].matrix(), back = points.history.symmetric("back_stress")[0].matrix();
+  const Matrix3 stress = points.deviatoric_stress[0].matrix(),
+                back = points.history.symmetric("back_stress")[0].matrix();
   ASSERT_GT(back.norm(), 1e7);
   EXPECT_NEAR(back.trace(), 0.0, 1e-6);
   const Vector3 axis = Vector3(1, -2, 0.5).normalized();
@@ -103,7 +104,8 @@ TEST(KinematicHardening, StressAndBackStressTurnWithTheMatter) {
   const Matrix3 gradient = (turn - Matrix3::Identity()) / dt;
   for (int n = 0; n < 40; ++n) update_material(material, points, 0, 1, std::span(&gradient, 1), settings);
   const Matrix3 whole = Eigen::AngleAxisd(2.0, axis).toRotationMatrix();
-  EXPECT_LT((points.history.symmetric("back_stress")[0].matrix() - whole * back * whole.transpose()).norm(), 1e-10 * back.norm());
+  EXPECT_LT((points.history.symmetric("back_stress")[0].matrix() - whole * back * whole.transpose()).norm(),
+            1e-10 * back.norm());
   EXPECT_LT((points.deviatoric_stress[0].matrix() - whole * stress * whole.transpose()).norm(),
             1e-10 * stress.norm());
 }
@@ -135,8 +137,8 @@ TEST(KinematicHardening, YieldConditionHoldsBesideTheBackStressForEveryHardening
       if (points.plastic_strain[0] == before) continue;
       const double y =
           k == 0 ? power.flow_stress(points.plastic_strain[0]) : voce.flow_stress(points.plastic_strain[0]);
-      SymmetricTensor shifted =
-          SymmetricTensor::from(points.deviatoric_stress[0].matrix() - points.history.symmetric("back_stress")[0].matrix());
+      SymmetricTensor shifted = SymmetricTensor::from(points.deviatoric_stress[0].matrix() -
+                                                      points.history.symmetric("back_stress")[0].matrix());
       ASSERT_NEAR(equivalent_stress(shifted), y, 1e-6 * y) << n;
     }
     EXPECT_GT(points.plastic_strain[0], 0.1);

@@ -100,7 +100,8 @@ TEST(NeoHookean, RotationTurnsTheStressAndChangesNothingElse) {
   const Material material = rubber(1.0);
   const auto path = [](double t) { return Matrix3(sheared(0.8 * t) * stretched(1.0 + 0.3 * t)); };
   const MaterialPoints plain = deformed(material, 50, path);
-  const MaterialPoints spun = deformed(material, 50, [&](double t) { return Matrix3(turned(2.0 * t) * path(t)); });
+  const MaterialPoints spun =
+      deformed(material, 50, [&](double t) { return Matrix3(turned(2.0 * t) * path(t)); });
   const Matrix3 q = turned(2.0), s = plain.deviatoric_stress[0].matrix();
   EXPECT_LT((spun.deviatoric_stress[0].matrix() - q * s * q.transpose()).norm(), 1e-11 * s.norm());
   EXPECT_LT((spun.history.values<Matrix3>("deformation_gradient")[0] - q * path(1.0)).norm(), 1e-12);
@@ -115,12 +116,14 @@ TEST(NeoHookean, WorkAtConstantVolumeIsStoredWithoutHeat) {
     const MaterialPoints points = deformed(material, steps, [&](double t) {
       return Matrix3(Vector3(ratio(t), 1.0 / ratio(t), 1.0).asDiagonal());
     });
-    const double square = ratio(1.0) * ratio(1.0), stored = 0.5 * shear * (square + 1.0 / square - 2.0) / 1000.0;
+    const double square = ratio(1.0) * ratio(1.0),
+                 stored = 0.5 * shear * (square + 1.0 / square - 2.0) / 1000.0;
     EXPECT_NEAR(points.specific_internal_energy[0], stored, 0.02 * shear / 1000.0);  // it lags by half a step
     return std::abs(points.temperature[0] - 300.0) * 383.0 / (shear / 1000.0);
   };
   EXPECT_LT(error(400), 1e-4);
-  EXPECT_LT(error(800), 0.55 * error(400));  // first order, as the gradient refers to the beginning of the step
+  EXPECT_LT(error(800),
+            0.55 * error(400));  // first order, as the gradient refers to the beginning of the step
 }
 
 TEST(NeoHookean, SchemesThatIntegrateTheEnergyKeepTheElasticPartOutOfTheHeat) {
@@ -143,9 +146,8 @@ TEST(NeoHookean, SoundSpeedIsNotBelowThatOfAnyWave) {
   for (int i = 0; i < 50; ++i) {
     const Matrix3 f = Matrix3::Identity() + random_matrix(generator, 0.25);
     if (f.determinant() < 0.6 || f.determinant() > 1.6) continue;
-    const MaterialPoints points = deformed(material, 20, [&](double t) {
-      return Matrix3(Matrix3::Identity() + t * (f - Matrix3::Identity()));
-    });
+    const MaterialPoints points = deformed(
+        material, 20, [&](double t) { return Matrix3(Matrix3::Identity() + t * (f - Matrix3::Identity())); });
     const Vector3 n = random_matrix(generator, 1.0).col(0).normalized();
     const double step = 1e-6;
     Matrix3 stiffness;  // d(stress n)/d(amplitude), of displacements a along n: no area of the wave changes

@@ -139,7 +139,8 @@ TEST(TulerButcher, NothingAccumulatesBelowTheThresholdAndPrincipalStressIsTheSam
 
 TEST(TulerButcher, HealsOnlyIfAskedTo) {
   for (const bool healing : {false, true}) {
-    const Material material = with_law(failure::TulerButcher{0.4e9, 2.0, 1e-8, failure::Tension::mean_stress, healing});
+    const Material material =
+        with_law(failure::TulerButcher{0.4e9, 2.0, 1e-8, failure::Tension::mean_stress, healing});
     MaterialPoints points = points_of(material, 1);
     strain_to(material, points, 1.02e-9, 100);
     ASSERT_EQ(points.failed[0], failure::spalled);

@@ -222,7 +222,8 @@ Cycle shear_cycle(const Material& material, double amplitude, int steps, StepFun
   cycle.elastic_energy = points.deviatoric_stress[0].squared_norm() / (4.0 * taylor_copper().shear_modulus) *
                          points.volume[0] / points.mass[0];
   cycle.pressure = points.pressure[0];
-  if (points.history.find("stored_cold_work") != nullptr) cycle.stored_cold_work = points.history.scalar("stored_cold_work")[0];
+  if (points.history.find("stored_cold_work") != nullptr)
+    cycle.stored_cold_work = points.history.scalar("stored_cold_work")[0];
   return cycle;
 }
 

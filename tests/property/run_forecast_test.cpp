@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The forecast of `whipple check` against runs: steps inside the range, and the share of material that moves.
-#include "src/run/forecast.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,11 +9,13 @@
 #include <vector>
 
 #include "src/core/parallel/mpi.hpp"
+#include "src/run/forecast.hpp"
 
 namespace whipple::run {
 namespace {
 
-cases::Case case_of(const std::string& name, const std::vector<std::pair<std::string, std::string>>& overrides) {
+cases::Case case_of(const std::string& name,
+                    const std::vector<std::pair<std::string, std::string>>& overrides) {
   return cases::read_case(std::string(WHIPPLE_SOURCE_DIR) + "/cases/" + name + "/case.toml", overrides);
 }
 

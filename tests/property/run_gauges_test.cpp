@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Gauges in bodies of elements see the state there, and follow it when elements become particles; angular momentum in the
 // history.
-#include "src/run/gauges.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <map>
 #include <string>
 
-#include "src/core/parallel/mpi.hpp"
 #include "src/case/case.hpp"
+#include "src/core/parallel/mpi.hpp"
+#include "src/run/gauges.hpp"
 #include "src/run/observers/history_columns.hpp"
 
 namespace whipple::run {
@@ -24,13 +23,17 @@ upper = ["6 mm", "6 mm", "14 mm"]
 cell_size = "1 mm"
 boundary = { x_lower = "symmetry", y_lower = "symmetry", z_lower = "symmetry" }
 [time]
-end = ")" + end + R"("
+end = ")" +
+         end + R"("
 [[body]]
 name = "bar"
 material = "copper_ofhc.toml"
-velocity = ["0 m/s", "0 m/s", ")" + velocity + R"("]
-discretization = { method = ")" + method + R"(", element_size = "1 mm" }
-)" + (method == "adaptive" ? "conversion = { plastic_strain = 0.05 }\n" : "") + R"(
+velocity = ["0 m/s", "0 m/s", ")" +
+         velocity + R"("]
+discretization = { method = ")" +
+         method + R"(", element_size = "1 mm" }
+)" + (method == "adaptive" ? "conversion = { plastic_strain = 0.05 }\n" : "") +
+         R"(
 shape = { box = { lower = ["0 mm", "0 mm", "0 mm"], upper = ["3 mm", "3 mm", "10 mm"] } }
 [[gauge]]
 name = "place"
@@ -74,7 +77,8 @@ TEST(Gauges, FollowMatterThroughItsConversion) {
     EXPECT_LT(std::abs(now["material.z"] - before), 2.0 * 250.0 * simulation.state().time_step + 0.05e-3);
     before = now["material.z"];
   }
-  EXPECT_LT(simulation.element_count(), elements);  // some have become particles, that of the gauge among them
+  EXPECT_LT(simulation.element_count(),
+            elements);  // some have become particles, that of the gauge among them
   EXPECT_GT(values(recorder, simulation)["material.plastic_strain"], 0.05);
 }
 
@@ -92,7 +96,8 @@ name = "block"
 material = "copper_ofhc.toml"
 velocity = ["100 m/s", "0 m/s", "0 m/s"]
 angular_velocity = ["0 rad/s", "0 rad/s", "1e4 rad/s"]
-discretization = { method = ")" + method + R"(" }
+discretization = { method = ")" +
+         method + R"(" }
 shape = { box = { lower = ["-2 mm", "-1.5 mm", "1 mm"], upper = ["2 mm", "1.5 mm", "3 mm"] } }
 )";
 }
@@ -100,7 +105,8 @@ shape = { box = { lower = ["-2 mm", "-1.5 mm", "1 mm"], upper = ["2 mm", "1.5 mm
 /// The row of now by the names of history.csv.
 std::map<std::string, double> history(const cases::Case& setup, const solver::Simulation& simulation) {
   std::map<std::string, double> row;
-  for (const io::HistoryValue& value : history_row(history_columns(setup), simulation)) row[value.name] = value.value;
+  for (const io::HistoryValue& value : history_row(history_columns(setup), simulation))
+    row[value.name] = value.value;
   return row;
 }
 

@@ -91,8 +91,7 @@ TEST_P(ShockConductionOf, IsQuietWithoutAShockOrADifference) {
       EXPECT_NEAR(q.specific_internal_energy[p], before[p], 1e-9 * 900.0 * 500.0);
     }
     q = conducting_particles(8);
-    for (double& rate : q.closing_rate)
-      rate = 0.5 * 0.01 / dx;  // below the onset: the sound speed is 1 to 2
+    for (double& rate : q.closing_rate) rate = 0.5 * 0.01 / dx;  // below the onset: the sound speed is 1 to 2
     EXPECT_EQ(conduct_in_shocks(Shape::kind, q, grid, dt, conduction()), 0.0);
     EXPECT_EQ(q.specific_internal_energy, before);
   });

@@ -117,8 +117,7 @@ std::vector<double> numbers_after_all_transfers(KernelSet set, AffineField affin
   take(at_particles);
   advance();
   const TransferBalance balance = grid_to_particles(
-      Shape::kind, q, grid, dt, CarriesAffineField<Shape> ? affine : AffineField::none, {},
-      into(gradient));
+      Shape::kind, q, grid, dt, CarriesAffineField<Shape> ? affine : AffineField::none, {}, into(gradient));
   take(std::array{balance.work, balance.heat});
   take(gradient);
   take(q.position);
@@ -138,7 +137,8 @@ std::vector<double> numbers_after_all_transfers(KernelSet set, AffineField affin
 }
 
 TYPED_TEST(TransferKernels, WideRegistersGiveTheSameNumbers) {
-  if (kernel_set() != KernelSet::wide) GTEST_SKIP() << "needs a processor with AVX-512, and an optimised build";
+  if (kernel_set() != KernelSet::wide)
+    GTEST_SKIP() << "needs a processor with AVX-512, and an optimised build";
   const std::vector<double> of_wide = numbers_after_all_transfers<TypeParam>(KernelSet::wide);
   const std::vector<double> of_narrow = numbers_after_all_transfers<TypeParam>(KernelSet::narrow);
   ASSERT_EQ(of_wide.size(), of_narrow.size());

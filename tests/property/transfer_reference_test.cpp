@@ -33,7 +33,8 @@ OneDirection textbook(double x) {
     return s < 1.5 ? OneDirection{0.5 * (1.5 - s) * (1.5 - s), -sign * (1.5 - s)} : OneDirection{};
   } else {
     if (s < 1.0) return {2.0 / 3.0 - s * s + 0.5 * s * s * s, -2.0 * x + 1.5 * sign * s * s};
-    return s < 2.0 ? OneDirection{std::pow(2.0 - s, 3) / 6.0, -0.5 * sign * (2.0 - s) * (2.0 - s)} : OneDirection{};
+    return s < 2.0 ? OneDirection{std::pow(2.0 - s, 3) / 6.0, -0.5 * sign * (2.0 - s) * (2.0 - s)}
+                   : OneDirection{};
   }
 }
 
@@ -115,20 +116,22 @@ TYPED_TEST(TransferReference, PlainLoopsGiveTheSameStep) {
     Vector3 delta = Vector3::Zero(), b = delta, moved = delta;
     Matrix3 dc = Matrix3::Zero(), bc = dc, l = dc, l_mean = dc;
     double loss = 0.0, scale = 0.0;
-    for_each_node<TypeParam>(
-        start.position[p], nodes, [&](ReferenceNode& node, double n, const Vector3& gradient, const Vector3& r) {
-          Vector3 difference = start.velocity[p] - node.v;
-          if (affine) difference += start.affine_velocity[p] * r;
-          delta += n * node.d;  // (4.1)
-          b += n * node.beta * difference;
-          dc += n * node.d * r.transpose() / inertia;
-          bc += n * node.beta * difference * r.transpose() / inertia;
-          moved += n * (node.v + node.d);
-          l += (node.v + node.d) * gradient.transpose();
-          l_mean += (node.v + 0.5 * node.d) * gradient.transpose();
-          loss += n * (0.5 * node.d.squaredNorm() + node.beta * difference.dot(difference - node.d));  // (4.5)
-          scale += n * (node.d.squaredNorm() + difference.squaredNorm()) + gradient.norm() * (node.d + node.v).norm();
-        });
+    for_each_node<TypeParam>(start.position[p], nodes,
+                             [&](ReferenceNode& node, double n, const Vector3& gradient, const Vector3& r) {
+                               Vector3 difference = start.velocity[p] - node.v;
+                               if (affine) difference += start.affine_velocity[p] * r;
+                               delta += n * node.d;  // (4.1)
+                               b += n * node.beta * difference;
+                               dc += n * node.d * r.transpose() / inertia;
+                               bc += n * node.beta * difference * r.transpose() / inertia;
+                               moved += n * (node.v + node.d);
+                               l += (node.v + node.d) * gradient.transpose();
+                               l_mean += (node.v + 0.5 * node.d) * gradient.transpose();
+                               loss += n * (0.5 * node.d.squaredNorm() +
+                                            node.beta * difference.dot(difference - node.d));  // (4.5)
+                               scale += n * (node.d.squaredNorm() + difference.squaredNorm()) +
+                                        gradient.norm() * (node.d + node.v).norm();
+                             });
     loss += -0.5 * delta.squaredNorm() + b.dot(delta) - 0.5 * b.squaredNorm();
     const Vector3 velocity = start.velocity[p] + delta - b;  // (4.3)
     Matrix3 c = start.affine_velocity[p];
@@ -145,14 +148,16 @@ TYPED_TEST(TransferReference, PlainLoopsGiveTheSameStep) {
     }
     const double work = start.volume[p] * stress.cwiseProduct(l_mean).sum() * dt / start.mass[p];  // (4.6)
     const double energy = start.specific_internal_energy[p] + work + loss;
-    EXPECT_TRUE(near(q.specific_internal_energy[p], energy, scale)) << p << " " << q.specific_internal_energy[p] - energy;
+    EXPECT_TRUE(near(q.specific_internal_energy[p], energy, scale))
+        << p << " " << q.specific_internal_energy[p] - energy;
     for (int i = 0; i < 3; ++i) {
       EXPECT_TRUE(near(q.position[p][i], start.position[p][i] + dt * moved[i], scale)) << p;
       EXPECT_TRUE(near(q.velocity[p][i], velocity[i], scale)) << p << " " << q.velocity[p][i] - velocity[i];
       for (int j = 0; j < 3; ++j) {
         EXPECT_TRUE(near(gradients[p](i, j), l(i, j), scale)) << p << " " << gradients[p](i, j) - l(i, j);
         if (!affine) continue;
-        EXPECT_TRUE(near(q.affine_velocity[p](i, j), c(i, j), scale)) << p << " " << q.affine_velocity[p](i, j) - c(i, j);
+        EXPECT_TRUE(near(q.affine_velocity[p](i, j), c(i, j), scale))
+            << p << " " << q.affine_velocity[p](i, j) - c(i, j);
       }
     }
   }

@@ -34,8 +34,8 @@ TEST(Regression, DebrisCloudKeepsItsSums) {
 
 /// Steps of a case with either device. Differences are measured against the largest value of each field; those of
 /// earlier steps add up.
-void expect_the_same_steps(const char* name, const std::vector<std::pair<std::string, std::string>>& overrides,
-                           int steps) {
+void expect_the_same_steps(const char* name,
+                           const std::vector<std::pair<std::string, std::string>>& overrides, int steps) {
   const cases::Case setup =
       cases::read_case(std::string(WHIPPLE_SOURCE_DIR) + "/cases/" + name + "/case.toml", overrides);
   const auto after_steps = [&](KernelSet set) {
@@ -66,12 +66,14 @@ void expect_the_same_steps(const char* name, const std::vector<std::pair<std::st
 }
 
 TEST(ReferenceDevice, GivesTheSameStepsWithEquationsOfStateAndStrength) {
-  expect_the_same_steps("copper_disk_on_aluminium", {{"domain.cell_size", "1 mm"}}, 10);  // GRAY, contact, conduction
-  expect_the_same_steps("copper_disk_on_aluminium",
-                        {{"domain.cell_size", "0.8 mm"}, {"domain.dimension", "axisymmetric"}, {"domain.axis", "z"}}, 10);
-  expect_the_same_steps("taylor_bar", {{"domain.cell_size", "1.52 mm"}}, 10);             // Mie-Grueneisen, von Mises
-  expect_the_same_steps("taylor_bar",
-                        {{"domain.cell_size", "1.52 mm"}, {"body.0.material", "copper_johnson_cook.toml"}}, 10);
+  expect_the_same_steps("copper_disk_on_aluminium", {{"domain.cell_size", "1 mm"}},
+                        10);  // GRAY, contact, conduction
+  expect_the_same_steps(
+      "copper_disk_on_aluminium",
+      {{"domain.cell_size", "0.8 mm"}, {"domain.dimension", "axisymmetric"}, {"domain.axis", "z"}}, 10);
+  expect_the_same_steps("taylor_bar", {{"domain.cell_size", "1.52 mm"}}, 10);  // Mie-Grueneisen, von Mises
+  expect_the_same_steps(
+      "taylor_bar", {{"domain.cell_size", "1.52 mm"}, {"body.0.material", "copper_johnson_cook.toml"}}, 10);
 }
 
 }  // namespace

@@ -119,7 +119,8 @@ TEST(Canvas, ElementsAreDrawnByTheirFaces) {
   std::vector<std::array<Vector3, 4>> corners;
   std::vector<std::uint32_t> labels;
   for (const Face& face : faces) {
-    corners.push_back({nodes[face.corners[0]], nodes[face.corners[1]], nodes[face.corners[2]], nodes[face.corners[3]]});
+    corners.push_back(
+        {nodes[face.corners[0]], nodes[face.corners[1]], nodes[face.corners[2]], nodes[face.corners[3]]});
     labels.push_back(face.element);
   }
   Canvas canvas(40, 40);
@@ -128,7 +129,8 @@ TEST(Canvas, ElementsAreDrawnByTheirFaces) {
   canvas.sphere({26.0, 20.0, 10.0}, 2.0, 8);  // inside an element
   const auto seen = [&](std::size_t row, std::size_t column) { return canvas.seen()[row * 40 + column]; };
   const auto light = [&](std::size_t row, std::size_t column) { return canvas.light()[row * 40 + column]; };
-  EXPECT_EQ(std::ranges::count(canvas.seen(), Canvas::nothing), 40 * 40 - 400) << "20 by 20 pixels are covered";
+  EXPECT_EQ(std::ranges::count(canvas.seen(), Canvas::nothing), 40 * 40 - 400)
+      << "20 by 20 pixels are covered";
   EXPECT_EQ(seen(12, 12), 0U);
   EXPECT_EQ(seen(12, 28), 1U);
   EXPECT_EQ(seen(20, 14), 7U);
@@ -200,7 +202,8 @@ TEST(Witness, FreeFlightToARingAtAKnownTime) {
 
 TEST(Arrivals, CountWhatPassesThePlaneOnceWithItsMotionBefore) {
   const double m = density * 1e-9;
-  const auto at = [](double time, const std::vector<std::pair<std::uint64_t, Vector3>>& places, double speed) {
+  const auto at = [](double time, const std::vector<std::pair<std::uint64_t, Vector3>>& places,
+                     double speed) {
     Maker maker(1e-3);
     for (const auto& [id, place] : places) {
       maker.add(place, {0, 0, speed}, id == 9 ? 1 : 0);
@@ -212,11 +215,21 @@ TEST(Arrivals, CountWhatPassesThePlaneOnceWithItsMotionBefore) {
   Arrivals arrivals(quarter(), 10e-3, 1);
   // 1 passes in the middle of an interval and is slowed behind; 2 returns and passes again; 3 has left the domain beyond
   // the plane; 4 is under way; 5 begins beyond; 9 is of the wall.
-  arrivals.add(at(0.0, {{1, {3e-3, 0, 9e-3}}, {2, {0, 1e-3, 9e-3}}, {3, {5e-3, 0, 8e-3}}, {4, {0, 0, -9e-3}},
-                        {5, {0, 0, 11e-3}}, {9, {0, 0, 9e-3}}},
+  arrivals.add(at(0.0,
+                  {{1, {3e-3, 0, 9e-3}},
+                   {2, {0, 1e-3, 9e-3}},
+                   {3, {5e-3, 0, 8e-3}},
+                   {4, {0, 0, -9e-3}},
+                   {5, {0, 0, 11e-3}},
+                   {9, {0, 0, 9e-3}}},
                   2000));
-  arrivals.add(at(1e-6, {{1, {5e-3, 0, 11e-3}}, {2, {0, 1e-3, 10.5e-3}}, {3, {5e-3, 0, 9e-3}}, {4, {0, 0, -7e-3}},
-                         {5, {0, 0, 9e-3}}, {9, {0, 0, 11e-3}}},
+  arrivals.add(at(1e-6,
+                  {{1, {5e-3, 0, 11e-3}},
+                   {2, {0, 1e-3, 10.5e-3}},
+                   {3, {5e-3, 0, 9e-3}},
+                   {4, {0, 0, -7e-3}},
+                   {5, {0, 0, 9e-3}},
+                   {9, {0, 0, 11e-3}}},
                   1000));
   arrivals.add(at(3e-6, {{1, {5e-3, 0, 12e-3}}, {2, {0, 1e-3, 9.5e-3}}, {4, {0, 0, -5e-3}}}, 1000));
   arrivals.add(at(4e-6, {{2, {0, 1e-3, 10.5e-3}}, {4, {0, 0, -4e-3}}}, 1000));
@@ -228,7 +241,7 @@ TEST(Arrivals, CountWhatPassesThePlaneOnceWithItsMotionBefore) {
   EXPECT_NEAR(value(loads.totals, "loads_last"), 2e-6, 1e-15);
   EXPECT_DOUBLE_EQ(value(loads.totals, "loads_under_way"), 4 * m);
   ASSERT_EQ(loads.rings.rows(), 3U);
-  EXPECT_DOUBLE_EQ(loads.rings["mass"][0], 4 * m);      // 2, at 1 mm
+  EXPECT_DOUBLE_EQ(loads.rings["mass"][0], 4 * m);        // 2, at 1 mm
   EXPECT_NEAR(loads.rings["mass"][2], 4 * 2 * m, 1e-18);  // 1 and 3, at 4 and 5 mm
   EXPECT_NEAR(loads.rings["momentum_per_area"][0], 4 * m * 2000 / (pi * 4e-6), 1e-9);
   EXPECT_TRUE(std::isnan(value(Arrivals(quarter(), 1.0).loads(1e-3).totals, "loads_first")));

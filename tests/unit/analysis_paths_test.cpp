@@ -82,7 +82,8 @@ TEST(Wall, ThatBulgesAndStaysWholeIsNotPerforatedHoweverFast) {
   EXPECT_NEAR(struck(now, "left_on_axis").value, 1.0, 0.1);
   EXPECT_TRUE(std::isnan(struck(now, "hole_diameter").value));
   // The bulge has parted in two layers, each of which is whole; then the front one has a hole.
-  for (std::size_t i = 0; i < now.size(); ++i) now.position[i].z() += struck.whole.position[i].z() > 1e-3 ? 2e-3 : 0.0;
+  for (std::size_t i = 0; i < now.size(); ++i)
+    now.position[i].z() += struck.whole.position[i].z() > 1e-3 ? 2e-3 : 0.0;
   EXPECT_EQ(struck(now, "perforated").value, 0.0);
   for (std::size_t i = 0; i < now.size(); ++i) {
     const Vector3 offset = struck.whole.position[i] - struck.frame.centre;
@@ -124,7 +125,8 @@ TEST(Wall, WhosePlugIsShearedOffIsPerforatedEvenWhereThePlugIsStillInPlace) {
     const Vector3 offset = struck.whole.position[i] - struck.frame.centre;
     return std::hypot(offset.x(), offset.y()) < radius;
   };
-  for (std::size_t i = 0; i < now.size(); ++i) now.scalars["failed"][i] = plug(i, 5e-3) && !plug(i, 3.5e-3) ? 2.0 : 0.0;
+  for (std::size_t i = 0; i < now.size(); ++i)
+    now.scalars["failed"][i] = plug(i, 5e-3) && !plug(i, 3.5e-3) ? 2.0 : 0.0;
   EXPECT_EQ(struck(now, "perforated").value, 1.0);
   EXPECT_LT(struck(now, "left_on_axis").value, 0.1);
   EXPECT_NEAR(struck(now, "hole_diameter").value, 10e-3, 0.5 * cell);
@@ -230,7 +232,8 @@ double size_of(const std::string& shape) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "run.toml")
       << "title = \"sizes\"\n[domain]\nlower = [0, 0, 0]\nupper = [\"1 mm\", \"1 mm\", \"1 mm\"]\n"
-         "cell_size = \"0.1 mm\"\n[time]\nend = \"1 us\"\n[[body]]\nname = \"ball\"\nmaterial = \"copper\"\nvelocity = [0, 0, \"-3 km/s\"]\nshape = { "
+         "cell_size = \"0.1 mm\"\n[time]\nend = \"1 us\"\n[[body]]\nname = \"ball\"\nmaterial = "
+         "\"copper\"\nvelocity = [0, 0, \"-3 km/s\"]\nshape = { "
       << shape << " }\n";
   return read_run(folder.path()).bodies.at(0).size;
 }
@@ -242,9 +245,10 @@ TEST(Run, TheSizeOfABodyIsTheSmallestExtentOfItsShape) {
   EXPECT_DOUBLE_EQ(size_of("cylinder = { " + centre + "radius = \"2 mm\", height = \"1 cm\" }"), 4e-3);
   // Thickness along the velocity, not the width of the column.
   EXPECT_DOUBLE_EQ(size_of("box = { lower = [0, 0, \"-3 mm\"], upper = [\"1 um\", \"1 um\", 0] }"), 3e-3);
-  EXPECT_DOUBLE_EQ(size_of("moved = { angle = \"90 degree\", axis = [1, 0, 0], shape = { box = { lower = [0, 0, 0], "
-                           "upper = [\"9 mm\", \"2 mm\", \"9 mm\"] } } }"),
-                   2e-3);
+  EXPECT_DOUBLE_EQ(
+      size_of("moved = { angle = \"90 degree\", axis = [1, 0, 0], shape = { box = { lower = [0, 0, 0], "
+              "upper = [\"9 mm\", \"2 mm\", \"9 mm\"] } } }"),
+      2e-3);
   EXPECT_DOUBLE_EQ(size_of("moved = { angle = \"30 degree\", shape = { ogive = { base = [0, 0, 0], "
                            "radius = \"3.5 mm\", nose_length = \"9 mm\" } } }"),
                    7e-3);
@@ -256,7 +260,8 @@ TEST(OutflowOfBodies, CountsInTheMeanVelocityOfItsBody) {
   run.folder = std::filesystem::path(testing::TempDir()) / "whipple_outflow";
   std::filesystem::create_directories(run.folder);
   std::ofstream(run.folder / "history.csv")
-      << "step,time [s],outflow_mass.ball [kg],outflow_momentum_x.ball [kg m/s],outflow_momentum_y.ball [kg m/s],"
+      << "step,time [s],outflow_mass.ball [kg],outflow_momentum_x.ball [kg m/s],outflow_momentum_y.ball [kg "
+         "m/s],"
          "outflow_momentum_z.ball [kg m/s],outflow_mass.wall [kg],outflow_momentum_x.wall [kg m/s],"
          "outflow_momentum_y.wall [kg m/s],outflow_momentum_z.wall [kg m/s]\n"
          "0,0,0,0,0,0,0,0,0,0\n5,1e-6,0.002,0,0,8,0,0,0,0\n6,2e-6,0.002,0,0,8,0.001,0,0,-1\n";
@@ -268,7 +273,9 @@ TEST(OutflowOfBodies, CountsInTheMeanVelocityOfItsBody) {
   add(snapshot, Vector3::Zero(), {0, 0, 2000}, 0);
   snapshot.mass[0] = 0.002;
   const Quantities row = body_measures(snapshot, free_flight(), 0, run.bodies[0], outflow.at(0, 2e-6));
-  const auto value = [&](const std::string& name) { return std::ranges::find(row, name, &Quantity::name)->value; };
+  const auto value = [&](const std::string& name) {
+    return std::ranges::find(row, name, &Quantity::name)->value;
+  };
   EXPECT_DOUBLE_EQ(value("mean_velocity.ball"), 3000.0);  // 2 g at 2 km/s here, 2 g at 4 km/s gone
   EXPECT_DOUBLE_EQ(value("outflow_mass.ball"), 0.002);
 }

@@ -277,14 +277,15 @@ TEST(Bar, AFootThatStandsBeforeTheWallIsAsWideAndTheBarAsLong) {
   constexpr double cell = 0.5e-3;
   for (const double gap : {0.0, 0.1, 0.2, 0.4, 0.6, 0.8, 0.95, 1.3, 4.0}) {
     Maker maker(0.25 * cell);
-    maker.fill({0, 0, 0}, {8e-3, 8e-3, 20e-3}, [](const Vector3& p) { return std::hypot(p.x(), p.y()) < 5e-3; },
-               {0, 0, -200});
+    maker.fill({0, 0, 0}, {8e-3, 8e-3, 20e-3},
+               [](const Vector3& p) { return std::hypot(p.x(), p.y()) < 5e-3; }, {0, 0, -200});
     for (Vector3& position : maker.snapshot.position) position.z() += gap * cell;
     maker.add({0.1e-3, 0.1e-3, 0.1 * cell}, {0, 0, 0});  // left at the wall
     Frame frame = quarter(200);
     frame.sign = -1.0;
     frame.wall = 0.0;
-    const Quantities row = bar_measures(maker.snapshot, frame, 0, {"bar", {0, 0, -200}, 0.25 * cell}, cell, 0.0, false);
+    const Quantities row =
+        bar_measures(maker.snapshot, frame, 0, {"bar", {0, 0, -200}, 0.25 * cell}, cell, 0.0, false);
     EXPECT_NEAR(value(row, "foot_diameter.bar"), 10e-3, 0.05e-3) << gap;
     EXPECT_NEAR(value(row, "length.bar"), 20e-3, 0.05 * cell) << gap;
   }
@@ -339,7 +340,8 @@ TEST(Bar, OnlyABodyThatFliesAtTheWallIsOneAndItKeepsItsLengthWhenItRebounds) {
   Frame frame = quarter(200);
   frame.sign = -1.0;
   frame.wall = 0.0;
-  EXPECT_TRUE(bar_measures(maker.snapshot, frame, 0, {"charge", Vector3::Zero(), 0.5 * cell}, cell, 0.0, true).empty());
+  EXPECT_TRUE(bar_measures(maker.snapshot, frame, 0, {"charge", Vector3::Zero(), 0.5 * cell}, cell, 0.0, true)
+                  .empty());
   for (Vector3& position : maker.snapshot.position) position.z() += 3e-3;
   const Quantities row =
       bar_measures(maker.snapshot, frame, 0, {"bar", {0, 0, -200}, 0.5 * cell}, cell, 30e-3, false);

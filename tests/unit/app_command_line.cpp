@@ -59,9 +59,9 @@ class CommandLine : public ::testing::Test {
 };
 
 TEST_F(CommandLine, EverySubcommandHasHelpWithAnExample) {
-  for (const char* command : {"run", "check", "status", "steer", "import", "eos", "md", "fit", "compare", "analyse",
-      "report", "describe",
-                              "materials", "cite", "units", "bench", "version"}) {
+  for (const char* command :
+       {"run", "check", "status", "steer", "import", "eos", "md", "fit", "compare", "analyse", "report",
+        "describe", "materials", "cite", "units", "bench", "version"}) {
     const Result result = whipple(std::string(command) + " --help");
     EXPECT_EQ(result.code, 0) << command;
     EXPECT_THAT(result.out, HasSubstr("Example")) << command;
@@ -258,8 +258,8 @@ TEST_F(CommandLine, AnImportedDeckIsCheckedAndRuns) {
   const std::string decks = WHIPPLE_SOURCE_DIR "/tests/data/decks/";
   const Result imported = whipple("import " + decks + "sphere_on_plate.mpm -o sphere");
   ASSERT_EQ(imported.code, 0) << imported.err;
-  for (const char* list : {"exact (", "converted (", "dropped (", "missing (0)"}) EXPECT_THAT(imported.out,
-      HasSubstr(list));
+  for (const char* list : {"exact (", "converted (", "dropped (", "missing (0)"})
+    EXPECT_THAT(imported.out, HasSubstr(list));
   EXPECT_EQ(text_of(folder_ / "sphere" / "import.txt"), imported.out);
   const Result checked = whipple("check sphere/case.toml --threads 1");
   EXPECT_EQ(checked.code, 0) << checked.err;
@@ -274,7 +274,8 @@ TEST_F(CommandLine, WhatADeckMakesMissingIsRefused) {
   const Result refused = whipple("import " + deck + " -o case");
   EXPECT_EQ(refused.code, 2);
   EXPECT_THAT(refused.out, HasSubstr("missing ("));
-  EXPECT_THAT(refused.err, HasSubstr("missing.mpm:9:1: error: missing: mate dpm: material 2: Drucker-Prager"));
+  EXPECT_THAT(refused.err,
+              HasSubstr("missing.mpm:9:1: error: missing: mate dpm: material 2: Drucker-Prager"));
   EXPECT_THAT(refused.err, HasSubstr("--allow-missing"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "case"));
   EXPECT_EQ(whipple("import " + deck + " -o case --allow-missing").code, 0);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the report expects of a planar impact is what the equations of state say.
-#include "src/app/planar_impact.hpp"
-
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+
+#include "src/app/planar_impact.hpp"
 
 namespace whipple::app {
 namespace {
@@ -20,7 +20,8 @@ end = "1 us"
 [[body]]
 name = "disk"
 material = "copper.toml"
-velocity = ["0 m/s", "0 m/s", ")" + velocity + R"("]
+velocity = ["0 m/s", "0 m/s", ")" + velocity +
+                                   R"("]
 shape = { box = { lower = ["0 mm", "0 mm", "-3 mm"], upper = ["4 mm", "4 mm", "0 mm"] } }
 [[body]]
 name = "plate"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A catalogue of two toy models: constants are read before anything is built, files are named as companions, and
 // unknown names are answered with the nearest one.
-#include "src/core/base/catalogue.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "src/core/base/catalogue.hpp"
 
 namespace whipple {
 namespace {
@@ -42,8 +42,9 @@ Catalogue<SpringEntry> springs() {
   };
   return {"spring",
           {catalogue_entry<SpringEntry>("linear", "force by length", "F = k x", &Linear::parameters, build),
-           catalogue_entry<SpringEntry>("filed", "linear, from a file", "", &Linear::parameters, build,
-                                        [](const Linear& c) { return std::vector<std::filesystem::path>{c.file}; })}};
+           catalogue_entry<SpringEntry>(
+               "filed", "linear, from a file", "", &Linear::parameters, build,
+               [](const Linear& c) { return std::vector<std::filesystem::path>{c.file}; })}};
 }
 
 /// Sets the stiffness, and the file where there is one.

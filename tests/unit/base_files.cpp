@@ -45,7 +45,9 @@ TEST(PartialFile, TakesTheNameOfItsTargetWhenItIsPublished) {
 
 TEST(PartialFile, IsRemovedWhenItIsGivenUp) {
   const TemporaryFolder folder;
-  { const PartialFile partial(folder.path() / "table.csv"); }
+  {
+    const PartialFile partial(folder.path() / "table.csv");
+  }
   EXPECT_EQ(files_in(folder.path()), 0);
 }
 
@@ -135,9 +137,12 @@ TEST(Log, GoesWhereTheCallerWantsByLevelAndToOneFile) {
   log::set_level(log::Level::normal);
   log::set_sink({});
   using enum log::Kind;
-  EXPECT_EQ(shown, (std::vector<std::pair<log::Kind, std::string>>{
-                       {information, "step 1"}, {warning, "thin plate"}, {warning, "thin plate"}, {detail, "sorted"}}));
-  const std::string first = content(folder.path() / "first.txt"), second = content(folder.path() / "second.txt");
+  EXPECT_EQ(
+      shown,
+      (std::vector<std::pair<log::Kind, std::string>>{
+          {information, "step 1"}, {warning, "thin plate"}, {warning, "thin plate"}, {detail, "sorted"}}));
+  const std::string first = content(folder.path() / "first.txt"),
+                    second = content(folder.path() / "second.txt");
   EXPECT_THAT(first, ::testing::ContainsRegex("^20[-0-9]+ [0-9:]+ info: step 1\n"));
   EXPECT_THAT(first, HasSubstr(" warning: thin plate"));
   EXPECT_THAT(first, ::testing::Not(HasSubstr("warning: warning")));

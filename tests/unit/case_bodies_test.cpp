@@ -380,8 +380,10 @@ TEST(PartialVolumes, MeetTheMassOfACurvedBody) {
 TEST(PartialVolumes, KeepAPlateThinnerThanAParticle) {
   const Case setup = read_case_text(
       "[time]\nend = 1\n[domain]\nlower = [-0.01, -0.01, -0.01]\nupper = [0.01, 0.01, 0.01]\ncell_size = "
-      "0.001\n[[body]]\nname = \"plate\"\nmaterial = \"copper.toml\"\ndiscretization = { partial_volumes = true }\n"
-      "shape = { moved = { angle = \"20 deg\", axis = [0, 1, 0], shape = { box = { lower = [-0.005, -0.004, 0], "
+      "0.001\n[[body]]\nname = \"plate\"\nmaterial = \"copper.toml\"\ndiscretization = { partial_volumes = "
+      "true }\n"
+      "shape = { moved = { angle = \"20 deg\", axis = [0, 1, 0], shape = { box = { lower = [-0.005, -0.004, "
+      "0], "
       "upper = [0.005, 0.004, 0.00017] } } } }\n",
       "case.toml");
   const Seeding seeding = seed(setup);

@@ -41,7 +41,8 @@ TEST(Case, RefusesCombinationsThatHaveNoMeaning) {
     const std::string with_scheme = replaced(domain, "end =", "scheme = \"" + scheme + "\"\nend =");
     expect_error(with_scheme + "[transfer]\nparticle_update = \"apic\"\n" + sphere,
                  {"scheme \"" + scheme + "\" carries no affine field", "\"flip\", \"pic\", \"blend\""});
-    EXPECT_EQ(read_case_text(with_scheme + sphere, "case.toml").transfer.particle_update, ParticleUpdate::flip);
+    EXPECT_EQ(read_case_text(with_scheme + sphere, "case.toml").transfer.particle_update,
+              ParticleUpdate::flip);
   }
   expect_error(
       replaced(replaced(domain, "end =", "scheme = \"usf\"\nend ="), "\"symmetry\" }", "\"separating\" }") +
@@ -126,7 +127,10 @@ TEST(GaugesOfACase, AreReadWrittenAndNumbered) {
 
 TEST(GaugesOfACase, MistakesAreNamed) {
   const auto line_of = [](const std::string& text, const std::string& key) {
-    return "case.toml:" + std::to_string(1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.find(key)), '\n')) + ":";
+    return "case.toml:" +
+           std::to_string(1 + std::count(text.begin(),
+                                         text.begin() + static_cast<std::ptrdiff_t>(text.find(key)), '\n')) +
+           ":";
   };
   const std::string outside = domain + sphere + replaced(gauges, "\"5 mm\"", "\"50 mm\"");
   expect_error(outside, {line_of(outside, "position").c_str()});

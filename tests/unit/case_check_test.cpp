@@ -133,7 +133,8 @@ TEST(CaseFile, FaultsHaveThePlaceAndTheKey) {
 // A key that cannot be read has one fault: what a check says of the default in its place is no help.
 TEST(CaseFile, AKeyThatCannotBeReadIsReportedOnce) {
   EXPECT_EQ(keys_of(faults_of(replaced(domain, "\"4 us\"", "\"4 kg\"") + sphere)), Keys{"time.end"});
-  EXPECT_EQ(keys_of(faults_of(replaced(domain, "cell_size = \"1 mm\"", "") + sphere)), Keys{"domain.cell_size"});
+  EXPECT_EQ(keys_of(faults_of(replaced(domain, "cell_size = \"1 mm\"", "") + sphere)),
+            Keys{"domain.cell_size"});
   EXPECT_EQ(keys_of(faults_of(domain + replaced(sphere, "radius = \"3 mm\"", "radius = \"-3 mm\""))),
             Keys{"body.0.shape.sphere.radius"});
   EXPECT_EQ(keys_of(faults_of(domain + replaced(sphere, "name = \"sphere\"\n", ""))), Keys{"body.0.name"});

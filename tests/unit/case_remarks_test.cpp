@@ -15,8 +15,9 @@ const std::string free_domain =
              "lower = [\"0 mm\", \"0 mm\"", "lower = [\"-12 mm\", \"-12 mm\"");
 
 std::string plate(const std::string& z) {
-  return "[[body]]\nname = \"plate\"\nmaterial = \"aluminium.toml\"\nshape = { box = { lower = [\"0 mm\", \"0 mm\", \"" + z +
-         "\"], upper = [\"12 mm\", \"12 mm\", \"15 mm\"] } }\n";
+  return "[[body]]\nname = \"plate\"\nmaterial = \"aluminium.toml\"\nshape = { box = { lower = [\"0 mm\", "
+         "\"0 mm\", \"" +
+         z + "\"], upper = [\"12 mm\", \"12 mm\", \"15 mm\"] } }\n";
 }
 
 std::string remarks_of(const std::string& text) {
@@ -32,13 +33,16 @@ TEST(Remarks, SayNothingOfAnImpactThatTouchesOrFliesFirst) {
 
 TEST(Remarks, NameAGapThatIsNarrowerThanACell) {
   const std::string said = remarks_of(domain + sphere + plate("-0.75 mm"));
-  EXPECT_NE(said.find("'sphere' and 'plate' is a gap of 0.25 mm, less than a cell of 1 mm"), std::string::npos) << said;
+  EXPECT_NE(said.find("'sphere' and 'plate' is a gap of 0.25 mm, less than a cell of 1 mm"),
+            std::string::npos)
+      << said;
 }
 
 TEST(Remarks, NameABodyThatMeetsNothing) {
   const std::string away = replaced(sphere, "\"5.55 km/s\"", "\"-1 km/s\"");
-  EXPECT_NE(remarks_of(free_domain + away + plate("5 mm")).find("'sphere' meets no other body until t = 4 us"),
-            std::string::npos);
+  EXPECT_NE(
+      remarks_of(free_domain + away + plate("5 mm")).find("'sphere' meets no other body until t = 4 us"),
+      std::string::npos);
   EXPECT_NE(remarks_of(domain + away + plate("5 mm")).find("'sphere' meets no other body until t = 4 us"),
             std::string::npos);  // a quarter model: its mirror planes lie along the flight
   const std::string late = replaced(sphere, "\"5.55 km/s\"", "\"1 km/s\"");  // 6 mm in 4 us
@@ -48,24 +52,31 @@ TEST(Remarks, NameABodyThatMeetsNothing) {
 TEST(Remarks, NameSpeedsBeyondTheAuditedShocks) {
   const std::string fast = replaced(sphere, "\"5.55 km/s\"", "\"300 km/s\"");
   const std::string said = remarks_of(domain + fast + plate("-1 mm"));
-  EXPECT_NE(said.find("bodies meet at 300 km/s; 'copper' is audited for shocks with up to"), std::string::npos) << said;
+  EXPECT_NE(said.find("bodies meet at 300 km/s; 'copper' is audited for shocks with up to"),
+            std::string::npos)
+      << said;
 }
 
 TEST(Remarks, NameExplosivesThatStartBurnt) {
-  const std::string charge = replaced(replaced(sphere, "copper.toml", "tnt.toml"), "\"5.55 km/s\"", "\"3 km/s\"");
+  const std::string charge =
+      replaced(replaced(sphere, "copper.toml", "tnt.toml"), "\"5.55 km/s\"", "\"3 km/s\"");
   const std::string said = remarks_of(domain + charge + "detonation = \"instantaneous\"\n" + plate("-1 mm"));
   EXPECT_NE(said.find("'sphere' starts burnt"), std::string::npos) << said;
   EXPECT_NE(said.find("no projectile is like that"), std::string::npos) << said;
 }
 
 TEST(Remarks, NameWhatADetonationCannotMean) {
-  const std::string charge = replaced(sphere, "copper.toml", "tetryl.toml") + "detonation_velocity = \"7.5 km/s\"\n";
-  const std::string lit = "[[detonation]]\nposition = [\"1 mm\", \"0 mm\", \"-5 mm\"]\n"
-                          "[[detonation]]\nposition = [\"0 mm\", \"0 mm\", \"40 mm\"]\n";
+  const std::string charge =
+      replaced(sphere, "copper.toml", "tetryl.toml") + "detonation_velocity = \"7.5 km/s\"\n";
+  const std::string lit =
+      "[[detonation]]\nposition = [\"1 mm\", \"0 mm\", \"-5 mm\"]\n"
+      "[[detonation]]\nposition = [\"0 mm\", \"0 mm\", \"40 mm\"]\n";
   const std::string said = remarks_of(domain + charge + plate("-1 mm") + lit);
-  for (const char* remark : {"has no [eos.unreacted]", "is lit at 7.5 km/s, and its products detonate with 7.913 km/s",
-                             "its lighting times are those of where it starts", "detonation 1 lies 1 mm from the symmetry plane x_lower",
-                             "detonation 2 is outside of all explosive"}) {
+  for (const char* remark :
+       {"has no [eos.unreacted]", "is lit at 7.5 km/s, and its products detonate with 7.913 km/s",
+        "its lighting times are those of where it starts",
+        "detonation 1 lies 1 mm from the symmetry plane x_lower",
+        "detonation 2 is outside of all explosive"}) {
     EXPECT_NE(said.find(remark), std::string::npos) << remark << "\n" << said;
   }
 }

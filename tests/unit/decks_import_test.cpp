@@ -93,8 +93,11 @@ TEST(Mpm3dDeck, BecomesACaseWithUnits) {
   EXPECT_THAT(import.case_text, HasSubstr("cell_size = \"1 mm\""));
   EXPECT_THAT(import.case_text, HasSubstr("upper = [\"12 mm\", \"8 mm\", \"8 mm\"]")) << "16.2 cells are 16";
   EXPECT_THAT(import.case_text, HasSubstr("lower = [\"-4 mm\", \"-8 mm\", \"-8 mm\"]"));
-  EXPECT_THAT(import.case_text, HasSubstr("shape = { sphere = { center = [\"-2 mm\", \"0 mm\", \"0 mm\"], radius = \"1.5 mm\" } }"));
-  EXPECT_THAT(import.case_text, HasSubstr("shape = { box = { lower = [\"0 mm\", \"-4 mm\", \"-4 mm\"], upper = [\"2 mm\", \"4 mm\", \"4 mm\"] } }"));
+  EXPECT_THAT(
+      import.case_text,
+      HasSubstr("shape = { sphere = { center = [\"-2 mm\", \"0 mm\", \"0 mm\"], radius = \"1.5 mm\" } }"));
+  EXPECT_THAT(import.case_text, HasSubstr("shape = { box = { lower = [\"0 mm\", \"-4 mm\", \"-4 mm\"], upper "
+                                          "= [\"2 mm\", \"4 mm\", \"4 mm\"] } }"));
   EXPECT_THAT(import.case_text, HasSubstr("velocity = [\"3000 m/s\", \"0 m/s\", \"0 m/s\"]"));
   EXPECT_THAT(import.case_text, HasSubstr("fields = [\"von_mises_stress\"]"));
   EXPECT_THAT(import.case_text, HasSubstr("[[gauge]]"));
@@ -102,7 +105,8 @@ TEST(Mpm3dDeck, BecomesACaseWithUnits) {
   ASSERT_EQ(import.files.size(), 2U);
   EXPECT_THAT(import.files[0].text, HasSubstr("hardening_modulus = \"125 MPa\""));
   EXPECT_THAT(import.files[0].text, HasSubstr("failure_strain = 3"));
-  EXPECT_THAT(import.files[0].text, HasSubstr("heat_capacity = \"124 J/(kg K)\"")) << "that of lead, by its density";
+  EXPECT_THAT(import.files[0].text, HasSubstr("heat_capacity = \"124 J/(kg K)\""))
+      << "that of lead, by its density";
   EXPECT_THAT(import.files[1].text, HasSubstr("melting_temperature = \"1356 K\""));
   EXPECT_THAT(import.files[1].text, HasSubstr("heat_capacity = \"383 J/(kg K)\""));
   ASSERT_EQ(import.bodies.size(), 2U);
@@ -117,22 +121,27 @@ TEST(Mpm3dDeck, EveryStatementHasItsRemark) {
     const Import import = mpm3d::to_case(deck, in_si);
     for (const mpm3d::Statement& statement : deck.statements) {
       // given forces of one kind, and gravity, have one remark together
-      const bool remarked = std::ranges::any_of(import.remarks,
-          [&](const Remark& remark) { return remark.keyword == statement.name(); });
+      const bool remarked = std::ranges::any_of(
+          import.remarks, [&](const Remark& remark) { return remark.keyword == statement.name(); });
       EXPECT_TRUE(remarked) << name << ":" << statement.line << ": " << statement.name();
     }
-    for (const Word<Outcome>& word : words(Outcome{})) EXPECT_THAT(import.report(),
-        HasSubstr("\n" + std::string(word.text) + " ("));
+    for (const Word<Outcome>& word : words(Outcome{}))
+      EXPECT_THAT(import.report(), HasSubstr("\n" + std::string(word.text) + " ("));
   }
 }
 
 TEST(Mpm3dDeck, ShapesAndLawsOfEveryKind) {
   const Import import = import_text(deck_text("columns_of_water.mpm"), in_si);
   EXPECT_EQ(import.count(Outcome::missing), 0U) << import.report();
-  EXPECT_THAT(import.case_text, HasSubstr("boundary = { x_lower = \"no_slip\", y_lower = \"symmetry\", z_lower = \"symmetry\" }"));
-  EXPECT_THAT(import.case_text, HasSubstr("box = { lower = [\"0 m\", \"0 m\", \"0 m\"], upper = [\"1 m\", \"1 m\", \"1 m\"] }")) << "of eight points";
+  EXPECT_THAT(
+      import.case_text,
+      HasSubstr("boundary = { x_lower = \"no_slip\", y_lower = \"symmetry\", z_lower = \"symmetry\" }"));
+  EXPECT_THAT(import.case_text,
+              HasSubstr("box = { lower = [\"0 m\", \"0 m\", \"0 m\"], upper = [\"1 m\", \"1 m\", \"1 m\"] }"))
+      << "of eight points";
   EXPECT_THAT(import.case_text, HasSubstr("difference"));
-  EXPECT_THAT(import.case_text, HasSubstr("cylinder = { center = [\"7.5 m\", \"7.5 m\", \"0.5 m\"], axis = \"z\", radius = \"2 m\", height = \"1 m\" }"));
+  EXPECT_THAT(import.case_text, HasSubstr("cylinder = { center = [\"7.5 m\", \"7.5 m\", \"0.5 m\"], axis = "
+                                          "\"z\", radius = \"2 m\", height = \"1 m\" }"));
   EXPECT_THAT(import.case_text, HasSubstr("acceleration = [\"0 m/s^2\", \"0 m/s^2\", \"-9.81 m/s^2\"]"));
   EXPECT_THAT(import.case_text, HasSubstr("method = \"multi_field\""));
   EXPECT_THAT(import.case_text, HasSubstr("contact_group = \"component_2\""));
@@ -182,19 +191,21 @@ TEST(Mpm3dDeck, GrowsTheDomainAroundItsBodies) {
 
 TEST(Mpm3dDeck, FaultsAreNamedWithTheirPlace) {
   EXPECT_THAT(fault_of(sphere_deck("bulk 1.5", "bulg 1.5")),
-      HasSubstr("deck.mpm:24:1: error: unknown keyword 'bulg', did you mean \"bulk\"?"));
+              HasSubstr("deck.mpm:24:1: error: unknown keyword 'bulg', did you mean \"bulk\"?"));
   EXPECT_THAT(fault_of(sphere_deck("bulk 1.5 0.06", "bulk 1.5")),
-      HasSubstr("deck.mpm:25:1: error: 'dtscale' where number 2 of 2 after 'bulk'"));
+              HasSubstr("deck.mpm:25:1: error: 'dtscale' where number 2 of 2 after 'bulk'"));
   EXPECT_THAT(fault_of(sphere_deck("bulk 1.5 0.06", "bulk 1.5 0.06 7")),
-      HasSubstr("deck.mpm:24:15: error: '7' where a keyword is expected: too many"));
+              HasSubstr("deck.mpm:24:15: error: '7' where a keyword is expected: too many"));
   EXPECT_THAT(fault_of(sphere_deck("bulk 1.5 0.06", "bulk 1.5 .06")), HasSubstr("no number that begins so"));
   EXPECT_THAT(fault_of(sphere_deck("  1 sjcf", "  1 steel")),
-      HasSubstr("'steel' where the model of a material is expected: elas, pla1"));
-  EXPECT_THAT(fault_of(sphere_deck("endinput2013\nthis is not read\n", "")), HasSubstr("a deck ends with 'endi'"));
+              HasSubstr("'steel' where the model of a material is expected: elas, pla1"));
+  EXPECT_THAT(fault_of(sphere_deck("endinput2013\nthis is not read\n", "")),
+              HasSubstr("a deck ends with 'endi'"));
   EXPECT_THAT(fault_of(sphere_deck("body 1 3000", "body 7 3000")), HasSubstr("there is no body 7"));
   EXPECT_THAT(fault_of(sphere_deck("  2 8.93e-3 0.5 ", "  4 8.93e-3 0.5 ")),
-      HasSubstr("material 4 is not among those of 'mate'"));
-  EXPECT_THAT(fault_of(sphere_deck("nbmp 3000", "nbmp 30")), HasSubstr("nbmp is 30, the bodies have 1160 particles"));
+              HasSubstr("material 4 is not among those of 'mate'"));
+  EXPECT_THAT(fault_of(sphere_deck("nbmp 3000", "nbmp 30")),
+              HasSubstr("nbmp is 30, the bodies have 1160 particles"));
   EXPECT_THAT(fault_of(sphere_deck("! Unit: mm g N ms MPa", "!")), HasSubstr("--units 'mm g ms'"));
   EXPECT_THAT(fault_of(sphere_deck("N ms MPa", "N ms GPa")), HasSubstr("make MPa, not GPa"));
   const std::string two = fault_of(sphere_deck("bulk 1.5 0.06\ndtscale", "bulk a b\nfoo 1\ndtscale"));
@@ -224,7 +235,8 @@ TEST_F(ImportFolder, ANeoHookeanSolidIsAConstitutiveModel) {
   text.replace(text.find("nmat 3"), 6, "nmat 2");
   text.replace(text.find(" 3 neoh"), 7, " 2 neoh");
   text.replace(text.find("block 1 3 1000"), 14, "block 1 2 1000");
-  text.erase(text.find("particle block 1 2 1700"), text.find("particle block 1 2 1000") - text.find("particle block 1 2 1700"));
+  text.erase(text.find("particle block 1 2 1700"),
+             text.find("particle block 1 2 1000") - text.find("particle block 1 2 1700"));
   text.erase(text.find("qulo"), 9);
   text.erase(text.find("nbmp 100\n"), 9);
   const Import import = import_text(text);
@@ -266,7 +278,7 @@ TEST_F(ImportFolder, TheFolderAppearsWholeAndReadsAsACase) {
   EXPECT_TRUE(fs::exists(target / "import.txt"));
   EXPECT_TRUE(fs::exists(target / "materials" / "material_2.toml"));
   EXPECT_THAT(message_of<InputError>([&] { const CaseFolder again(import, target); }),
-      HasSubstr("nothing is overwritten"));
+              HasSubstr("nothing is overwritten"));
   EXPECT_THROW(write_case_only(import, target), InputError);
   fs::remove(target / "case.toml");
   write_case_only(import, target);
@@ -295,15 +307,21 @@ TEST(DynaDeck, BecomesACaseWithMeshesAndBoxes) {
   EXPECT_EQ(import.count(Outcome::missing), 0U) << import.report();
   EXPECT_THAT(import.case_text, HasSubstr("title = \"Bar on plate\""));
   EXPECT_THAT(import.case_text, HasSubstr("end = \"0.002 ms\""));
-  EXPECT_THAT(import.case_text, HasSubstr("velocity = [\"0 m/s\", \"0 m/s\", \"-200 m/s\"]")) << "of a parameter";
+  EXPECT_THAT(import.case_text, HasSubstr("velocity = [\"0 m/s\", \"0 m/s\", \"-200 m/s\"]"))
+      << "of a parameter";
   EXPECT_THAT(import.case_text, HasSubstr("friction = 0.2"));
   EXPECT_THAT(import.case_text, HasSubstr("mesh = \"meshes/part_1.msh\", mesh_unit = \"1 mm\""));
-  EXPECT_THAT(import.case_text, HasSubstr("box = { lower = [\"-2 mm\", \"-2 mm\", \"-1 mm\"], upper = [\"2 mm\", \"2 mm\", \"0 mm\"] }"));
+  EXPECT_THAT(
+      import.case_text,
+      HasSubstr(
+          "box = { lower = [\"-2 mm\", \"-2 mm\", \"-1 mm\"], upper = [\"2 mm\", \"2 mm\", \"0 mm\"] }"));
   ASSERT_EQ(import.files.size(), 3U);
   const std::string& copper = import.files[0].text;
-  EXPECT_THAT(copper, HasSubstr("reference_rate = \"0.001 1/ms\"")) << "of a field that touches its neighbour";
+  EXPECT_THAT(copper, HasSubstr("reference_rate = \"0.001 1/ms\""))
+      << "of a field that touches its neighbour";
   EXPECT_THAT(copper, HasSubstr("spall_strength = \"3 GPa\"")) << "of a typographic minus";
-  EXPECT_THAT(copper, HasSubstr("reference_density = \"8.96e-06 kg/mm^3\"")) << "of an exponent without its letter";
+  EXPECT_THAT(copper, HasSubstr("reference_density = \"8.96e-06 kg/mm^3\""))
+      << "of an exponent without its letter";
   EXPECT_THAT(copper, HasSubstr("gruneisen_slope = 0.47"));
   EXPECT_THAT(copper, HasSubstr("d5 = 1.12"));
   ASSERT_EQ(import.bodies.size(), 2U);
@@ -312,7 +330,8 @@ TEST(DynaDeck, BecomesACaseWithMeshesAndBoxes) {
 }
 
 TEST(DynaDeck, WhatIsNotReadIsMissingByNameAndNumber) {
-  const Import import = import_keywords(bar_deck("*CONTROL_ENERGY\n", "*RIGIDWALL_PLANAR\n         0\n*RIGIDWALL_PLANAR\n"));
+  const Import import =
+      import_keywords(bar_deck("*CONTROL_ENERGY\n", "*RIGIDWALL_PLANAR\n         0\n*RIGIDWALL_PLANAR\n"));
   EXPECT_THAT(import.report(), HasSubstr("*RIGIDWALL_PLANAR  not read, 2 times"));
   EXPECT_EQ(import.count(Outcome::missing), 1U);
   const Import foam = import_keywords(bar_deck("*MAT_PLASTIC_KINEMATIC", "*MAT_LOW_DENSITY_FOAM"));
@@ -323,10 +342,12 @@ TEST_F(ImportFolder, AnExplosiveOfAKeywordDeckIsLit) {
   const auto deck = [](const std::string& detonation) {
     std::string text = bar_deck("*MAT_PLASTIC_KINEMATIC\n2, 7.85e-6, 210.0, 0.3, 0.4, 1.0, 1.0\n",
                                 "*MAT_HIGH_EXPLOSIVE_BURN\n2, 1.63e-6, 6930.0, 21.0\n"
-                                "*EOS_JWL\n2, 371.2, 3.231, 4.15, 0.95, 0.3, 7.0\n" + detonation);
+                                "*EOS_JWL\n2, 371.2, 3.231, 4.15, 0.95, 0.3, 7.0\n" +
+                                    detonation);
     const std::string part = "plate\n         2         2         2\n";
     text.replace(text.find(part), part.size(), "plate\n         2         2         2         2\n");
-    for (std::size_t at = 0; (at = text.find("7.850000e-06", at)) != std::string::npos;) text.replace(at, 12, "1.630000e-06");
+    for (std::size_t at = 0; (at = text.find("7.850000e-06", at)) != std::string::npos;)
+      text.replace(at, 12, "1.630000e-06");
     return text;
   };
   const Import lit = import_keywords(deck("*INITIAL_DETONATION\n2, 0.0, 0.0, -0.5, 0.001\n"));
@@ -345,13 +366,19 @@ TEST(DynaDeck, FaultsAreNamedWithTheirPlace) {
   const auto fault = [](const std::string& from, const std::string& to) {
     return message_of<InputError>([&] { static_cast<void>(import_keywords(bar_deck(from, to))); });
   };
-  EXPECT_THAT(fault("      1.09    1356.0", "      1.09    13x6.0"), HasSubstr("'13x6.0' in field 6 is no number"));
+  EXPECT_THAT(fault("      1.09    1356.0", "      1.09    13x6.0"),
+              HasSubstr("'13x6.0' in field 6 is no number"));
   EXPECT_THAT(fault("&speed", "&spead"), HasSubstr("is no parameter"));
-  EXPECT_THAT(fault("         1    3940.0", "         1\t3940.0"), HasSubstr("a tab in a card")) << "columns are lost";
-  EXPECT_THAT(fault("         2         2         2\n", "         2         2         5\n"), HasSubstr("there is no *MAT 5"));
-  EXPECT_THAT(fault("         7         1       0.0", "         8         1       0.0"), HasSubstr("there is no set 8"));
-  EXPECT_THAT(fault("      12            -0.5", "      13            -0.5"), HasSubstr("there is no node 12"));
-  EXPECT_THAT(fault("         1   8.960-6", "         1          "), HasSubstr("field 2, the density, is blank"));
+  EXPECT_THAT(fault("         1    3940.0", "         1\t3940.0"), HasSubstr("a tab in a card"))
+      << "columns are lost";
+  EXPECT_THAT(fault("         2         2         2\n", "         2         2         5\n"),
+              HasSubstr("there is no *MAT 5"));
+  EXPECT_THAT(fault("         7         1       0.0", "         8         1       0.0"),
+              HasSubstr("there is no set 8"));
+  EXPECT_THAT(fault("      12            -0.5", "      13            -0.5"),
+              HasSubstr("there is no node 12"));
+  EXPECT_THAT(fault("         1   8.960-6", "         1          "),
+              HasSubstr("field 2, the density, is blank"));
   EXPECT_THAT(fault("*CONTROL_TERMINATION\n     0.002\n", ""), HasSubstr("no *CONTROL_TERMINATION"));
   EXPECT_THAT(message_of<InputError>([&] { static_cast<void>(import_keywords(bar_deck(), {})); }),
               ::testing::AllOf(HasSubstr("--units"), HasSubstr("--cell-size")));
@@ -390,13 +417,15 @@ TEST_F(ImportFolder, HabitsOfOtherEditorsChangeNothing) {
 TEST(Decks, DamagedOnesAreReadOrRefused) {
   const char* wanted = std::getenv("WHIPPLE_FUZZ_TRIALS");
   const int trials = wanted != nullptr ? std::atoi(wanted) : 300;
-  const std::vector<std::string> odd = {"-1", "1e300", "-1e300", "0", "999999999", "endi", "part", "poin", "nan", "!",
-      "\n", "\0", "sphere", "1e-300", "*NODE", "*INCLUDE", "&speed", "1-3", ",", "*SET_PART_LIST_GENERATE"};
+  const std::vector<std::string> odd = {"-1",       "1e300",  "-1e300", "0",      "999999999",
+                                        "endi",     "part",   "poin",   "nan",    "!",
+                                        "\n",       "\0",     "sphere", "1e-300", "*NODE",
+                                        "*INCLUDE", "&speed", "1-3",    ",",      "*SET_PART_LIST_GENERATE"};
   for (int trial = 0; trial < trials; ++trial) {
     std::mt19937_64 random(static_cast<std::uint64_t>(trial));
     const std::size_t which = random() % 4;
-    std::string text = deck_text(std::array{"sphere_on_plate.mpm", "columns_of_water.mpm", "missing.mpm",
-        "bar_on_plate.k"}[which]);
+    std::string text = deck_text(
+        std::array{"sphere_on_plate.mpm", "columns_of_water.mpm", "missing.mpm", "bar_on_plate.k"}[which]);
     for (std::size_t changes = 1 + random() % 3; changes > 0; --changes) {
       const std::size_t at = random() % text.size();
       switch (random() % 4) {

@@ -57,9 +57,10 @@ TEST_F(EosCommand, StateTakesEveryPairOfQuantities) {
   for (std::istringstream words(row); std::getline(words, cell, ',');) cells.push_back(cell);
   const std::string density = fmt::format("--density '{} kg/m^3'", cells[0]),
                     pressure = fmt::format("--pressure '{} GPa'", cells[2]);
-  for (const std::string& pair : {density + fmt::format(" --energy '{} kJ/kg'", cells[4]),
-                                  density + " " + pressure, density + fmt::format(" --entropy '{} J/(kg K)'", cells[6]),
-                                  pressure + fmt::format(" --temperature '{} K'", cells[3])}) {
+  for (const std::string& pair :
+       {density + fmt::format(" --energy '{} kJ/kg'", cells[4]), density + " " + pressure,
+        density + fmt::format(" --entropy '{} J/(kg K)'", cells[6]),
+        pressure + fmt::format(" --temperature '{} K'", cells[3])}) {
     ASSERT_EQ(run("state copper " + pair), 0) << output();
     EXPECT_THAT(output(), ContainsRegex("density +10000 +kg/m")) << pair;
     EXPECT_THAT(output(), ContainsRegex("temperature +1000 +K")) << pair;

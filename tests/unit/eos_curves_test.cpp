@@ -29,7 +29,8 @@ double number(const CurveTable& table, const CurveRow& row, const char* column) 
 }
 
 TEST(EosCurves, HugoniotIsTheLineOfTheModel) {
-  const CurveTable table = hugoniot_table({aluminium()}, {}, {}, Variable::particle_velocity, {500.0, 2500.0, 5});
+  const CurveTable table =
+      hugoniot_table({aluminium()}, {}, {}, Variable::particle_velocity, {500.0, 2500.0, 5});
   ASSERT_EQ(table.series.size(), 1U);
   ASSERT_EQ(table.series[0].rows.size(), 5U);
   for (std::size_t i = 0; i < 5; ++i) {
@@ -46,10 +47,10 @@ TEST(EosCurves, HugoniotIsTheLineOfTheModel) {
 // The sizes come from the unit library; that of the pressure was exact before it did.
 TEST(EosCurves, UnitsOfTheColumnsAreExact) {
   for (const Column& column : state_columns()) {
-    const double exact = column.unit == "GPa"                                    ? 1e9
+    const double exact = column.unit == "GPa"                                      ? 1e9
                          : column.unit.starts_with("k") && column.unit != "kg/m^3" ? 1e3
-                         : column.unit == "1e-6/K"                               ? 1e-6
-                                                                                 : 1.0;
+                         : column.unit == "1e-6/K"                                 ? 1e-6
+                                                                                   : 1.0;
     EXPECT_EQ(column.size, exact) << column.name;
   }
   EXPECT_THROW(quantity_column("P", "GPa", "m/s", "pressure"), InputError);
@@ -67,7 +68,8 @@ TEST(EosCurves, StatesAreNamedByTwoQuantities) {
   const Subject subject = aluminium();
   const State named = state_of(*subject.eos, {.density = 3000.0, .temperature = 500.0});
   const State again = state_of(*subject.eos, {.density = 3000.0, .pressure = named.pressure});
-  EXPECT_NEAR(again.specific_internal_energy, named.specific_internal_energy, 1e-6 * named.specific_internal_energy);
+  EXPECT_NEAR(again.specific_internal_energy, named.specific_internal_energy,
+              1e-6 * named.specific_internal_energy);
   EXPECT_EQ(state_of(*subject.eos, {}).density, rho0);
   EXPECT_THROW(state_of(*subject.eos, {.density = 3000.0}), InputError);
   EXPECT_THROW(required_shock(*subject.eos, {}, {}), InputError);

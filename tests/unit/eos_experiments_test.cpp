@@ -23,7 +23,8 @@ TEST(EosExperiments, ADeviationIsThatOfTheData) {
   {
     std::ofstream text(file);
     text << "# a source\n# material: aluminium\nup_km_s,us_km_s\n";
-    for (const double up : {1.0, 2.0, 3.0}) text << fmt::format("{},{:.12g}\n", up, (1e-3 * c0 + slope * up) / 1.02);
+    for (const double up : {1.0, 2.0, 3.0})
+      text << fmt::format("{},{:.12g}\n", up, (1e-3 * c0 + slope * up) / 1.02);
   }
   const std::vector<Experiment> found = read_experiments(file);
   ASSERT_EQ(found.size(), 1U);

@@ -219,10 +219,9 @@ TEST(EosGray, VapourPresetWithoutItsTemperatureOrOutOfReachIsRefused) {
     return std::string("none");
   };
   GrayConstants c = copper();
-  for (const auto& [vapour, name] :
-       {std::pair(VapourCondition::critical, "critical_temperature"),
-        std::pair(VapourCondition::boiling, "boiling_temperature"),
-        std::pair(VapourCondition::attraction, "vapour_attraction")}) {
+  for (const auto& [vapour, name] : {std::pair(VapourCondition::critical, "critical_temperature"),
+                                     std::pair(VapourCondition::boiling, "boiling_temperature"),
+                                     std::pair(VapourCondition::attraction, "vapour_attraction")}) {
     c.vapour = vapour;
     c.vapour_attraction = GrayConstants::not_given;
     EXPECT_NE(refusal(c).find(std::string("needs ") + name), std::string::npos) << refusal(c);

@@ -100,7 +100,8 @@ TEST(EosMieGruneisen, CurvesWithoutCompressionAreRefused) {
       const MieGruneisenEos eos(constants);
       FAIL() << "no error with the slope " << slope;
     } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find("at no compression to speak of"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("at no compression to speak of"), std::string::npos)
+          << error.what();
     }
   }
 }

@@ -52,7 +52,8 @@ inline GrayConstants aluminium() {
 }
 
 /// Aluminium 2024-T4 on Steinberg's linear Hugoniot.
-inline MieGruneisenConstants aluminium_2024(CompressedGruneisenLaw law = CompressedGruneisenLaw::constant_product) {
+inline MieGruneisenConstants aluminium_2024(
+    CompressedGruneisenLaw law = CompressedGruneisenLaw::constant_product) {
   MieGruneisenConstants c;
   c.reference_density = 2785;
   c.hugoniot_intercept = 5328;

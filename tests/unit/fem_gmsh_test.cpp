@@ -149,7 +149,8 @@ TEST_F(Gmsh, NamesFileLineAndElement) {
               HasSubstr("the line ends where a coordinate is expected"));
   EXPECT_THAT(read(changed("two_boxes_22.msh", "\n1 0 0 0\n", "\n2 0 0 0\n")),
               HasSubstr("node 2 is defined twice"));
-  EXPECT_THAT(read(changed("two_boxes_22.msh", "\n1 0 0 0\n", "\n1 0 nan 0\n")), HasSubstr("is not a coordinate"));
+  EXPECT_THAT(read(changed("two_boxes_22.msh", "\n1 0 0 0\n", "\n1 0 nan 0\n")),
+              HasSubstr("is not a coordinate"));
   EXPECT_THAT(read(changed("two_boxes_22.msh", "\n3 1 \"plate\"", "\n9 1 \"plate\"")),
               HasSubstr(":8: error: \"9\" is not a dimension: 0 to 3"));
 }
@@ -255,7 +256,8 @@ lower box, 7
 
 TEST_F(Gmsh, AbaqusWithoutElementSetsIsOneGroup) {
   const std::string all = abaqus_text;
-  std::ofstream(folder_ / "mesh.inp") << all.substr(0, all.find("*Element")) << "*Element, type=C3D8\n1, 1,2,3,4,5,6,7,8\n";
+  std::ofstream(folder_ / "mesh.inp")
+      << all.substr(0, all.find("*Element")) << "*Element, type=C3D8\n1, 1,2,3,4,5,6,7,8\n";
   const fem::MeshFile file = fem::MeshFile::read(folder_ / "mesh.inp", 1e-3);
   EXPECT_NEAR(fem::volume(file.hexahedra("all")), 1e-9, 1e-22);
   EXPECT_THAT(file.group_names(3), ::testing::ElementsAre("all"));
@@ -281,19 +283,26 @@ TEST_F(Gmsh, AbaqusHasElementSets) {
   const auto fault = [&](const std::string& from, const std::string& to) {
     return message_of<InputError>([&] { static_cast<void>(read(from, to).hexahedra("both")); });
   };
-  EXPECT_THAT(fault("2, 1., 0., 0.", "2 1. 0. 0."), HasSubstr("numbers stand between commas")) << "as those of LS-DYNA";
-  EXPECT_THAT(fault("2, 1., 0., 0.", "2, 1., x, 0."), HasSubstr("mesh.inp:6: error: \"x\" is not a coordinate"));
+  EXPECT_THAT(fault("2, 1., 0., 0.", "2 1. 0. 0."), HasSubstr("numbers stand between commas"))
+      << "as those of LS-DYNA";
+  EXPECT_THAT(fault("2, 1., 0., 0.", "2, 1., x, 0."),
+              HasSubstr("mesh.inp:6: error: \"x\" is not a coordinate"));
   EXPECT_THAT(fault("2, 1., 0., 0.", "1, 1., 0., 0."), HasSubstr("node 1 is defined twice"));
-  EXPECT_THAT(fault("   7, 8\n", "   7, 13\n"), HasSubstr("mesh.inp:20: error: element 1: node 13 is not defined"));
+  EXPECT_THAT(fault("   7, 8\n", "   7, 13\n"),
+              HasSubstr("mesh.inp:20: error: element 1: node 13 is not defined"));
   EXPECT_THAT(fault("   7, 8\n", "   7, 8, 9\n"), HasSubstr("element 1 has 9 nodes instead of 8"));
   EXPECT_THAT(fault("   7, 8\n", ""), HasSubstr("element 1 has 6 nodes instead of 8"));
-  EXPECT_THAT(fault("type=C3D8R, elset", "type=CPE4, elset"), HasSubstr("of the type \"CPE4\" are not known"));
-  EXPECT_THAT(fault("C3D8R\n7, 5, 6, 7, 8, 9, 10, 11, 12", "C3D6\n7, 5, 6, 7, 9, 10, 11"), HasSubstr("one of the 6-node prisms"));
+  EXPECT_THAT(fault("type=C3D8R, elset", "type=CPE4, elset"),
+              HasSubstr("of the type \"CPE4\" are not known"));
+  EXPECT_THAT(fault("C3D8R\n7, 5, 6, 7, 8, 9, 10, 11, 12", "C3D6\n7, 5, 6, 7, 9, 10, 11"),
+              HasSubstr("one of the 6-node prisms"));
   EXPECT_THAT(fault("7, 7, 1", "7, 700000000000, 1"), HasSubstr("is not one of elements"));
   EXPECT_THAT(fault("lower box, 7", "lower boxes, 7"), HasSubstr("is not defined before this line"));
   EXPECT_THAT(fault("*Heading", "*Instance, name=a"), HasSubstr("parts and assemblies"));
-  EXPECT_THAT(fault("elset=\"Lower Box\"", "elset=lower"), HasSubstr("element set \"lower box\" is not defined"));
-  EXPECT_THAT(fault("1, 1, 2, 3, 4, 5, 6,", "1, 4, 3, 2, 1, 8, 7,\n 6, 5\n2, 1, 2, 3, 4, 5, 6,"), HasSubstr("is inverted"));
+  EXPECT_THAT(fault("elset=\"Lower Box\"", "elset=lower"),
+              HasSubstr("element set \"lower box\" is not defined"));
+  EXPECT_THAT(fault("1, 1, 2, 3, 4, 5, 6,", "1, 4, 3, 2, 1, 8, 7,\n 6, 5\n2, 1, 2, 3, 4, 5, 6,"),
+              HasSubstr("is inverted"));
 }
 
 }  // namespace

@@ -70,20 +70,25 @@ TEST_F(Vtk, WithoutArraysOfIntegersAllCellsAreOneGroup) {
 }
 
 TEST_F(Vtk, VoxelsAreHexahedraWithAnotherOrder) {
-  std::ofstream(folder_ / "voxel.vtk") << "# vtk DataFile Version 3.0\nvoxel\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 float\n"
-      "0 0 0 1 0 0 0 1 0 1 1 0 0 0 1 1 0 1 0 1 1 1 1 1\nCELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 1\n11\n";
+  std::ofstream(folder_ / "voxel.vtk")
+      << "# vtk DataFile Version 3.0\nvoxel\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 float\n"
+         "0 0 0 1 0 0 0 1 0 1 1 0 0 0 1 1 0 1 0 1 1 1 1 1\nCELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 1\n11\n";
   EXPECT_NEAR(fem::volume(fem::MeshFile::read(folder_ / "voxel.vtk").hexahedra("all")), 1.0, 1e-12);
 }
 
 TEST_F(Vtk, DamageIsNamed) {
   EXPECT_EQ(fault("boxes_ascii.vtu", "Name=\"pressure\"", "Name=\"other\""), "");
   EXPECT_THAT(fault("boxes_ascii.vtu", "<Cells>", "<Cells"), HasSubstr("changed.vtu:"));
-  EXPECT_THAT(fault("boxes_ascii.vtu", "type=\"UnstructuredGrid\"", "type=\"PolyData\""), HasSubstr("holds \"PolyData\", expected an UnstructuredGrid"));
+  EXPECT_THAT(fault("boxes_ascii.vtu", "type=\"UnstructuredGrid\"", "type=\"PolyData\""),
+              HasSubstr("holds \"PolyData\", expected an UnstructuredGrid"));
   EXPECT_THAT(fault("boxes_ascii.vtu", "LittleEndian", "BigEndian"), HasSubstr("is big endian"));
-  EXPECT_THAT(fault("boxes_zlib.vtu", "vtkZLibDataCompressor", "vtkLZ4DataCompressor"), HasSubstr("only vtkZLibDataCompressor"));
+  EXPECT_THAT(fault("boxes_zlib.vtu", "vtkZLibDataCompressor", "vtkLZ4DataCompressor"),
+              HasSubstr("only vtkZLibDataCompressor"));
   EXPECT_THAT(fault("boxes_ascii.vtu", "0 1 5 4 8", "0 1 5 4 99"), HasSubstr("cell 0: there is no point 99"));
-  EXPECT_THAT(fault("boxes_ascii.vtu", "12 12 12 3", "12 12 42 3"), HasSubstr("cells of the type 42 of VTK are not known here"));
-  EXPECT_THAT(fault("boxes_ascii.vtu", "12 12 12 3", "12 12 10 3"), HasSubstr("cell 2: has 8 points instead of 4"));
+  EXPECT_THAT(fault("boxes_ascii.vtu", "12 12 12 3", "12 12 42 3"),
+              HasSubstr("cells of the type 42 of VTK are not known here"));
+  EXPECT_THAT(fault("boxes_ascii.vtu", "12 12 12 3", "12 12 10 3"),
+              HasSubstr("cell 2: has 8 points instead of 4"));
   EXPECT_THAT(fault("boxes_ascii.vtu", "0 0 1 2", "0 0 1"), HasSubstr("\"body\" has 3 values for 4 cells"));
   EXPECT_THAT(fault("boxes_base64.vtu", "EAAAAAAA", "EAAAAAA"), HasSubstr("changed.vtu: error:"));
   EXPECT_THAT(fault("boxes_raw.vtu", "</AppendedData>", ""), ::testing::AnyOf("", HasSubstr("error")));
@@ -95,7 +100,8 @@ TEST_F(Vtk, DamageIsNamed) {
 
 /// Every file of every encoding that ends early, or has a changed byte, is read or refused.
 TEST_F(Vtk, DamagedFilesAreReadOrRefused) {
-  for (const char* name : {"boxes_ascii.vtu", "boxes_base64.vtu", "boxes_raw.vtu", "boxes_raw_zlib.vtu", "boxes_51.vtk"}) {
+  for (const char* name :
+       {"boxes_ascii.vtu", "boxes_base64.vtu", "boxes_raw.vtu", "boxes_raw_zlib.vtu", "boxes_51.vtk"}) {
     const std::string whole = text_of(name);
     for (std::size_t k = 0; k < whole.size(); k += 7) {
       for (const bool cut : {true, false}) {

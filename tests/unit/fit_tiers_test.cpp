@@ -20,8 +20,8 @@ namespace {
 
 using ::testing::Contains;
 using ::testing::HasSubstr;
-using ::testing::Not;
 using testing::Noise;
+using ::testing::Not;
 using testing::SyntheticStore;
 using testing::true_constants;
 
@@ -30,7 +30,8 @@ class FitTiers : public ::testing::Test {
  protected:
   void SetUp() override {
     std::ofstream(folder.path() / "template.toml")
-        << "name = \"t\"\nsource = \"t\"\n[eos]\nmodel = \"gray\"\n[strength]\nmodel = \"von_mises\"\nsource = "
+        << "name = \"t\"\nsource = \"t\"\n[eos]\nmodel = \"gray\"\n[strength]\nmodel = \"von_mises\"\nsource "
+           "= "
            "\"t\"\nshear_modulus = \"48 GPa\"\nyield_stress = \"0.1 GPa\"\n";
     eos::GrayConstants other = true_constants();
     other.hugoniot_intercept = 3700.0;
@@ -61,7 +62,8 @@ class FitTiers : public ::testing::Test {
       mean += sample.value(name) / count;
       squares += std::pow(sample.value(name) - first.value(name), 2) / count;
     }
-    EXPECT_NEAR(mean, first.value(name), 0.25 * std::sqrt(squares) + 1e-12 * std::abs(first.value(name))) << name;
+    EXPECT_NEAR(mean, first.value(name), 0.25 * std::sqrt(squares) + 1e-12 * std::abs(first.value(name)))
+        << name;
     return std::sqrt(squares);
   }
 
@@ -106,7 +108,8 @@ TEST_F(FitTiers, MaterialFilesHoldTheTiers) {
   EXPECT_EQ(noise.names, first.fitted_names);
   // The same draw as that of the fit itself, from the digits of the file.
   const FitSamples own = sample_fit(first, 3, 1, ErrorTier::noise);
-  EXPECT_NEAR(noise.materials[1].eos->reference_density() * own.fits[1].value("reference_specific_volume"), 1.0, 1e-7);
+  EXPECT_NEAR(noise.materials[1].eos->reference_density() * own.fits[1].value("reference_specific_volume"),
+              1.0, 1e-7);
   EXPECT_THROW(sample_material(file(false), 3, 1, ErrorTier::all), InputError);
   EXPECT_THROW(sample_fit(first, 3, 1, ErrorTier::potentials), InputError);
   try {
@@ -137,8 +140,10 @@ TEST_F(FitTiers, FirstTableNamesTheSources) {
   EXPECT_THAT(table, ::testing::ContainsRegex("constant +value +error +source\n"));
   EXPECT_THAT(table, ::testing::ContainsRegex("hugoniot_intercept +3\\.[0-9]+ km/s +[0-9.]+ km/s +MD\n"));
   EXPECT_THAT(table, ::testing::ContainsRegex("melting_temperature +1790 K +38 K +default\n"));
-  EXPECT_THAT(table, ::testing::ContainsRegex("melting_entropy +9\\.637 J/\\(mol K\\) +no error known +default\n"));
-  EXPECT_THAT(table, ::testing::ContainsRegex("electronic_heat_coefficient +0\\.69 mJ.* measured \\(default\\)\n"));
+  EXPECT_THAT(table,
+              ::testing::ContainsRegex("melting_entropy +9\\.637 J/\\(mol K\\) +no error known +default\n"));
+  EXPECT_THAT(table,
+              ::testing::ContainsRegex("electronic_heat_coefficient +0\\.69 mJ.* measured \\(default\\)\n"));
   EXPECT_THAT(table, ::testing::ContainsRegex("molar_mass +[0-9.]+ g/mol +- +given\n"));
   EXPECT_TRUE(text(false).starts_with("# constant"));
   SyntheticStore store(true_constants(), Noise{}, 11);

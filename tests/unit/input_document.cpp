@@ -35,8 +35,7 @@ struct Domain {
 ParameterTable<Domain> domain_table() {
   return {real("cell_size", &Domain::cell_size, "m", range::positive(), "edge of a cell"),
           vector("lower", &Domain::lower, "m", range::any(), "lower corner"),
-          choice("boundary", &Domain::boundary, "what happens at the rim")
-              .optional(),
+          choice("boundary", &Domain::boundary, "what happens at the rim").optional(),
           integer("layers", &Domain::layers, range::between(1, 8), "layers of ghosts").optional()};
 }
 
@@ -313,7 +312,8 @@ TEST(Document, FaultsOfACheckStandAtTheirKeys) {
     ADD_FAILURE() << "no fault was reported";
   } catch (const InputError& error) {
     ASSERT_EQ(error.faults().size(), 4U);
-    EXPECT_EQ(error.faults()[0].text, "no gauges");  // of a table that is not there: at the one that would hold it
+    EXPECT_EQ(error.faults()[0].text,
+              "no gauges");  // of a table that is not there: at the one that would hold it
     EXPECT_EQ(error.faults()[1].key, "domain.cell_size");
     EXPECT_EQ(error.faults()[2].key, "body.0.velocity.1");
     EXPECT_EQ(error.faults()[2].line, 4U);
@@ -368,7 +368,8 @@ TEST(Document, NumbersOfFilesNeedTheirUnits) {
   EXPECT_THAT(read_file("[domain]\ncell_size = \"1\"" + rest, nullptr), HasSubstr("is 1 without a unit"));
   EXPECT_THAT(read_file("[domain]\ncell_size = \"1 mm\"\nlower = [0, 0, -1e-3]\n", nullptr),
               HasSubstr("'lower' is -0.001 without a unit"));
-  EXPECT_THAT(read_file("[domain]\ncell_size = \"1 mm\"" + rest, "2"), HasSubstr("(--set): error: 'cell_size' is 2"));
+  EXPECT_THAT(read_file("[domain]\ncell_size = \"1 mm\"" + rest, "2"),
+              HasSubstr("(--set): error: 'cell_size' is 2"));
   EXPECT_EQ(read_file("[domain]\ncell_size = \"1 mm\"" + rest, "2 mm"), "");
   std::filesystem::remove(path);
 }

@@ -146,7 +146,8 @@ TEST_F(CheckpointFile, names_missing_and_unknown_fields_and_other_units) {
 /// A seal is no proof: whoever can write a file can seal it.
 TEST_F(CheckpointFile, of_more_points_than_it_holds_is_refused) {
   const fs::path path = write_checkpoint(folder_, 1, random_bits(40, 2), some_values(), MPI_COMM_SELF);
-  for (const std::int64_t count : {std::int64_t{-1}, std::int64_t{39}, std::int64_t{1'000'000'000'000'000'000}}) {
+  for (const std::int64_t count :
+       {std::int64_t{-1}, std::int64_t{39}, std::int64_t{1'000'000'000'000'000'000}}) {
     hdf5::File file = hdf5::File::open(path, hdf5::File::Access::modify);
     {
       const hdf5::Group particles = file.root.open_group("particles");

@@ -280,11 +280,10 @@ TEST_F(Series, refuses_a_foreign_index) {
 }
 
 TEST_F(Series, unknown_fields_are_answered_with_the_nearest_name) {
-  EXPECT_THAT(message_of<InputError>([&] {
-                ParticleSeries(options({"temprature", "pressure"}), MPI_COMM_SELF);
-              }),
-              AllOf(HasSubstr("unknown output field \"temprature\", did you mean \"temperature\"?"),
-                    HasSubstr("known: velocity, mass")));
+  EXPECT_THAT(
+      message_of<InputError>([&] { ParticleSeries(options({"temprature", "pressure"}), MPI_COMM_SELF); }),
+      AllOf(HasSubstr("unknown output field \"temprature\", did you mean \"temperature\"?"),
+            HasSubstr("known: velocity, mass")));
 }
 
 TEST_F(Series, an_unwritable_folder_is_the_users_matter) {

@@ -58,8 +58,8 @@ TEST_F(RunDirectoryTest, force_removes_its_own_outputs_and_nothing_else) {
                        "control/1700.toml",
                        "control/1700.toml.taken"};
   const char* others[] = {
-      "notes.md",         "case.toml",       "particles.hdf",          "disk.particles.7.hdf",
-      "run.toml.backup",  "history.csv.old", "checkpoint/keep.h5",     "checkpoint/checkpoint.1.h5",
+      "notes.md",         "case.toml",       "particles.hdf",           "disk.particles.7.hdf",
+      "run.toml.backup",  "history.csv.old", "checkpoint/keep.h5",      "checkpoint/checkpoint.1.h5",
       "my.particles.txt", "report.html",     "disk.particles.000007.h", "control/notes.txt"};
   fs::create_directories(folder_ / "checkpoint");
   fs::create_directories(folder_ / "failed");

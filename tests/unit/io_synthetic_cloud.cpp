@@ -14,12 +14,12 @@
 #include <vector>
 
 #include "src/core/base/error.hpp"
+#include "src/core/parallel/mpi.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/history.hpp"
 #include "src/io/particle_series.hpp"
 #include "src/io/ranks.hpp"
 #include "src/io/run_directory.hpp"
-#include "src/core/parallel/mpi.hpp"
 
 namespace {
 

@@ -174,9 +174,10 @@ TEST_F(MaterialFile, EnvironmentAddsALibraryThatHidesTheOwnOne) {
 }
 
 TEST_F(MaterialFile, MissingFilesNameTheFoldersSearchedAndTheNearestMaterial) {
-  EXPECT_THAT(message("coper.toml", folder_),
-              AllOf(HasSubstr("no material file 'coper.toml', did you mean \"copper\"?"),
-                    HasSubstr(folder_.string()), HasSubstr("eos/materials"), HasSubstr("'whipple materials' lists")));
+  EXPECT_THAT(
+      message("coper.toml", folder_),
+      AllOf(HasSubstr("no material file 'coper.toml', did you mean \"copper\"?"), HasSubstr(folder_.string()),
+            HasSubstr("eos/materials"), HasSubstr("'whipple materials' lists")));
   EXPECT_THAT(message("no/such.toml", folder_), HasSubstr((folder_ / "no/such.toml").string()));
 }
 
@@ -305,7 +306,8 @@ TEST(Material, WithAnotherEquationOfStateIsTheSameInAllElse) {
   for (const char* name : {"copper", "concrete_35mpa_rht", "tungsten_nickel_iron", "lead_mie_gruneisen"}) {
     Material material = read_material(std::string(name));
     material.conductivity = 123.0;
-    if (material.strength->brittle() == nullptr && material.void_growth == nullptr) set_taylor_quinney(material, 0.9);
+    if (material.strength->brittle() == nullptr && material.void_growth == nullptr)
+      set_taylor_quinney(material, 0.9);
     const Material other = with_eos(material, read_material("aluminium_mie_gruneisen").eos);
     EXPECT_EQ(other.eos->model(), "mie_gruneisen") << name;
     EXPECT_NE(other.reference.density, material.reference.density) << name;

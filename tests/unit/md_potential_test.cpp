@@ -160,8 +160,9 @@ TEST(Potential, ReportsDamagedFiles) {
     const std::string fault = write("brace.eam.alloy", head + sizes + "\n");
     EXPECT_NE(fault.find(":5: error: the potential file holds braces"), std::string::npos) << fault;
   }
-  EXPECT_NE(write("brace.eam", "a\n29 63.55 3.615 {fcc}\n").find(":2: error: the potential file holds braces"),
-            std::string::npos);
+  EXPECT_NE(
+      write("brace.eam", "a\n29 63.55 3.615 {fcc}\n").find(":2: error: the potential file holds braces"),
+      std::string::npos);
   EXPECT_NE(write("glued.eam.alloy", head + "10 0.1 10 0.1 5.5x\n").find("table sizes"), std::string::npos);
   EXPECT_NE(write("empty.eam", "").find("ends too early"), std::string::npos);
   EXPECT_NE(write("potential.meam", "x").find("unknown ending"), std::string::npos);

@@ -47,7 +47,8 @@ TEST(GrowingTable, DrawsFewRowsAndEveryPeak) {
   const std::filesystem::path file = folder.path() / "history.csv";
   std::ofstream out(file);
   out << "step,y\n";
-  for (int i = 0; i < 5000; ++i) out << i << ',' << (i == 1234 ? 9.0 : i == 4321 ? -9.0 : std::sin(i)) << '\n';
+  for (int i = 0; i < 5000; ++i)
+    out << i << ',' << (i == 1234 ? 9.0 : i == 4321 ? -9.0 : std::sin(i)) << '\n';
   out.close();
   GrowingTable table(file);
   table.look();
@@ -63,31 +64,41 @@ TEST(GrowingTable, DrawsFewRowsAndEveryPeak) {
 /// Whatever a question contains, it is answered, and nobody without the key is told anything of a run.
 TEST(Desk, AnswersTenThousandDamagedQuestions) {
   const TemporaryFolder folder;
-  Desk desk(Folder(folder.path()), {.host = "127.0.0.1:1", .token = std::string(32, 'a')}, folder.path(), folder.path(),
-            folder.path(), [](const std::vector<std::string>&) { FAIL() << "nothing may be started"; });
-  const std::vector<std::string> targets = {"/", "/runs", "/run?run=.", "/curves?run=a&table=history&x=a&y=b&points=3",
-                                            "/cloud?run=a&index=1&particles=9", "/steer", "/start", "/resume", "/../x.js"};
-  const std::vector<std::string> bodies = {"", "{}", R"({"run": "a", "request": "pause", "value": ""})", "[[[[", "null",
-                                           R"({"case": "a", "run": "b", "set": [1]})"};
+  Desk desk(Folder(folder.path()), {.host = "127.0.0.1:1", .token = std::string(32, 'a')}, folder.path(),
+            folder.path(), folder.path(),
+            [](const std::vector<std::string>&) { FAIL() << "nothing may be started"; });
+  const std::vector<std::string> targets = {"/",
+                                            "/runs",
+                                            "/run?run=.",
+                                            "/curves?run=a&table=history&x=a&y=b&points=3",
+                                            "/cloud?run=a&index=1&particles=9",
+                                            "/steer",
+                                            "/start",
+                                            "/resume",
+                                            "/../x.js"};
+  const std::vector<std::string> bodies = {"",     "{}",   R"({"run": "a", "request": "pause", "value": ""})",
+                                           "[[[[", "null", R"({"case": "a", "run": "b", "set": [1]})"};
   std::uint64_t state = 1;
   const auto random = [&state](std::size_t below) {
     state = state * 6364136223846793005U + 1442695040888963407U;
     return static_cast<std::size_t>(state >> 33U) % below;
   };
   const auto damaged = [&](std::string text) {
-    for (std::size_t i = random(4); i > 0 && !text.empty(); --i) text[random(text.size())] = static_cast<char>(random(256));
+    for (std::size_t i = random(4); i > 0 && !text.empty(); --i)
+      text[random(text.size())] = static_cast<char>(random(256));
     return text;
   };
   for (int n = 0; n < 10000; ++n) {
     const bool has_key = random(2) == 0;
-    const Answer answer = desk.answer({.changes = random(2) == 0,
-                                       .target = damaged(targets[random(targets.size())]),
-                                       .host = "127.0.0.1:1",
-                                       .origin = {},
-                                       .site = {},
-                                       .token = has_key ? std::string(32, 'a') : damaged(std::string(31, 'a')),
-                                       .content_type = "application/json",
-                                       .body = damaged(bodies[random(bodies.size())])});
+    const Answer answer =
+        desk.answer({.changes = random(2) == 0,
+                     .target = damaged(targets[random(targets.size())]),
+                     .host = "127.0.0.1:1",
+                     .origin = {},
+                     .site = {},
+                     .token = has_key ? std::string(32, 'a') : damaged(std::string(31, 'a')),
+                     .content_type = "application/json",
+                     .body = damaged(bodies[random(bodies.size())])});
     EXPECT_TRUE(answer.status == 200 || (answer.status >= 400 && answer.status < 500)) << answer.status;
     EXPECT_TRUE(has_key || answer.status == 401) << answer.status;
   }

@@ -99,11 +99,13 @@ TEST(RunProcess, ASupervisorEndsByASignalOfItsOwnInAProcessGroupOfItsOwn) {
 TEST(RunProcess, ASupervisorThatDoesNotNoticeTheEndOfItsChildIsKilled) {
   // exec: the sleeping program inherits a child of the shell that it knows nothing of.
   const auto begin = std::chrono::steady_clock::now();
-  EXPECT_EQ(run_process({"sh", "-c", "sleep 0.1 & exec sleep 20"}, {}, {.may_be_killed = true, .patience = 0.5}),
-            128 + SIGKILL);
+  EXPECT_EQ(
+      run_process({"sh", "-c", "sleep 0.1 & exec sleep 20"}, {}, {.may_be_killed = true, .patience = 0.5}),
+      128 + SIGKILL);
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
   // One that waits for its children is left alone.
-  EXPECT_EQ(run_process({"sh", "-c", "sleep 0.8 & wait; exit 3"}, {}, {.may_be_killed = true, .patience = 0.5}), 3);
+  EXPECT_EQ(
+      run_process({"sh", "-c", "sleep 0.8 & wait; exit 3"}, {}, {.may_be_killed = true, .patience = 0.5}), 3);
 }
 
 TEST(Mpirun, FarMoreRanksThanProcessorsAreRefused) {

@@ -12,9 +12,9 @@
 #include <thread>
 
 #include "src/core/base/error.hpp"
-#include "src/grid/block_grid.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/parallel/threads.hpp"
+#include "src/grid/block_grid.hpp"
 
 namespace whipple::grid {
 namespace {

@@ -102,8 +102,8 @@ TEST(PackedCloud, PositionsAndFieldsComeBackWithinHalfAStep) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double lower = cloud.header.at("lower")[axis], upper = cloud.header.at("upper")[axis];
       const double step = (upper - lower) / 65535.0;
-      EXPECT_NEAR(lower + step * cloud.position[axis][i], snapshot.position[i][static_cast<Eigen::Index>(axis)],
-                  0.5001 * step + 1e-17);
+      EXPECT_NEAR(lower + step * cloud.position[axis][i],
+                  snapshot.position[i][static_cast<Eigen::Index>(axis)], 0.5001 * step + 1e-17);
     }
     id += cloud.planes.at("id")[i];
     EXPECT_EQ(id, snapshot.id[i]);
@@ -118,7 +118,8 @@ TEST(PackedCloud, PositionsAndFieldsComeBackWithinHalfAStep) {
 TEST(PackedCloud, EveryFieldHasTheUnitAndMeaningOfTheOutputFields) {
   analysis::Snapshot snapshot = cloud_of(5);
   for (const io::OutputField& field : io::output_fields()) {
-    if (std::holds_alternative<double (*)(const io::FieldSource&, std::size_t)>(field.value) && field.name != "mass")
+    if (std::holds_alternative<double (*)(const io::FieldSource&, std::size_t)>(field.value) &&
+        field.name != "mass")
       snapshot.scalars[std::string(field.name)].assign(5, 1.0);
   }
   const Unpacked cloud(pack_cloud(run_of_two_bodies(), snapshot, {}));
@@ -135,7 +136,8 @@ TEST(PackedCloud, EveryFieldHasTheUnitAndMeaningOfTheOutputFields) {
 
 TEST(PackedCloud, ACloudOfFourFieldsTakes18BytesAParticle) {
   const std::size_t n = 40'000;
-  const std::string bytes = pack_cloud(run_of_two_bodies(), cloud_of(n), {{"speed", "pressure", "phase", "mass"}});
+  const std::string bytes =
+      pack_cloud(run_of_two_bodies(), cloud_of(n), {{"speed", "pressure", "phase", "mass"}});
   // 3 x 2 position, 4 number, 1 body, 1 phase, 3 x 2 fields; the header beside.
   EXPECT_NEAR(static_cast<double>(bytes.size()), 18.0 * n, 2000.0);
 }
@@ -226,15 +228,18 @@ TEST_F(ViewerModules, AreJoinedEachOnceAfterWhatTheyNeed) {
 
 TEST_F(ViewerModules, OtherImportsAndMissingFilesAreNamed) {
   write("main.js", "import three from 'three';\n");
-  EXPECT_NE(message_of<InputError>([&] { joined_modules(folder_ / "main.js"); }).find("main.js: error: imports"),
-            std::string::npos);
+  EXPECT_NE(
+      message_of<InputError>([&] { joined_modules(folder_ / "main.js"); }).find("main.js: error: imports"),
+      std::string::npos);
   write("main.js", "import { b } from './b.js';\n");
-  EXPECT_NE(message_of<InputError>([&] { joined_modules(folder_ / "main.js"); }).find("b.js"), std::string::npos);
+  EXPECT_NE(message_of<InputError>([&] { joined_modules(folder_ / "main.js"); }).find("b.js"),
+            std::string::npos);
 }
 
 TEST(ViewerPage, OfARunWithoutSnapshotsIsRefused) {
-  EXPECT_NE(message_of<InputError>([] { make_page(run_of_two_bodies(), {}, "nowhere"); }).find("has no snapshots"),
-            std::string::npos);
+  EXPECT_NE(
+      message_of<InputError>([] { make_page(run_of_two_bodies(), {}, "nowhere"); }).find("has no snapshots"),
+      std::string::npos);
 }
 
 }  // namespace

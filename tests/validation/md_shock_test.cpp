@@ -78,8 +78,8 @@ TEST(Spall, LiesBelowTheStrengthOfTheStaticCrystal) {
   std::string transcript;
   for (double ratio = 1.2; ratio < 1.7; ratio += 0.02) {
     const double volume = ratio * universal().static_volume();
-    static_strength =
-        std::fmax(static_strength, -measure_cold(universal(), CrystalStructure::fcc, volume, transcript).pressure);
+    static_strength = std::fmax(
+        static_strength, -measure_cold(universal(), CrystalStructure::fcc, volume, transcript).pressure);
   }
   SpallPlan section;
   section.strain_rate = 5e10;

@@ -48,10 +48,9 @@ TEST(Elastic, BulkModulusIsTheSlopeOfTheColdCurveAtAnyPressure) {
   for (const double ratio : {1.05, 0.8}) {
     const ElasticResult result = measure_elastic(mishin(), ratio * mishin().static_volume(), 0.002, 5);
     const double step = 1e-4;
-    const double slope =
-        -(cold(CrystalStructure::fcc, ratio * (1 + step)).pressure -
-          cold(CrystalStructure::fcc, ratio * (1 - step)).pressure) /
-        (2 * step);
+    const double slope = -(cold(CrystalStructure::fcc, ratio * (1 + step)).pressure -
+                           cold(CrystalStructure::fcc, ratio * (1 - step)).pressure) /
+                         (2 * step);
     EXPECT_NEAR(result.bulk_modulus.value / slope, 1.0, 2e-3) << ratio;
     EXPECT_NEAR(result.pressure / cold(CrystalStructure::fcc, ratio).pressure, 1.0, 1e-9);
   }
@@ -73,7 +72,8 @@ TEST(ColdCurve, PressureIsTheDerivativeOfTheEnergy) {
       const double derivative = -(cold(structure, ratio + step).specific_internal_energy -
                                   cold(structure, ratio - step).specific_internal_energy) /
                                 (2 * step * volume);
-      EXPECT_NEAR(cold(structure, ratio).pressure / derivative, 1.0, 1e-3) << word_of(structure) << " " << ratio;
+      EXPECT_NEAR(cold(structure, ratio).pressure / derivative, 1.0, 1e-3)
+          << word_of(structure) << " " << ratio;
     }
   }
   const double a = std::cbrt(0.7) * mishin().lattice_constant();

@@ -43,13 +43,15 @@ DetonationField square(double cell, std::function<double(const Vector3&)> veloci
 
 // Kenamond's problem 1: straight lines from several detonators, whose delays count.
 TEST(LightingTimes, AreExactInSight) {
-  const Arrival arrival(square(0.5, [](const Vector3&) { return 2.0; }), std::vector{point(0, 5), point(0, -5, 1.0)});
+  const Arrival arrival(square(0.5, [](const Vector3&) { return 2.0; }),
+                        std::vector{point(0, 5), point(0, -5, 1.0)});
   for (const auto& [x, y] : {std::pair(0.0, 9.9), {7.3, -9.1}, {-2.0, -4.0}, {0.01, 0.01}}) {
     const double exact = std::min(std::hypot(x, y - 5) / 2, 1.0 + std::hypot(x, y + 5) / 2);
     EXPECT_NEAR(arrival.at(Vector3(x, y, 0), 2.0), exact, 1e-12) << x << " " << y;
   }
   // A detonator that another front passes before its delay ends is dead.
-  const Arrival late(square(0.5, [](const Vector3&) { return 2.0; }), std::vector{point(0, 5), point(0, 4, 3.0)});
+  const Arrival late(square(0.5, [](const Vector3&) { return 2.0; }),
+                     std::vector{point(0, 5), point(0, 4, 3.0)});
   EXPECT_NEAR(late.at(Vector3(0, -5, 0), 2.0), 5.0, 1e-12);
 }
 
@@ -59,14 +61,16 @@ TEST(LightingTimes, OfEveryDetonator) {
   const Detonation line{.shape = DetonatorShape::line, .position = Vector3(0, 0, 0), .end = Vector3(4, 0, 0)};
   EXPECT_DOUBLE_EQ(at(line, 3, 1), 0.5);
   EXPECT_DOUBLE_EQ(at(line, 7, 4), 2.5);
-  const Detonation plane{.shape = DetonatorShape::plane, .position = Vector3(0, 1, 0), .normal = Vector3(0, 3, 0)};
+  const Detonation plane{
+      .shape = DetonatorShape::plane, .position = Vector3(0, 1, 0), .normal = Vector3(0, 3, 0)};
   EXPECT_DOUBLE_EQ(at(plane, 9, 3), 1.0);
   EXPECT_DOUBLE_EQ(at(plane, 9, -1), 1.0);
   const Detonation sphere{.shape = DetonatorShape::sphere, .radius = 1.0};
   EXPECT_DOUBLE_EQ(at(sphere, 3, 4), 2.0);
   EXPECT_DOUBLE_EQ(at(sphere, 0.5, 0), 0.0);
   // A cord of 4 m/s: sin 30 deg = D/4, the front leaves it at 60 deg to the cord.
-  const Detonation cord{.shape = DetonatorShape::cord, .end = Vector3(10, 0, 0), .velocity = 4.0, .delay = 1.0};
+  const Detonation cord{
+      .shape = DetonatorShape::cord, .end = Vector3(10, 0, 0), .velocity = 4.0, .delay = 1.0};
   EXPECT_DOUBLE_EQ(at(cord, 8, 0), 3.0);
   EXPECT_NEAR(at(cord, 8, 1), 1.0 + 2.0 + std::cos(std::numbers::pi / 6) / D, 1e-12);
   EXPECT_DOUBLE_EQ(at(cord, -2, 0), 2.0);
@@ -119,13 +123,21 @@ TEST(LightingTimes, GoRoundAnInertCircle) {
 // Kenamond's problem 2: a fast circle of radius 3 in a slow explosive, five detonators with delays on the axis.
 TEST(LightingTimes, OfTwoExplosives) {
   const auto arrivals = [](double cell) {
-    const Arrival arrival(square(cell, [](const Vector3& x) { return x.norm() <= 3.0 ? 2.0 : 1.0; }),
-                          std::vector{point(0, 10, 2), point(0, 5, 1), point(0, 0), point(0, -5, 1), point(0, -10, 2)});
+    const Arrival arrival(
+        square(cell, [](const Vector3& x) { return x.norm() <= 3.0 ? 2.0 : 1.0; }),
+        std::vector{point(0, 10, 2), point(0, 5, 1), point(0, 0), point(0, -5, 1), point(0, -10, 2)});
     double largest = 0.0;
-    for (const auto& [x, y, t] : {std::tuple(0.0, 1.0, 0.5), {0.0, 2.9, 1.45}, {6.0, 0.0, 4.5}, {0.0, 4.0, 2.0},
-                                  {0.0, 6.0, 2.0}, {0.0, 7.5, 3.5}, {0.0, 9.0, 3.0}, {5.0, 5.0, 5.571068},
+    for (const auto& [x, y, t] : {std::tuple(0.0, 1.0, 0.5),
+                                  {0.0, 2.9, 1.45},
+                                  {6.0, 0.0, 4.5},
+                                  {0.0, 4.0, 2.0},
+                                  {0.0, 6.0, 2.0},
+                                  {0.0, 7.5, 3.5},
+                                  {0.0, 9.0, 3.0},
+                                  {5.0, 5.0, 5.571068},
                                   {8.0, 8.0, 9.544004}}) {
-      largest = std::max(largest, std::abs(arrival.at(Vector3(x, y, 0), std::hypot(x, y) <= 3.0 ? 2.0 : 1.0) - t));
+      largest =
+          std::max(largest, std::abs(arrival.at(Vector3(x, y, 0), std::hypot(x, y) <= 3.0 ? 2.0 : 1.0) - t));
     }
     return largest;
   };
@@ -136,14 +148,15 @@ TEST(LightingTimes, OfTwoExplosives) {
 // A disc of radius 25 in a cylinder, 20 from the detonator, of no thickness but a cell; three dimensions.
 TEST(LightingTimes, GoRoundADisc) {
   constexpr double D = 7.98, cell = 1.0, a = 25.0, z1 = 20.0;
-  const Arrival arrival({Vector3(0, 0, 0), {41, 41, 61}, cell,
+  const Arrival arrival({Vector3(0, 0, 0),
+                         {41, 41, 61},
+                         cell,
                          [](const Vector3& x) {
-                           return std::hypot(x[0], x[1]) < a && x[2] > z1 && x[2] < z1 + 0.99 * cell ? 0.0 : D;
+                           return std::hypot(x[0], x[1]) < a && x[2] > z1 && x[2] < z1 + 0.99 * cell ? 0.0
+                                                                                                     : D;
                          }},
                         std::vector{Detonation{}});
-  const auto exact = [](double r, double z) {
-    return (std::hypot(a, z1) + std::hypot(r - a, z - z1)) / D;
-  };
+  const auto exact = [](double r, double z) { return (std::hypot(a, z1) + std::hypot(r - a, z - z1)) / D; };
   EXPECT_NEAR(arrival.at(Vector3(0, 0, 60), D), exact(0, 60), 1.5 * cell / D);
   constexpr double x = 20 / std::numbers::sqrt2;
   EXPECT_NEAR(arrival.at(Vector3(x, x, 60), D), exact(20, 60), 1.5 * cell / D);
@@ -167,7 +180,8 @@ class TaylorWave {
       pressure_.push_back(s.pressure);
       // The midpoint rule for du = -c dv/v and de = -p dv.
       const double v = 1.0 / s.density, dv = step * v;
-      const eos::State half = products.state(1.0 / (v + 0.5 * dv), s.specific_internal_energy - 0.5 * s.pressure * dv);
+      const eos::State half =
+          products.state(1.0 / (v + 0.5 * dv), s.specific_internal_energy - 0.5 * s.pressure * dv);
       u -= half.sound_speed * dv * half.density;
       s = products.state(1.0 / (v + dv), s.specific_internal_energy - half.pressure * dv);
     }
@@ -185,7 +199,7 @@ class TaylorWave {
 };
 
 struct Slab {
-  double error = 0.0;         // L1 of the pressure over 0.05 < x/(D t) < 0.95
+  double error = 0.0;          // L1 of the pressure over 0.05 < x/(D t) < 0.95
   double wall_pressure = 0.0;  // Pa, mean over 0.1 < x/(D t) < 0.4
   double velocity = 0.0;       // m/s, of the front
   double energy_error = 0.0;
@@ -195,7 +209,8 @@ Slab run_slab(const std::string& material, const TaylorWave& exact, double lengt
               const std::string& more = {}) {
   const double h = length / static_cast<double>(cells), D = exact.velocity();
   const double end = 0.9 * length / D;
-  solver::Simulation simulation(default_case(end, column(material, length, h, lit_at_wall), more), parallel::world());
+  solver::Simulation simulation(default_case(end, column(material, length, h, lit_at_wall), more),
+                                parallel::world());
   Slab slab;
   // When the pressure of each particle passes that of the wall.
   const std::vector<Vector3> start = exact::positions_by_id(simulation.particles());
@@ -303,7 +318,8 @@ TEST(PlanarDetonation, ProductsEscapeIntoVacuum) {
     const double x = q.position[p][0];
     double c = 0.5 * (x / t + 0.5 * D), u = 0.5 * (x / t - 0.5 * D);
     if (x < 0.5 * D * t) c = 0.5 * D, u = 0.0;
-    if (x > X - 0.5 * D * (t - T)) c = 0.5 * (x / t - (x - X) / (t - T)), u = 0.5 * (x / t + (x - X) / (t - T));
+    if (x > X - 0.5 * D * (t - T))
+      c = 0.5 * (x / t - (x - X) / (t - T)), u = 0.5 * (x / t + (x - X) / (t - T));
     const double exact = 16.0 / 9.0 * rho0 * std::max(c, 0.0) / D;
     density.add(q.mass[p] / q.volume[p] / exact, 1.0, q.mass[p]);
     velocity.add(q.velocity[p][0] / D, u / D, q.mass[p]);
@@ -317,9 +333,11 @@ TEST(PlanarDetonation, ProductsEscapeIntoVacuum) {
 // --- What burns when -----------------------------------------------------------------------------------------
 
 std::string plate_beside(double length, double h) {
-  return fmt::format("[[body]]\nname = \"plate\"\nmaterial = \"copper_ofhc_mie_gruneisen\"\nshape = {{ box = {{ lower = [{}, "
-                     "0], upper = [{}, {}] }} }}\n",
-                     length, length + 2 * h, h);
+  return fmt::format(
+      "[[body]]\nname = \"plate\"\nmaterial = \"copper_ofhc_mie_gruneisen\"\nshape = {{ box = {{ lower = "
+      "[{}, "
+      "0], upper = [{}, {}] }} }}\n",
+      length, length + 2 * h, h);
 }
 
 const std::vector<double>& burnt(const solver::Simulation& simulation) {
@@ -355,7 +373,8 @@ TEST(Burn, WakesMaterialAtRest) {
   const double length = 0.06, h = 5e-4, delay = 2e-6;
   const std::string second = fmt::format(
       "[[detonation]]\nshape = \"plane\"\nposition = [{}, 0]\nnormal = [1, 0]\ndelay = {}\n", length, delay);
-  const cases::Case setup = default_case(delay + 8 * h / 6929, column("tnt", length, h, lit_at_wall + second));
+  const cases::Case setup =
+      default_case(delay + 8 * h / 6929, column("tnt", length, h, lit_at_wall + second));
   solver::Simulation simulation(setup, parallel::world());
   bool rested = false;
   run_to(simulation, setup.time.end,
@@ -374,7 +393,8 @@ TEST(Burn, WakesMaterialAtRest) {
   }
   // Lighting and burn go on from where they were: to the last bit.
   const double later = setup.time.end + 1e-6;
-  solver::Simulation resumed(setup, Particles(*simulation.contents().particles), simulation.state(), parallel::world());
+  solver::Simulation resumed(setup, Particles(*simulation.contents().particles), simulation.state(),
+                             parallel::world());
   run_to(simulation, later);
   run_to(resumed, later);
   EXPECT_EQ(resumed.totals().kinetic_energy, simulation.totals().kinetic_energy);
@@ -384,7 +404,8 @@ TEST(Burn, WithoutDetonationAnExplosiveStaysWhatItIs) {
   const cases::Case setup = default_case(1e-6, column("tnt", 0.005, 5e-4) + "detonation = \"none\"\n");
   EXPECT_FALSE(setup.materials[0]->burns());
   EXPECT_NEAR(setup.materials[0]->reference.specific_internal_energy, 0.0, 5e3);
-  const cases::Case burnt_at_once = default_case(1e-6, column("tnt", 0.005, 5e-4) + "detonation = \"instantaneous\"\n");
+  const cases::Case burnt_at_once =
+      default_case(1e-6, column("tnt", 0.005, 5e-4) + "detonation = \"instantaneous\"\n");
   EXPECT_NEAR(burnt_at_once.materials[0]->reference.pressure, 8.38e9, 0.01e9);
 }
 
@@ -424,7 +445,8 @@ TEST(Burn, ProductsRetireBelowAPressureAndAreCounted) {
 
 TEST(Burn, SchemesWithoutAWorkIdentityBurn) {
   const TaylorWave exact(*read_material("tnt").eos);
-  const Slab slab = run_slab("tnt", exact, 0.05, 50, "scheme = \"usl\"\n[output]\nmaximum_energy_error = 1\n");
+  const Slab slab =
+      run_slab("tnt", exact, 0.05, 50, "scheme = \"usl\"\n[output]\nmaximum_energy_error = 1\n");
   EXPECT_LT(slab.error, 0.12);
 }
 
@@ -433,7 +455,8 @@ TEST(Burn, SchemesWithoutAWorkIdentityBurn) {
 TEST(ExplosiveCases, ProductsAreNotBondedToWhatTheyDrive) {
   const double length = 0.01, h = 5e-4;
   const auto fields = [&](const std::string& more) {
-    return default_case(1e-6, column("tnt", length, h, more + plate_beside(length, h))).contact_fields.of_body;
+    return default_case(1e-6, column("tnt", length, h, more + plate_beside(length, h)))
+        .contact_fields.of_body;
   };
   EXPECT_NE(fields(lit_at_wall)[0], fields(lit_at_wall)[1]);
 }
@@ -450,7 +473,8 @@ TEST(ExplosiveCases, SayWhatExplosivesAndDetonatorsLack) {
   refused("tnt", "detonation = \"later\"\n", "instantaneous");
   refused("tnt", "[[detonation]]\nshape = \"plane\"\nposition = [0, 0]\n", "a plane takes 'normal'");
   refused("tnt", "[[detonation]]\nposition = [0, 0]\nradius = 1e-3\n", "'radius' belongs to a sphere");
-  refused("tnt", "[[detonation]]\nshape = \"cord\"\nposition = [0, 0]\nend = [1, 0]\n", "a cord takes 'velocity'");
+  refused("tnt", "[[detonation]]\nshape = \"cord\"\nposition = [0, 0]\nend = [1, 0]\n",
+          "a cord takes 'velocity'");
   refused("tnt", "equation_of_state = \"table\"\n" + lit_at_wall, "takes no table");
 }
 

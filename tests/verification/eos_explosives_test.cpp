@@ -24,7 +24,7 @@ struct Inert {
   const char* name;
   double density, intercept, slope;
 };
-constexpr Inert inert_materials[] = {{"copper", 8930, 3940, 1.489}, {"aluminium 6061", 2703, 5350, 1.34},
+constexpr Inert inert_materials[] = {{"copper", 8930, 3940, 1.489},    {"aluminium 6061", 2703, 5350, 1.34},
                                      {"steel 4340", 7830, 4578, 1.33}, {"tantalum", 16650, 3410, 1.20},
                                      {"tungsten", 19220, 4030, 1.237}, {"PMMA", 1186, 2600, 1.516},
                                      {"water", 998, 1480, 1.92}};
@@ -42,17 +42,27 @@ TEST(EosExplosives, ImpedanceMatchesWithInertMaterials) {
     const char* explosive;
     double pressure[7], velocity[7];  // GPa, km/s, in the order of the inert materials
   };
-  const Row rows[] = {
-      {"tnt", {35.18, 26.81, 34.91, 38.36, 40.08, 16.46, 15.00}, {0.774, 1.378, 0.792, 0.564, 0.454, 2.288, 2.439}},
-      {"composition_b", {47.79, 35.70, 47.28, 52.42, 54.95, 22.00, 20.31}, {0.989, 1.724, 1.018, 0.734, 0.599, 2.744,
-                                                                            2.893}},
-      {"pbx_9404", {57.97, 42.39, 57.19, 64.02, 67.36, 25.95, 24.09}, {1.149, 1.965, 1.187, 0.865, 0.713, 3.037,
-                                                                       3.181}},
-      {"lx_14", {58.01, 42.45, 57.24, 64.04, 67.37, 26.00, 24.14}, {1.149, 1.967, 1.187, 0.865, 0.714, 3.041, 3.185}},
-      {"petn", {53.71, 39.80, 53.06, 59.06, 61.99, 24.61, 22.84}, {1.083, 1.873, 1.118, 0.810, 0.665, 2.940, 3.088}},
-      {"c4", {45.81, 34.39, 45.34, 50.16, 52.53, 21.27, 19.62}, {0.956, 1.675, 0.984, 0.707, 0.576, 2.687, 2.838}},
-      {"octol_78_22", {54.10, 39.77, 53.42, 59.65, 62.71, 24.32, 22.52}, {1.089, 1.872, 1.124, 0.816, 0.671, 2.919,
-                                                                          3.064}}};
+  const Row rows[] = {{"tnt",
+                       {35.18, 26.81, 34.91, 38.36, 40.08, 16.46, 15.00},
+                       {0.774, 1.378, 0.792, 0.564, 0.454, 2.288, 2.439}},
+                      {"composition_b",
+                       {47.79, 35.70, 47.28, 52.42, 54.95, 22.00, 20.31},
+                       {0.989, 1.724, 1.018, 0.734, 0.599, 2.744, 2.893}},
+                      {"pbx_9404",
+                       {57.97, 42.39, 57.19, 64.02, 67.36, 25.95, 24.09},
+                       {1.149, 1.965, 1.187, 0.865, 0.713, 3.037, 3.181}},
+                      {"lx_14",
+                       {58.01, 42.45, 57.24, 64.04, 67.37, 26.00, 24.14},
+                       {1.149, 1.967, 1.187, 0.865, 0.714, 3.041, 3.185}},
+                      {"petn",
+                       {53.71, 39.80, 53.06, 59.06, 61.99, 24.61, 22.84},
+                       {1.083, 1.873, 1.118, 0.810, 0.665, 2.940, 3.088}},
+                      {"c4",
+                       {45.81, 34.39, 45.34, 50.16, 52.53, 21.27, 19.62},
+                       {0.956, 1.675, 0.984, 0.707, 0.576, 2.687, 2.838}},
+                      {"octol_78_22",
+                       {54.10, 39.77, 53.42, 59.65, 62.71, 24.32, 22.52},
+                       {1.089, 1.872, 1.124, 0.816, 0.671, 2.919, 3.064}}};
   for (const Row& row : rows) {
     const auto eos = explosive(row.explosive);
     const DetonationProducts products(*eos);
@@ -60,10 +70,13 @@ TEST(EosExplosives, ImpedanceMatchesWithInertMaterials) {
       const test::MieGruneisenEos target = inert(inert_materials[i]);
       const ImpedanceMatch match = products.contact(Hugoniot(target));
       // The last digit of the solutions: far within the 1 % that a user needs.
-      EXPECT_NEAR(match.pressure * 1e-9, row.pressure[i], 0.006) << row.explosive << " on " << inert_materials[i].name;
-      EXPECT_NEAR(match.velocity * 1e-3, row.velocity[i], 6e-4) << row.explosive << " on " << inert_materials[i].name;
+      EXPECT_NEAR(match.pressure * 1e-9, row.pressure[i], 0.006)
+          << row.explosive << " on " << inert_materials[i].name;
+      EXPECT_NEAR(match.velocity * 1e-3, row.velocity[i], 6e-4)
+          << row.explosive << " on " << inert_materials[i].name;
       EXPECT_NEAR(match.left.pressure / match.pressure, 1.0, 1e-7);
-      EXPECT_EQ(std::isnan(match.left_shock_velocity), match.pressure < products.chapman_jouguet().state.pressure);
+      EXPECT_EQ(std::isnan(match.left_shock_velocity),
+                match.pressure < products.chapman_jouguet().state.pressure);
     }
   }
 }
@@ -74,13 +87,15 @@ TEST(EosExplosives, WallOfTheCylinderTest) {
     const char* explosive;
     double speed[4];
   };
-  for (const Row& row : {Row{"tnt", {1.179, 1.333, 1.402, 1.442}}, Row{"composition_b", {1.399, 1.561, 1.626, 1.662}},
-                         Row{"petn", {1.564, 1.735, 1.794, 1.825}}, Row{"pbx_9404", {1.584, 1.755, 1.820, 1.856}},
-                         Row{"lx_10", {1.605, 1.779, 1.840, 1.872}}, Row{"c4", {1.366, 1.516, 1.584, 1.624}}}) {
+  for (const Row& row :
+       {Row{"tnt", {1.179, 1.333, 1.402, 1.442}}, Row{"composition_b", {1.399, 1.561, 1.626, 1.662}},
+        Row{"petn", {1.564, 1.735, 1.794, 1.825}}, Row{"pbx_9404", {1.584, 1.755, 1.820, 1.856}},
+        Row{"lx_10", {1.605, 1.779, 1.840, 1.872}}, Row{"c4", {1.366, 1.516, 1.584, 1.624}}}) {
     const auto eos = explosive(row.explosive);
     const DetonationProducts products(*eos);
     const auto walls = cylinder_test(products, {}, {6e-3, 12.5e-3, 19e-3, 25e-3});
-    for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(walls[i].radial_speed * 1e-3, row.speed[i], 1e-3) << row.explosive;
+    for (std::size_t i = 0; i < 4; ++i)
+      EXPECT_NEAR(walls[i].radial_speed * 1e-3, row.speed[i], 1e-3) << row.explosive;
     // The wall is driven to about the sevenfold volume at 19 mm, where Gurney's speed is that of the wall within 2 %.
     EXPECT_NEAR(walls[2].volume, 7.2, 0.1);
     const double mass_ratio = 8930 * (15.3 * 15.3 - 12.7 * 12.7) / (eos->reference_density() * 12.7 * 12.7);

@@ -120,13 +120,15 @@ class Steering : public ::testing::Test {
 
   /// Runs the case in a new folder; `files` are put into its folder control/ before.
   Result run(std::multimap<std::int64_t, Request> script,
-             const std::vector<std::pair<std::string, std::string>>& files = {}, RunControl* replay = nullptr) {
+             const std::vector<std::pair<std::string, std::string>>& files = {},
+             RunControl* replay = nullptr) {
     Result result;
     result.folder = temporary_.path() / std::to_string(++runs_);
     const cases::Case setup = ball_on_plate();
     const io::Ranks ranks(parallel::world());
     const io::RunDirectory directory = io::RunDirectory::create(result.folder, "ball", false);
-    directory.write_input(cases::to_toml(setup, material_copies(setup)) + "\n[provenance]\nprogram = \"test\"\n");
+    directory.write_input(cases::to_toml(setup, material_copies(setup)) +
+                          "\n[provenance]\nprogram = \"test\"\n");
     solver::Simulation simulation(setup, parallel::world());
     Observers observers;
     observers.push_back(std::make_unique<Watch>(result.paused));
@@ -152,7 +154,8 @@ class Steering : public ::testing::Test {
       if (!line.starts_with("step")) result.history.push_back(std::stoll(line));
     }
     const auto index = nlohmann::json::parse(text_of(result.folder / "ball.particles.hdf.series"));
-    for (const auto& entry : index.at("files")) result.snapshots.push_back(1e6 * entry.at("time").get<double>());
+    for (const auto& entry : index.at("files"))
+      result.snapshots.push_back(1e6 * entry.at("time").get<double>());
     result.checkpoints = io::list_checkpoints(directory.checkpoint_folder()).size();
     return result;
   }
@@ -188,7 +191,8 @@ TEST_F(Steering, OutputsAndPausesChangeNothingOfTheParticles) {
   expect_same_particles(free, steered);
   EXPECT_EQ(steered.snapshots.size(), 4U);
   EXPECT_EQ(steered.checkpoints, 2U);
-  EXPECT_THAT(std::vector(steered.history.begin(), steered.history.begin() + 6), ElementsAre(0, 1, 2, 4, 8, 12));
+  EXPECT_THAT(std::vector(steered.history.begin(), steered.history.begin() + 6),
+              ElementsAre(0, 1, 2, 4, 8, 12));
   EXPECT_EQ(steered.history.back(), steered.steps);
   EXPECT_THAT(steered.paused, ElementsAre(5, 5, 5)) << "resumed at the fourth look";
 }
@@ -204,7 +208,8 @@ TEST_F(Steering, SnapshotsLieAtTheMultiplesOfTheirIntervalAndCostAStepEach) {
 TEST_F(Steering, AMultipleThatIsTheEndButForRoundOffIsTheEnd) {
   const Result free = run({});
   std::size_t parts = 2;
-  while (parts < 60 && static_cast<double>(parts) * (free.time / static_cast<double>(parts)) >= free.time) ++parts;
+  while (parts < 60 && static_cast<double>(parts) * (free.time / static_cast<double>(parts)) >= free.time)
+    ++parts;
   ASSERT_LT(parts, 60U) << "no interval whose multiple lies below the end";
   const Result result = run({{1, {Act::snapshot_every, free.time / static_cast<double>(parts)}}});
   EXPECT_EQ(result.snapshots.size(), parts + 1);
@@ -259,9 +264,11 @@ TEST_F(Steering, ATableThatCannotBeRepeatedIsRefused) {
   const std::string head = std::string(DirectoryControl::header) + "\n";
   EXPECT_EQ(refused(head), "");
   EXPECT_THAT(refused("step\n"), HasSubstr("is no steering.csv"));
-  EXPECT_THAT(refused(head + "0,1,a,pause,,accepted\n"), HasSubstr("steering.csv:2: error: expected 7 cells"));
+  EXPECT_THAT(refused(head + "0,1,a,pause,,accepted\n"),
+              HasSubstr("steering.csv:2: error: expected 7 cells"));
   EXPECT_THAT(refused(head + "0,x,a,pause,,accepted,\n"), HasSubstr("number of a step"));
-  EXPECT_THAT(refused(head + "0,5,a,pause,,accepted,\n0,4,b,resume,,accepted,\n"), HasSubstr(":3: error: step 4 after step 5"));
+  EXPECT_THAT(refused(head + "0,5,a,pause,,accepted,\n0,4,b,resume,,accepted,\n"),
+              HasSubstr(":3: error: step 4 after step 5"));
   EXPECT_THAT(refused(head + "0,5,a,end,1 kg,accepted,\n"), HasSubstr(":2: error: "));
 }
 
@@ -312,7 +319,8 @@ TEST_F(Steering, RequestsInFilesAreAnsweredOneByOne) {
   EXPECT_THAT(answers[3], HasSubstr(",3,3.toml,pause,,accepted,"));
   EXPECT_THAT(answers[4], HasSubstr(",3,4.toml,resume,,accepted,"));
   std::vector<std::string> left;
-  for (const auto& entry : fs::directory_iterator(steered.folder / "control")) left.push_back(entry.path().filename());
+  for (const auto& entry : fs::directory_iterator(steered.folder / "control"))
+    left.push_back(entry.path().filename());
   EXPECT_THAT(left, ElementsAre("notes.txt"));
 }
 
@@ -333,8 +341,9 @@ TEST_F(Steering, ABadRequestIsAnsweredAndChangesNothing) {
   EXPECT_EQ(text_of(free.folder / "run.toml"), text_of(steered.folder / "run.toml"));
   const std::string answers = text_of(steered.folder / "steering.csv");
   EXPECT_EQ(lines_of(steered.folder / "steering.csv").size(), 10U) << answers;
-  for (const char* reason : {"did you mean \"\"snapshot\"\"?", "mm", "must be >= 0 s", "must be >= 1 and <= 1",
-                             "the run is not paused", "6.toml", "already", "unknown key", "takes no value"}) {
+  for (const char* reason :
+       {"did you mean \"\"snapshot\"\"?", "mm", "must be >= 0 s", "must be >= 1 and <= 1",
+        "the run is not paused", "6.toml", "already", "unknown key", "takes no value"}) {
     EXPECT_THAT(answers, HasSubstr(reason));
   }
   EXPECT_TRUE(fs::is_empty(steered.folder / "control"));
@@ -395,7 +404,8 @@ TEST_F(Steering, TheStatusOfARunThatNoProcessHoldsIsLost) {
   EXPECT_EQ(read_status(temporary_.path()).state, Activity::running);
   const std::string text = io::read_text(temporary_.path() / "status.json");
   EXPECT_THAT(text, HasSubstr("\"state\": \"running\""));
-  std::ofstream(temporary_.path() / "status.json") << std::regex_replace(text, std::regex("running"), "asleep");
+  std::ofstream(temporary_.path() / "status.json")
+      << std::regex_replace(text, std::regex("running"), "asleep");
   EXPECT_THROW((void)read_status(temporary_.path()), InputError);
   std::ofstream(temporary_.path() / "status.json") << "{}";
   EXPECT_THROW((void)read_status(temporary_.path()), InputError);
@@ -464,7 +474,8 @@ TEST(HistoryColumns, StandInTheManual) {
 TEST(Requests, StandInTheManual) {
   const std::string manual = text_of(WHIPPLE_SOURCE_DIR "/docs/manual/output.md");
   for (const ActEntry& entry : acts())
-    EXPECT_THAT(manual, HasSubstr("| `" + std::string(entry.word) + "` | " + std::string(entry.meaning) + " |"));
+    EXPECT_THAT(manual,
+                HasSubstr("| `" + std::string(entry.word) + "` | " + std::string(entry.meaning) + " |"));
 }
 
 TEST(HistoryColumns, HaveNamesOfTheirOwn) {

@@ -45,17 +45,16 @@ inline void expect_same(const solver::Simulation& a, const solver::Simulation& b
 inline std::filesystem::path save(const solver::Simulation& simulation, const std::filesystem::path& folder) {
   const solver::Contents contents = simulation.contents();
   return io::write_checkpoint(folder, simulation.state().step, *contents.particles,
-                              run::to_checkpoint(simulation.state()), simulation.communicator(), contents.meshes,
-                              contents.bars);
+                              run::to_checkpoint(simulation.state()), simulation.communicator(),
+                              contents.meshes, contents.bars);
 }
 
 /// Goes on from a checkpoint. Collective.
 inline solver::Simulation restored(const cases::Case& setup, const std::filesystem::path& file,
                                    MPI_Comm communicator) {
   io::Checkpoint checkpoint = io::read_checkpoint(file, communicator);
-  return solver::Simulation(setup, std::move(checkpoint.particles),
-                            run::from_checkpoint(checkpoint.values), communicator,
-                            std::move(checkpoint.meshes), std::move(checkpoint.bars));
+  return solver::Simulation(setup, std::move(checkpoint.particles), run::from_checkpoint(checkpoint.values),
+                            communicator, std::move(checkpoint.meshes), std::move(checkpoint.bars));
 }
 
 }  // namespace whipple::verification

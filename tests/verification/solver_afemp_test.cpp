@@ -9,9 +9,9 @@
 
 #include "src/afemp/transition.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/parallel/threads.hpp"
 #include "src/fem/step.hpp"
 #include "src/material/update.hpp"
-#include "src/core/parallel/threads.hpp"
 #include "tests/verification/same_state.hpp"
 #include "tests/verification/solver_problems.hpp"
 

@@ -22,12 +22,12 @@ constexpr double dx = 1e-3, length = 0.02, width = 2 * dx, speed = 2.0;
 /// Soft matrix, stiff bars; both without Poisson's effect, so that bars and matrix share the axial strain and
 /// nothing else: the composite is a bar of E = (E_m A_m + E_b A_b)/(A_m + A_b) and of the mean density.
 std::string elastic(const std::string& name, double density, double young, const std::string& strength) {
-  return write_material(name,
-                        "name = \"" + name + "\"\nsource = \"test\"\n[eos]\nmodel = \"mie_gruneisen\"\n" +
-                            "source = \"test\"\nreference_density = \"" + number(density) + " kg/m^3\"" +
-                            "\nhugoniot_intercept = \"" + number(std::sqrt(young / 3 / density)) + " m/s\"" +
-                            "\nhugoniot_slope = 1e-3\ngruneisen = 1e-3\nheat_capacity = \"1000 J/(kg K)\"\n[strength]\n" +
-                            "source = \"test\"\nshear_modulus = \"" + number(0.5 * young) + " Pa\"\n" + strength);
+  return write_material(
+      name, "name = \"" + name + "\"\nsource = \"test\"\n[eos]\nmodel = \"mie_gruneisen\"\n" +
+                "source = \"test\"\nreference_density = \"" + number(density) + " kg/m^3\"" +
+                "\nhugoniot_intercept = \"" + number(std::sqrt(young / 3 / density)) + " m/s\"" +
+                "\nhugoniot_slope = 1e-3\ngruneisen = 1e-3\nheat_capacity = \"1000 J/(kg K)\"\n[strength]\n" +
+                "source = \"test\"\nshear_modulus = \"" + number(0.5 * young) + " Pa\"\n" + strength);
 }
 std::string matrix() { return elastic("matrix", 2000.0, 10e9, "model = \"elastic\"\n"); }
 std::string steel(const std::string& strength = "model = \"elastic\"\n") {
@@ -108,7 +108,8 @@ TEST(Bars, WaveInAReinforcedColumnIsThatOfTheComposite) {
 }
 
 TEST(Bars, YieldBreakAndKeepEnergy) {
-  const std::string von_mises = "model = \"von_mises\"\nyield_stress = \"20 MPa\"\nhardening_modulus = \"1 GPa\"\n";
+  const std::string von_mises =
+      "model = \"von_mises\"\nyield_stress = \"20 MPa\"\nhardening_modulus = \"1 GPa\"\n";
   const Problem problem = column(true, 12e-6, von_mises, ", bar_failure_strain = 1e-3");
   solver::Simulation simulation(problem.read(), parallel::world());
   Watch watch;

@@ -187,7 +187,8 @@ TEST(Load, WakesMaterialWhenItBegins) {
     }
   });
   EXPECT_DOUBLE_EQ(simulation.next_event(), begin);
-  run_to(simulation, 1.5 * begin, [](const solver::Simulation& s) { EXPECT_EQ(s.state().particles_at_rest, 0); });
+  run_to(simulation, 1.5 * begin,
+         [](const solver::Simulation& s) { EXPECT_EQ(s.state().particles_at_rest, 0); });
   const solver::Totals& now = simulation.totals();
   EXPECT_NEAR(now.momentum[2], 0.5 * begin * g * now.mass, 1e-9 * now.momentum[2]);
 }

@@ -164,7 +164,8 @@ TEST(Rubber, BlockBouncesOffAWallWithoutLossAndRestartsBitwise) {
   expect_same(simulation, again);
   const solver::Totals& t = simulation.totals();
   const double rebound = t.momentum[0] / t.mass;
-  std::printf("rebound %.3f m/s, |F - 1| up to %.3f, energy error %.1e\n", rebound, largest_stretch, watch.worst);
+  std::printf("rebound %.3f m/s, |F - 1| up to %.3f, energy error %.1e\n", rebound, largest_stretch,
+              watch.worst);
   EXPECT_LT(watch.worst, 1e-12);
   EXPECT_GT(largest_stretch, 0.05);
   EXPECT_GT(rebound, 3.5);

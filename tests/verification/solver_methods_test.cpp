@@ -35,8 +35,7 @@ std::string block_of_aluminium(const std::string& options = "") {
 solver::Simulation simulation_of(const cases::Case& setup, Particles particles) {
   solver::RunState state;
   state.ledger.initial = solver::totals_of(
-      particles, transfer::affine_inertia(setup.transfer.shape_function,
-                                          setup.domain.cell_size));
+      particles, transfer::affine_inertia(setup.transfer.shape_function, setup.domain.cell_size));
   return {setup, std::move(particles), state, parallel::world()};
 }
 
@@ -87,13 +86,14 @@ cases::Case touching_slabs(const std::string& method, double first_step, double 
   const std::string slab = "material = \"" + elastic_aluminium() + "\"\ndiscretization = { method = \"" +
                            method + "\" }\nshape = { box = { ";
   return cases::read_case_text(
-      fmt::format("[time]\nend = 1\ncourant = 0.8\nfirst_step = {}\ncompression_limit = {}\n", first_step, limit) +
+      fmt::format("[time]\nend = 1\ncourant = 0.8\nfirst_step = {}\ncompression_limit = {}\n", first_step,
+                  limit) +
           "[domain]\nlower = [-0.01, 0, 0]\nupper = [0.01, 0.002, 0.002]\ncell_size = 0.001\n"
           "boundary = { y_lower = \"symmetry\", y_upper = \"symmetry\", z_lower = \"symmetry\", "
           "z_upper = \"symmetry\" }\n"
           "[[body]]\nname = \"left\"\nvelocity = [5000, 0, 0]\n" +
-          slab + "lower = [-0.006, 0, 0], upper = [0, 0.002, 0.002] } }\n" +
-          "[[body]]\nname = \"right\"\n" + slab + "lower = [0, 0, 0], upper = [0.006, 0.002, 0.002] } }\n",
+          slab + "lower = [-0.006, 0, 0], upper = [0, 0.002, 0.002] } }\n" + "[[body]]\nname = \"right\"\n" +
+          slab + "lower = [0, 0, 0], upper = [0.006, 0.002, 0.002] } }\n",
       "time_step.toml");
 }
 
@@ -103,7 +103,8 @@ TEST(TimeStep, KeepsAnEighthOfTheStableStepAndCountsIt) {
     solver::Simulation simulation(touching_slabs(method, 1.0, 1e-7), parallel::world());
     const double stable = simulation.accurate_time_step();
     for (int step = 0; step < 20; ++step) simulation.advance(1.0);
-    EXPECT_GT(simulation.state().time_step, 0.06 * stable) << method;  // shocked material is faster, elements are shorter
+    EXPECT_GT(simulation.state().time_step, 0.06 * stable)
+        << method;  // shocked material is faster, elements are shorter
     EXPECT_LT(simulation.state().time_step, 0.3 * stable) << method;
     EXPECT_GT(simulation.state().ledger.held_time_steps, 10.0) << method;
     solver::Simulation followed(touching_slabs(method, 0.05, 0.5), parallel::world());

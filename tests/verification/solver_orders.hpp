@@ -75,15 +75,15 @@ inline double motion_error(const ExactMotion& motion, const Method& method, int 
     particles.affine_velocity[p] = affine ? Matrix3(rate.asDiagonal()) : Matrix3::Zero();
   }
   solver::RunState state;
-  state.ledger.initial = solver::totals_of(
-      particles, transfer::affine_inertia(setup.transfer.shape_function, dx));
+  state.ledger.initial =
+      solver::totals_of(particles, transfer::affine_inertia(setup.transfer.shape_function, dx));
   solver::Simulation simulation(setup, std::move(particles), state, parallel::world());
   if (const auto acceleration = motion.acceleration()) {
-    simulation.add_load({.name = "manufactured",
-                         .add = [&start, acceleration](const solver::LoadedPoints& points, double t,
-                                                       std::span<Vector3> sum) {
-                           for (std::size_t p = 0; p < sum.size(); ++p) sum[p] += acceleration(start[points.id[p]], t);
-                         }});
+    simulation.add_load(
+        {.name = "manufactured",
+         .add = [&start, acceleration](const solver::LoadedPoints& points, double t, std::span<Vector3> sum) {
+           for (std::size_t p = 0; p < sum.size(); ++p) sum[p] += acceleration(start[points.id[p]], t);
+         }});
   }
   for (long i = 1; i <= steps; ++i) simulation.advance(static_cast<double>(i) * dt);
 

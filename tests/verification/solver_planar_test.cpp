@@ -32,13 +32,15 @@ std::string planar_impact(bool plane, const Method& method) {
     return plane ? fmt::format("[{}, {}]", x, y) : fmt::format("[{}, {}, {}]", x, y, y);
   };
   const auto body = [&](const char* name, double velocity, double lower, double upper) {
-    return fmt::format("[[body]]\nname = \"{}\"\nmaterial = \"{}\"\nvelocity = {}\nshape = {{ box = {{ lower = {}, "
-                       "upper = {} }} }}\n",
-                       name, aluminium("planar_aluminium", "290 MPa"), corner(velocity, 0.0), corner(lower, 0.0),
-                       corner(upper, 3e-4));
+    return fmt::format(
+        "[[body]]\nname = \"{}\"\nmaterial = \"{}\"\nvelocity = {}\nshape = {{ box = {{ lower = {}, "
+        "upper = {} }} }}\n",
+        name, aluminium("planar_aluminium", "290 MPa"), corner(velocity, 0.0), corner(lower, 0.0),
+        corner(upper, 3e-4));
   };
-  return method.time_toml(0.15e-6) + method.toml() + "[output]\nmaximum_energy_error = 10.0\n[domain]\nlower = " +
-         corner(-3e-3, 0.0) + "\nupper = " + corner(3e-3, 3e-4) + "\ncell_size = 1e-4\n" + walls +
+  return method.time_toml(0.15e-6) + method.toml() +
+         "[output]\nmaximum_energy_error = 10.0\n[domain]\nlower = " + corner(-3e-3, 0.0) +
+         "\nupper = " + corner(3e-3, 3e-4) + "\ncell_size = 1e-4\n" + walls +
          body("left", 400.0, -1e-3, 0.0) + body("right", -400.0, 0.0, 1.5e-3);
 }
 
@@ -55,7 +57,7 @@ Section section(const std::string& text) {
   for (std::size_t p = 0; p < q.size(); ++p) {
     const Vector3& from = start[q.id[p]];
     section[{std::lround(1e9 * from[0]), std::lround(1e9 * from[1])}] = {
-        q.position[p][0], q.position[p][1],           q.velocity[p][0],
+        q.position[p][0], q.position[p][1],          q.velocity[p][0],
         q.pressure[p],    q.deviatoric_stress[p].zz, q.specific_internal_energy[p]};
   }
   return section;
@@ -67,7 +69,8 @@ void expect_equal(const Section& plane, const Section& space, double of_scale = 
   ASSERT_EQ(space.size(), plane.size());
   for (const auto& [place, values] : space) {
     for (std::size_t i = 0; i < values.size(); ++i) {
-      ASSERT_NEAR(plane.at(place)[i], values[i], of_scale * scale[i]) << place.first << " " << place.second << " " << i;
+      ASSERT_NEAR(plane.at(place)[i], values[i], of_scale * scale[i])
+          << place.first << " " << place.second << " " << i;
     }
   }
 }
@@ -79,8 +82,10 @@ TEST(PlaneStrain, PlanarImpactEqualsThreeDimensionsWithEveryShapeFunction) {
       method.shape_function = function;
       method.scheme = scheme;
       const bool exact = std::string(scheme) == "symplectic";
-      if (!exact && std::string(function) != "linear" && std::string(function) != "quadratic_bspline") continue;
-      method.particle_update = exact && std::string(function).ends_with("bspline") ? "relaxed_affine" : "flip";
+      if (!exact && std::string(function) != "linear" && std::string(function) != "quadratic_bspline")
+        continue;
+      method.particle_update =
+          exact && std::string(function).ends_with("bspline") ? "relaxed_affine" : "flip";
       SCOPED_TRACE(std::string(function) + " " + scheme);
       expect_equal(section(planar_impact(true, method)), section(planar_impact(false, method)));
     }
@@ -144,7 +149,8 @@ std::string ball_on_plate(const std::string& more = {}) {
   return R"(
 [time]
 end = "1.5 us"
-)" + more + R"(
+)" + more +
+         R"(
 [domain]
 dimension = "axisymmetric"
 lower = ["-6 mm", "0 mm"]
@@ -166,7 +172,8 @@ TEST(Axisymmetric, EnergyAxialMomentumAndTheMassOfTheBodyAreExact) {
   const cases::Case setup = read(ball_on_plate());
   solver::Simulation simulation(setup, parallel::world());
   const double density = setup.materials[0]->reference.density;
-  EXPECT_NEAR(simulation.bodies()[0].mass, density * 4.0 / 3.0 * std::numbers::pi * 8e-9, 2e-3 * density * 3.35e-8);
+  EXPECT_NEAR(simulation.bodies()[0].mass, density * 4.0 / 3.0 * std::numbers::pi * 8e-9,
+              2e-3 * density * 3.35e-8);
   const double momentum = simulation.totals().momentum[0];
   EnergyWatch watch;
   run_to(simulation, setup.time.end, std::ref(watch));
@@ -279,8 +286,9 @@ material = "{}"
 shape = {{ box = {{ lower = ["-1 mm", "29 mm"], upper = ["1 mm", "31 mm"] }} }}
 )",
                                              aluminium("planar_ring", "300 MPa")));
-  solver::Simulation simulation =
-      start_with(setup, [&](Particles& particles) { for (Vector3& v : particles.velocity) v[1] = speed; });
+  solver::Simulation simulation = start_with(setup, [&](Particles& particles) {
+    for (Vector3& v : particles.velocity) v[1] = speed;
+  });
   double largest = 0.0;
   EnergyWatch watch;
   run_to(simulation, setup.time.end, [&](const solver::Simulation& s) {
@@ -292,7 +300,8 @@ shape = {{ box = {{ lower = ["-1 mm", "29 mm"], upper = ["1 mm", "31 mm"] }} }}
     }
     largest = std::max(largest, moment / mass);
   });
-  std::printf("expanding ring: stops at %.3f mm (%.3f), energy error %.1e\n", 1e3 * largest, 1e3 * exact, watch.worst);
+  std::printf("expanding ring: stops at %.3f mm (%.3f), energy error %.1e\n", 1e3 * largest, 1e3 * exact,
+              watch.worst);
   EXPECT_NEAR(largest, exact, 5e-4 * exact);
   EXPECT_LT(watch.worst, 1e-12);
 }
@@ -330,7 +339,8 @@ shape = {{ box = {{ lower = [-1.24, -1.24], upper = [1.24, 1.24] }} }}
   });
   EnergyWatch watch;
   run_to(simulation, setup.time.end, [&](const solver::Simulation& s) {
-    if (s.state().step > 20) watch(s);  // before, next to nothing has been exchanged that errors are measured by
+    if (s.state().step > 20)
+      watch(s);  // before, next to nothing has been exchanged that errors are measured by
   });
   EXPECT_LT(watch.worst, 1e-12);
   std::array<double, 3> radius{}, largest{};
@@ -350,8 +360,8 @@ shape = {{ box = {{ lower = [-1.24, -1.24], upper = [1.24, 1.24] }} }}
       if (sums[0] / sums[1] > 0.5 * (1.0 + largest[s])) radius[s] = 0.5 * dx * static_cast<double>(bin);
     }
   }
-  std::printf("Sedov, %d cells: shock at %.3f %.3f %.3f, density %.2f %.2f %.2f (6)\n", cells, radius[0], radius[1],
-              radius[2], largest[0], largest[1], largest[2]);
+  std::printf("Sedov, %d cells: shock at %.3f %.3f %.3f, density %.2f %.2f %.2f (6)\n", cells, radius[0],
+              radius[1], radius[2], largest[0], largest[1], largest[2]);
   return radius;
 }
 
@@ -364,7 +374,8 @@ TEST(Axisymmetric, SedovsBlastIsRound) {
 }
 
 struct Bar {
-  double length, foot, middle;  ///< mm; diameters of the circles of the cross-sections at the wall and 5.08 mm from it
+  double length, foot,
+      middle;  ///< mm; diameters of the circles of the cross-sections at the wall and 5.08 mm from it
 };
 Bar taylor_bar(const char* dimension) {
   const cases::Case setup = read(fmt::format(R"(
@@ -396,8 +407,8 @@ shape = {{ cylinder = {{ center = ["12.73 mm", "0 mm", "0 mm"], axis = "x", radi
   }
   const auto diameter = [](double section) { return 2e3 * std::sqrt(section / std::numbers::pi); };
   const Bar bar{1e3 * top + 0.19, diameter(foot), diameter(middle)};
-  std::printf("Taylor bar, %s: length %.3f mm, foot %.3f mm, at 5.08 mm %.3f mm\n", dimension, bar.length, bar.foot,
-              bar.middle);
+  std::printf("Taylor bar, %s: length %.3f mm, foot %.3f mm, at 5.08 mm %.3f mm\n", dimension, bar.length,
+              bar.foot, bar.middle);
   return bar;
 }
 
@@ -428,19 +439,23 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 TEST(TwoDimensions, WhatNeedsThreeIsRefusedWithTheReason) {
   const std::string text = ball_on_plate();
   EXPECT_EQ(error_of(text), "");
-  EXPECT_THAT(error_of(replaced(text, "[\"-6 mm\", \"0 mm\"]", "[\"-6 mm\", \"-1 mm\"]")), HasSubstr("y is the radius"));
+  EXPECT_THAT(error_of(replaced(text, "[\"-6 mm\", \"0 mm\"]", "[\"-6 mm\", \"-1 mm\"]")),
+              HasSubstr("y is the radius"));
   EXPECT_THAT(error_of(replaced(text, "[\"3 km/s\", \"0 m/s\"]", "[\"3 km/s\", \"1 m/s\"]")),
               HasSubstr("must be along x, the axis"));
-  EXPECT_THAT(error_of(text + "discretization = { method = \"finite_elements\" }\n"), HasSubstr("three dimensions"));
+  EXPECT_THAT(error_of(text + "discretization = { method = \"finite_elements\" }\n"),
+              HasSubstr("three dimensions"));
   EXPECT_THAT(error_of(text + "angular_velocity = [\"0 rad/s\", \"0 rad/s\", \"1 rad/s\"]\n"),
               HasSubstr("nothing rotates in axisymmetry"));
   EXPECT_THAT(error_of(ball_on_plate("[gravity]\nacceleration = [\"0 m/s^2\", \"9.81 m/s^2\"]\n")),
               HasSubstr("along x"));
-  EXPECT_THAT(error_of(replaced(text, "dimension = \"axisymmetric\"\n", "")), HasSubstr("has 2 entries, expected 3"));
+  EXPECT_THAT(error_of(replaced(text, "dimension = \"axisymmetric\"\n", "")),
+              HasSubstr("has 2 entries, expected 3"));
   EXPECT_THAT(error_of(replaced(text, "axisymmetric", "2d")), HasSubstr("plane_strain"));
   // A model of three dimensions that ends at a mirror plane z = 0 has a section there.
-  const std::string quarter = replaced(text, "lower = [\"0 mm\", \"-8 mm\"], upper = [\"2 mm\", \"8 mm\"]",
-                                       "lower = [\"0 mm\", \"0 mm\", \"0 mm\"], upper = [\"2 mm\", \"8 mm\", \"8 mm\"]");
+  const std::string quarter =
+      replaced(text, "lower = [\"0 mm\", \"-8 mm\"], upper = [\"2 mm\", \"8 mm\"]",
+               "lower = [\"0 mm\", \"0 mm\", \"0 mm\"], upper = [\"2 mm\", \"8 mm\", \"8 mm\"]");
   EXPECT_EQ(error_of(quarter), "");
 }
 

@@ -7,9 +7,9 @@
 #include <functional>
 #include <string>
 
-#include "src/io/run_directory.hpp"
-#include "src/core/parallel/mpi.hpp"
 #include "src/case/case.hpp"
+#include "src/core/parallel/mpi.hpp"
+#include "src/io/run_directory.hpp"
 #include "src/solver/simulation.hpp"
 #include "tests/unit/temporary_folder.hpp"
 

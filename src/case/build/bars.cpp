@@ -68,7 +68,8 @@ std::optional<std::string> fault_of_bars(const Case& setup, const Body& bars) {
     if (!inside) continue;
     return fmt::format(
         "body \"{}\": its bars are in body \"{}\" of elements, whose inner nodes are not on the grid and "
-        "would not interact with them: bars reinforce bodies of particles (discretization.method = \"particles\")",
+        "would not interact with them: bars reinforce bodies of particles (discretization.method = "
+        "\"particles\")",
         bars.name, body.name);
   }
   return std::nullopt;

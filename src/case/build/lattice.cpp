@@ -108,7 +108,8 @@ Lattice lattice_of(const Case& setup, const Body& body) {
   return lattice;
 }
 
-std::optional<Site> site_at(const Case& setup, const Body& body, const Lattice& lattice, const Vector3& point) {
+std::optional<Site> site_at(const Case& setup, const Body& body, const Lattice& lattice,
+                            const Vector3& point) {
   return body.discretization.partial_volumes ? partial_site(setup, body, lattice, point)
                                              : whole_site(setup, body, lattice, point);
 }

@@ -56,7 +56,8 @@ Lattice lattice_of(const Case& setup, const Body& body);
 
 /// Returns the site in a cell of the lattice: with `partial_volumes` the part of the cell that lies in the body, else the
 /// whole cell if its centre does; nothing where the body or the domain does not reach.
-std::optional<Site> site_at(const Case& setup, const Body& body, const Lattice& lattice, const Vector3& point);
+std::optional<Site> site_at(const Case& setup, const Body& body, const Lattice& lattice,
+                            const Vector3& point);
 
 /// Returns whether f(site) holds for some particle of the body inside the domain. Only those in and near a box are tried,
 /// up to the first one.

@@ -67,14 +67,16 @@ bool Arrival::holds(const Index& index) const {
 Arrival::Index Arrival::index_of(std::size_t cell) const {
   const auto signed_of = [](std::size_t n) { return static_cast<std::ptrdiff_t>(n); };
   const std::size_t row = cell / field_.cells[0];
-  return {signed_of(cell % field_.cells[0]), signed_of(row % field_.cells[1]), signed_of(row / field_.cells[1])};
+  return {signed_of(cell % field_.cells[0]), signed_of(row % field_.cells[1]),
+          signed_of(row / field_.cells[1])};
 }
 
 Vector3 Arrival::centre(std::size_t cell) const {
   const Index index = index_of(cell);
   Vector3 at = field_.lower;
   for (std::size_t a = 0; a < 3; ++a) {
-    if (field_.cells[a] > 1) at[static_cast<Eigen::Index>(a)] += (static_cast<double>(index[a]) + 0.5) * field_.cell;
+    if (field_.cells[a] > 1)
+      at[static_cast<Eigen::Index>(a)] += (static_cast<double>(index[a]) + 0.5) * field_.cell;
   }
   return at;
 }
@@ -100,7 +102,9 @@ bool Arrival::sees(const Vector3& from, const Vector3& to, double velocity, bool
     const Index index = index_of(at);
     const std::size_t cell = holds(index) ? number_of(index) : time_.size();
     // What the centre of a cell is says little of cells at a surface.
-    const double here = cell == time_.size() ? 0.0 : at_surface_[cell] != 0 ? field_.velocity(at) : velocity_[cell];
+    const double here = cell == time_.size()     ? 0.0
+                        : at_surface_[cell] != 0 ? field_.velocity(at)
+                                                 : velocity_[cell];
     if (here != velocity && (here != 0.0 || inside)) return false;
     inside = inside || here == velocity;
   }
@@ -215,7 +219,8 @@ DetonationField field_of(const Case& setup) {
   field.velocity = [&setup](const Vector3& point) {
     for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
       const Material& material = *setup.materials[b];
-      if (material.burns() && setup.holds(setup.bodies[b], point)) return material.burn->explosive().detonation_velocity;
+      if (material.burns() && setup.holds(setup.bodies[b], point))
+        return material.burn->explosive().detonation_velocity;
     }
     return 0.0;
   };
@@ -225,7 +230,8 @@ DetonationField field_of(const Case& setup) {
 /// Arrival in straight lines, through everything.
 double straight(const Case& setup, const Vector3& point, double velocity) {
   double first = unlit;
-  for (const Detonation& detonation : setup.detonations) first = std::min(first, detonation.arrival(point, velocity));
+  for (const Detonation& detonation : setup.detonations)
+    first = std::min(first, detonation.arrival(point, velocity));
   return first;
 }
 
@@ -265,8 +271,8 @@ void set_lighting_times(const Case& setup, Particles& particles) {
       dark += particles.body[p] == b && times[p] == never ? 1U : 0U;
     }
     if (dark == 0) continue;
-    log::warning("body \"{}\": no detonation reaches {} of its {} particles: they stay unburnt", setup.bodies[b].name,
-                 dark, of_body);
+    log::warning("body \"{}\": no detonation reaches {} of its {} particles: they stay unburnt",
+                 setup.bodies[b].name, dark, of_body);
   }
 }
 

@@ -157,8 +157,9 @@ std::vector<fem::Mesh> make_meshes(const Case& setup, std::uint64_t first_partic
     const Body& body = setup.bodies[b];
     if (!body.discretization.has_elements()) continue;
     const Material& material = *setup.materials[b];
-    fem::Mesh& mesh = meshes.emplace_back(fem::make_mesh(hexahedra_of(setup, body), body.discretization.element,
-                                                         static_cast<std::uint32_t>(b), node_id, element_id));
+    fem::Mesh& mesh =
+        meshes.emplace_back(fem::make_mesh(hexahedra_of(setup, body), body.discretization.element,
+                                           static_cast<std::uint32_t>(b), node_id, element_id));
     node_id += mesh.nodes.size();
     element_id += mesh.elements.size();
     const eos::State state = body.initial.of(material);

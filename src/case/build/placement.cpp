@@ -27,8 +27,9 @@ std::optional<std::string> too_many(const Case& setup, const Body& body) {
   const double most = elements ? most_elements : most_particles;
   if (count <= most && edges.maxCoeff() <= longest_edge) return std::nullopt;
   if (!body.discretization.mesh.empty()) {
-    return fmt::format("the mesh of body \"{}\" is {:.3g} m long, {:.2g} cells: is 'mesh_unit' right?", body.name,
-                       (bounds_of(setup, body).upper - bounds_of(setup, body).lower).maxCoeff(), edges.maxCoeff());
+    return fmt::format("the mesh of body \"{}\" is {:.3g} m long, {:.2g} cells: is 'mesh_unit' right?",
+                       body.name, (bounds_of(setup, body).upper - bounds_of(setup, body).lower).maxCoeff(),
+                       edges.maxCoeff());
   }
   return fmt::format(
       "body \"{}\" takes a lattice of {:.2g} {}, {:.2g} along an edge; at most {:.0e} and {:.0e}: "

@@ -11,9 +11,7 @@ namespace whipple::cases {
 
 /// Direction of an axis of revolution.
 enum class Axis : std::uint8_t { x, y, z };
-constexpr std::array<Word<Axis>, 3> words(Axis) {
-  return {{{Axis::x, "x"}, {Axis::y, "y"}, {Axis::z, "z"}}};
-}
+constexpr std::array<Word<Axis>, 3> words(Axis) { return {{{Axis::x, "x"}, {Axis::y, "y"}, {Axis::z, "z"}}}; }
 constexpr Eigen::Index index_of(Axis axis) { return static_cast<Eigen::Index>(axis); }
 
 /// Primitives of revolution: what they have in common.
@@ -42,7 +40,9 @@ struct Revolution {
   template <class Owner>
   static ParameterTable<Owner> parameters(const char* meaning_of_base) {
     return {vector<Owner>("base", &Owner::base, "m", range::any(), meaning_of_base),
-            choice("axis", static_cast<Axis Owner::*>(&Owner::axis), "direction of the axis").is_axis().optional()};
+            choice("axis", static_cast<Axis Owner::*>(&Owner::axis), "direction of the axis")
+                .is_axis()
+                .optional()};
   }
 };
 

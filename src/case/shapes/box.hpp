@@ -17,8 +17,10 @@ class Box final : public Shape {
   Box(const Vector3& lower, const Vector3& upper) : lower_(lower), upper_(upper) {}
 
   static ParameterTable<Box> parameters() {
-    return {vector("lower", &Box::lower_, "m", range::any(), "corner with the smallest coordinates").in_plane(-0.5),
-            vector("upper", &Box::upper_, "m", range::any(), "corner with the largest coordinates").in_plane(0.5)};
+    return {vector("lower", &Box::lower_, "m", range::any(), "corner with the smallest coordinates")
+                .in_plane(-0.5),
+            vector("upper", &Box::upper_, "m", range::any(), "corner with the largest coordinates")
+                .in_plane(0.5)};
   }
   [[nodiscard]] bool contains(const Vector3& point) const override {
     return (point.array() > lower_.array()).all() && (point.array() < upper_.array()).all();

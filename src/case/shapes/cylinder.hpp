@@ -40,10 +40,10 @@ class Cylinder final : public Shape {
     half[axis()] = 0.5 * height_;
     return {center_ - half, center_ + half};
   }
-  [[nodiscard]] double volume() const override {
-    return std::numbers::pi * radius_ * radius_ * height_;
+  [[nodiscard]] double volume() const override { return std::numbers::pi * radius_ * radius_ * height_; }
+  [[nodiscard]] double smallest_extent(const Vector3&) const override {
+    return std::min(2.0 * radius_, height_);
   }
-  [[nodiscard]] double smallest_extent(const Vector3&) const override { return std::min(2.0 * radius_, height_); }
   [[nodiscard]] std::string toml() const override { return shape_as_toml(*this); }
   [[nodiscard]] std::optional<fem::Hexahedra> hexahedra(double size, const Bounds& clip) const override {
     Vector3 base = center_;

@@ -12,15 +12,15 @@ namespace whipple::cases {
 class HalfSpace final : public Shape {
  public:
   static constexpr const char* name = "half_space";
-  static constexpr const char* summary = "everything on one side of a plane; for intersections and differences";
+  static constexpr const char* summary =
+      "everything on one side of a plane; for intersections and differences";
 
   HalfSpace() = default;
   HalfSpace(const Vector3& point, const Vector3& normal) : point_(point), normal_(normal) {}
 
   static ParameterTable<HalfSpace> parameters() {
-    return {
-        vector("point", &HalfSpace::point_, "m", range::any(), "a point of the face"),
-        vector("normal", &HalfSpace::normal_, "", range::any(), "outward direction, any length")};
+    return {vector("point", &HalfSpace::point_, "m", range::any(), "a point of the face"),
+            vector("normal", &HalfSpace::normal_, "", range::any(), "outward direction, any length")};
   }
   [[nodiscard]] bool contains(const Vector3& point) const override {
     return normal_.dot(point - point_) < 0.0;

@@ -11,7 +11,8 @@ namespace whipple::cases {
 class Intersection final : public Shape {
  public:
   static constexpr const char* name = "intersection";
-  static constexpr const char* summary = "intersection of several shapes: intersection = [{ sphere = ... }, ...]";
+  static constexpr const char* summary =
+      "intersection of several shapes: intersection = [{ sphere = ... }, ...]";
   static std::string describe() { return {}; }
   static void schema(input::Schema& value) { schema_of_list(value); }
   static std::unique_ptr<Shape> read(input::Table& holder, const std::string& key) {

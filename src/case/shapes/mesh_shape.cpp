@@ -11,8 +11,8 @@
 #include <limits>
 
 #include "src/core/base/error.hpp"
-#include "src/fem/mesh_file.hpp"
 #include "src/fem/hexahedron.hpp"
+#include "src/fem/mesh_file.hpp"
 
 namespace whipple::cases {
 namespace {
@@ -126,9 +126,8 @@ std::unique_ptr<Shape> shape_of_mesh(const Discretization& control) {
   if (group.empty()) {
     const std::vector<std::string> names = file.group_names(3);
     if (names.size() != 1) {
-      throw InputError(
-          fmt::format("{}: has {} {}s of volumes, name one by discretization.group: {}", control.mesh, names.size(),
-                      file.called(), fmt::join(names, ", ")));
+      throw InputError(fmt::format("{}: has {} {}s of volumes, name one by discretization.group: {}",
+                                   control.mesh, names.size(), file.called(), fmt::join(names, ", ")));
     }
     group = names.front();
   }

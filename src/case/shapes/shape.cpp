@@ -43,19 +43,19 @@ ShapeEntry entry() {
 
 const Catalogue<ShapeEntry>& shape_catalogue() {
   static const Catalogue<ShapeEntry> all("shape", {
-      entry<Sphere>(),
-      entry<Box>(),
-      entry<Cylinder>(),
-      entry<Tube>(),
-      entry<Cone>(),
-      entry<Ogive>(),
-      entry<HalfSpace>(),
-      // Combinations of other shapes.
-      entry<Union>(),
-      entry<Intersection>(),
-      entry<Difference>(),
-      entry<Moved>(),
-  });
+                                                      entry<Sphere>(),
+                                                      entry<Box>(),
+                                                      entry<Cylinder>(),
+                                                      entry<Tube>(),
+                                                      entry<Cone>(),
+                                                      entry<Ogive>(),
+                                                      entry<HalfSpace>(),
+                                                      // Combinations of other shapes.
+                                                      entry<Union>(),
+                                                      entry<Intersection>(),
+                                                      entry<Difference>(),
+                                                      entry<Moved>(),
+                                                  });
   return all;
 }
 

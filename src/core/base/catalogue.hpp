@@ -32,7 +32,8 @@ template <class Interface, class... Arguments>
 struct DeclaredModel {
   /// Builds the model; throws InputError for constants that contradict one another.
   std::function<std::unique_ptr<Interface>(Arguments...)> build;
-  std::vector<std::filesystem::path> companions = {};  ///< files that it reads, by the names that the constants give
+  std::vector<std::filesystem::path> companions =
+      {};  ///< files that it reads, by the names that the constants give
 };
 
 /// One model of a catalogue.
@@ -56,7 +57,8 @@ template <class Entry, class Constants, class Build>
 Entry catalogue_entry(
     std::string_view name, std::string_view summary, std::string_view theory,
     ParameterTable<Constants> (*parameters)(), Build build,
-    std::function<std::vector<std::filesystem::path>(const std::type_identity_t<Constants>&)> companions = nullptr) {
+    std::function<std::vector<std::filesystem::path>(const std::type_identity_t<Constants>&)> companions =
+        nullptr) {
   Entry entry;
   entry.name = name;
   entry.summary = summary;
@@ -77,7 +79,8 @@ template <class Entry>
 class Catalogue {
  public:
   /// @param kind  what an entry is, in messages: "equation of state"
-  Catalogue(std::string kind, std::vector<Entry> entries) : kind_(std::move(kind)), entries_(std::move(entries)) {}
+  Catalogue(std::string kind, std::vector<Entry> entries)
+      : kind_(std::move(kind)), entries_(std::move(entries)) {}
 
   [[nodiscard]] auto begin() const { return entries_.begin(); }
   [[nodiscard]] auto end() const { return entries_.end(); }
@@ -100,8 +103,8 @@ class Catalogue {
   [[nodiscard]] const Entry& at(std::string_view name) const {
     if (const Entry* entry = find(name)) return *entry;
     const std::vector<std::string> known = names();
-    throw InputError(fmt::format("unknown {} {}{}; known: {}", kind_, toml_string(name), did_you_mean(name, known),
-                                 fmt::join(known, ", ")));
+    throw InputError(fmt::format("unknown {} {}{}; known: {}", kind_, toml_string(name),
+                                 did_you_mean(name, known), fmt::join(known, ", ")));
   }
 
   /// Text of `whipple describe KIND [NAME]`: the summaries of all entries, or all about one.

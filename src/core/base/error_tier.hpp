@@ -16,7 +16,9 @@ enum class ErrorTier {
 };
 
 /// Returns whether the scatter over the potentials counts.
-constexpr bool over_potentials(ErrorTier tier) { return tier == ErrorTier::potentials || tier == ErrorTier::all; }
+constexpr bool over_potentials(ErrorTier tier) {
+  return tier == ErrorTier::potentials || tier == ErrorTier::all;
+}
 
 constexpr std::array<Word<ErrorTier>, 4> words(ErrorTier) {
   return {{{ErrorTier::noise, "noise"},

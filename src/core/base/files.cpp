@@ -53,7 +53,7 @@ const fs::path& regular_file(const fs::path& path, std::uintmax_t most) {
   const std::uintmax_t size = fs::file_size(path, error);
   if (!error && size > most) {
     refuse(fmt::format("has {}, but such files have at most {}", format_bytes(static_cast<double>(size)),
-                     format_bytes(static_cast<double>(most))));
+                       format_bytes(static_cast<double>(most))));
   }
   return path;
 }

@@ -96,28 +96,28 @@ std::string Range::text() const {
 
 std::string value_as_toml(const BoundParameter& parameter) {
   const std::string& unit = parameter.info.unit;
-  return std::visit(Overloaded{[&](double* value) { return quantity_as_toml(*value, unit); },
-                               [&](std::int64_t* value) { return fmt::format("{}", *value); },
-                               [&](bool* value) { return std::string(*value ? "true" : "false"); },
-                               [&](std::string* value) { return toml_string(*value); },
-                               [&](Vector3* value) {
-                                 return fmt::format("[{}, {}, {}]", quantity_as_toml((*value)[0], unit),
-                                                    quantity_as_toml((*value)[1], unit),
-                                                    quantity_as_toml((*value)[2], unit));
-                               },
-                               [&](std::vector<double>* values) {
-                                 std::vector<std::string> items;
-                                 for (const double value : *values)
-                                   items.push_back(quantity_as_toml(value, unit));
-                                 return fmt::format("[{}]", fmt::join(items, ", "));
-                               },
-                               [&](std::vector<std::string>* values) {
-                                 std::vector<std::string> items;
-                                 for (const std::string& value : *values) items.push_back(toml_string(value));
-                                 return fmt::format("[{}]", fmt::join(items, ", "));
-                               },
-                               [](const ChoiceTarget& choice) { return toml_string(choice.word(choice.value)); }},
-                    parameter.target);
+  return std::visit(
+      Overloaded{[&](double* value) { return quantity_as_toml(*value, unit); },
+                 [&](std::int64_t* value) { return fmt::format("{}", *value); },
+                 [&](bool* value) { return std::string(*value ? "true" : "false"); },
+                 [&](std::string* value) { return toml_string(*value); },
+                 [&](Vector3* value) {
+                   return fmt::format("[{}, {}, {}]", quantity_as_toml((*value)[0], unit),
+                                      quantity_as_toml((*value)[1], unit),
+                                      quantity_as_toml((*value)[2], unit));
+                 },
+                 [&](std::vector<double>* values) {
+                   std::vector<std::string> items;
+                   for (const double value : *values) items.push_back(quantity_as_toml(value, unit));
+                   return fmt::format("[{}]", fmt::join(items, ", "));
+                 },
+                 [&](std::vector<std::string>* values) {
+                   std::vector<std::string> items;
+                   for (const std::string& value : *values) items.push_back(toml_string(value));
+                   return fmt::format("[{}]", fmt::join(items, ", "));
+                 },
+                 [](const ChoiceTarget& choice) { return toml_string(choice.word(choice.value)); }},
+      parameter.target);
 }
 
 bool is_unset(const BoundParameter& parameter) {

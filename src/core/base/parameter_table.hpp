@@ -84,10 +84,9 @@ struct BoundParameter {
 
 template <class Owner>
 struct Parameter {
-  using Member =
-      std::variant<double Owner::*, std::int64_t Owner::*, bool Owner::*, std::string Owner::*,
-                   Vector3 Owner::*, std::vector<double> Owner::*, std::vector<std::string> Owner::*,
-                   std::function<ParameterTarget(Owner&)>>;
+  using Member = std::variant<double Owner::*, std::int64_t Owner::*, bool Owner::*, std::string Owner::*,
+                              Vector3 Owner::*, std::vector<double> Owner::*,
+                              std::vector<std::string> Owner::*, std::function<ParameterTarget(Owner&)>>;
   ParameterInfo info;
   Member member;
 
@@ -146,7 +145,8 @@ template <class Owner, class Enum>
   requires std::is_enum_v<Enum>
 Parameter<Owner> choice(std::string name, Enum Owner::* member, std::string meaning) {
   return {{std::move(name), "", {}, std::move(meaning), true, word_list<Enum>()},
-          std::function<ParameterTarget(Owner&)>([member](Owner& owner) { return choice_target(owner.*member); })};
+          std::function<ParameterTarget(Owner&)>(
+              [member](Owner& owner) { return choice_target(owner.*member); })};
 }
 /// Three components, each with a unit; the range holds for every component.
 template <class Owner>
@@ -185,13 +185,15 @@ template <class Owner>
 std::vector<BoundParameter> bind(const ParameterTable<Owner>& table, Owner& owner) {
   std::vector<BoundParameter> bound;
   bound.reserve(table.size());
-  for (const Parameter<Owner>& parameter : table) bound.push_back({parameter.info, target_of(parameter, owner)});
+  for (const Parameter<Owner>& parameter : table)
+    bound.push_back({parameter.info, target_of(parameter, owner)});
   return bound;
 }
 
 /// Returns a table with the parameters of a part of its owner at its end.
 template <class Owner, class Part>
-ParameterTable<Owner> with_part(ParameterTable<Owner> table, Part Owner::* part, const ParameterTable<Part>& added) {
+ParameterTable<Owner> with_part(ParameterTable<Owner> table, Part Owner::* part,
+                                const ParameterTable<Part>& added) {
   for (const Parameter<Part>& parameter : added) {
     table.push_back({parameter.info, std::function<ParameterTarget(Owner&)>([part, parameter](Owner& owner) {
                        return target_of(parameter, owner.*part);

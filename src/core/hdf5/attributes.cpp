@@ -113,14 +113,16 @@ std::string Object::text_attribute(const std::string& name) const {
     throw InputError(fmt::format("{}: attribute {} is not a text", name_, name));
   }
   if (H5Tis_variable_str(type.get()) != 0) {
-    throw InputError(fmt::format(
-        "{}: attribute {} is a text of variable length, as earlier versions wrote it; expected one of fixed length",
-        name_, name));
+    throw InputError(
+        fmt::format("{}: attribute {} is a text of variable length, as earlier versions wrote it; expected "
+                    "one of fixed length",
+                    name_, name));
   }
   const std::size_t size = H5Tget_size(type.get());
   const Handle space = checked(H5Aget_space(attribute.get()), H5Sclose, name_, action);
   if (size > file_size(*this) || H5Sget_simple_extent_npoints(space.get()) != 1) {
-    throw InputError(fmt::format("{}: attribute {} is not a single text that the file could hold", name_, name));
+    throw InputError(
+        fmt::format("{}: attribute {} is not a single text that the file could hold", name_, name));
   }
   std::string text(size, '\0');
   check(H5Aread(attribute.get(), type.get(), text.data()), name_, action);

@@ -27,7 +27,8 @@ Handle creation_properties(hid_t kind, const std::string& where);
 Handle transfer_properties(bool collective, const std::string& where);
 
 /// Selects the rows of a slab in a file space; returns the space of the memory.
-Handle select(hid_t space, const Slab& slab, std::uint64_t columns, bool one_dimensional, const std::string& where);
+Handle select(hid_t space, const Slab& slab, std::uint64_t columns, bool one_dimensional,
+              const std::string& where);
 
 /// Returns the size (bytes) of the file that an object is in.
 std::uint64_t file_size(const Object& object);

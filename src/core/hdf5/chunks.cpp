@@ -92,7 +92,8 @@ Chunks::Chunks(const Dataset& dataset, hid_t space) : dataset_(dataset), space_(
   width_ = H5Tget_size(type.get());
   constexpr double most_bytes = 4294967295.0;  // of a chunk in HDF5
   if (H5Pget_chunk(creation.get(), 2, lengths_) < 1 || lengths_[0] == 0 || lengths_[1] == 0 ||
-      static_cast<double>(lengths_[0]) * static_cast<double>(lengths_[1]) * static_cast<double>(width_) > most_bytes) {
+      static_cast<double>(lengths_[0]) * static_cast<double>(lengths_[1]) * static_cast<double>(width_) >
+          most_bytes) {
     throw InputError(name + ": has chunks of no possible size");
   }
   check(H5Dget_num_chunks(dataset.id(), space, &count_), name, "count the chunks");
@@ -134,7 +135,8 @@ std::vector<unsigned char> Chunks::unfolded(std::span<const unsigned char> defla
   if (size > most_compressed * deflated.size()) return {};
   std::vector<unsigned char> chunk(size);
   uLongf inflated = size;
-  if (uncompress(chunk.data(), &inflated, deflated.data(), deflated.size()) != Z_OK || inflated != size) return {};
+  if (uncompress(chunk.data(), &inflated, deflated.data(), deflated.size()) != Z_OK || inflated != size)
+    return {};
   return chunk;
 }
 
@@ -159,7 +161,8 @@ void Chunks::for_each(const Use& use) const {
       whole[c] = filters_.deflate || stored - sum == size ? 1 : 0;
       if (!filters_.deflate) continue;
       part[c].resize(stored);
-      check(H5Dread_chunk(dataset_.id(), H5P_DEFAULT, offset, &skipped, part[c].data()), name, "read a chunk");
+      check(H5Dread_chunk(dataset_.id(), H5P_DEFAULT, offset, &skipped, part[c].data()), name,
+            "read a chunk");
       part[c].resize(stored - sum);
     }
     parallel::for_each_uneven(part.size(), [&](std::size_t c) {

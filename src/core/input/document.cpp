@@ -21,7 +21,7 @@ namespace whipple::input {
 
 struct Document::State {
   std::filesystem::path path;
-  bool needs_units = false;  ///< a bare number has none
+  bool needs_units = false;         ///< a bare number has none
   std::optional<int> section = {};  ///< as of `set_section`
   toml::table root;
   std::vector<InputFault> errors;  // sorted by position when thrown
@@ -147,7 +147,8 @@ std::string axis_in_section(const std::string& word, int first) {
 void read_checked(const BoundParameter& parameter, const toml::node& node, std::optional<int> section) {
   const auto read = [&]<class Value>(Value& value) {
     if constexpr (std::is_same_v<Value, Vector3>) {
-      section ? read_in_section(&value, node, parameter.info, *section) : read_into(&value, node, parameter.info);
+      section ? read_in_section(&value, node, parameter.info, *section)
+              : read_into(&value, node, parameter.info);
     } else {
       read_into(&value, node, parameter.info);
     }
@@ -371,9 +372,9 @@ std::vector<Table> Table::list(std::string_view key) {
   for (std::size_t i = 0; i < array->size(); ++i) {
     toml::table* table = array->get(i)->as_table();
     if (table == nullptr) {
-      state_->error(*array->get(i), joined(key_path(), fmt::format("{}.{}", key, i)),
-                    fmt::format("entry {} of '{}' is {}, expected a table", i, key,
-                                type_name(*array->get(i))));
+      state_->error(
+          *array->get(i), joined(key_path(), fmt::format("{}.{}", key, i)),
+          fmt::format("entry {} of '{}' is {}, expected a table", i, key, type_name(*array->get(i))));
       continue;
     }
     state_->known_keys[table];

@@ -100,7 +100,8 @@ void check_content(const Content& content, const Root& root, const Faults& fault
     if (!fault.empty()) faults.add(parameter.info.name, fmt::format("'{}' {}", parameter.info.name, fault));
   }
   if constexpr (detail::HasSections<Content>) {
-    for (const Section<Content, Root>& section : Content::sections()) section.check(section, content, root, faults);
+    for (const Section<Content, Root>& section : Content::sections())
+      section.check(section, content, root, faults);
   }
   if constexpr (requires { content.check(root, faults); }) content.check(root, faults);
 }
@@ -145,7 +146,9 @@ Section<Owner, Root> section(const char* name, const char* remark = "",
   using Holder = decltype(detail::holder_of(Member));
   using Holding = detail::Holding<Holder>;
   using Content = typename Holding::Content;
-  return {name, remark, applies,
+  return {name,
+          remark,
+          applies,
           [](const Section<Owner, Root>& self, Owner& owner, const Root& root, Table& table) {
             Holder& holder = owner.*Member;
             if constexpr (Holding::is_list) {

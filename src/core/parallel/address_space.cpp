@@ -14,9 +14,9 @@ void require_address_space(int threads) {
   const rlim_t needed = of_mpi + of_a_thread * static_cast<rlim_t>(threads - 1);
   rlimit limit = {};
   if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur >= needed * megabyte) return;
-  throw ResourceError(
-      fmt::format("the address space of a process is limited to {} MB (ulimit -v); MPI and {} thread{} need {} MB",
-                  limit.rlim_cur / megabyte, threads, threads == 1 ? "" : "s", needed));
+  throw ResourceError(fmt::format(
+      "the address space of a process is limited to {} MB (ulimit -v); MPI and {} thread{} need {} MB",
+      limit.rlim_cur / megabyte, threads, threads == 1 ? "" : "s", needed));
 }
 
 }  // namespace whipple::parallel

@@ -20,9 +20,10 @@ namespace {
 /// end the process without a word.
 void on_exhausted_memory() {
   if (omp_get_level() == 0) throw std::bad_alloc();
-  std::fputs("whipple: error: the memory that this process may use is exhausted; a run goes on from its last "
-             "checkpoint with --restart\n",
-             stderr);
+  std::fputs(
+      "whipple: error: the memory that this process may use is exhausted; a run goes on from its last "
+      "checkpoint with --restart\n",
+      stderr);
   std::fflush(stderr);
   std::_Exit(static_cast<int>(ExitCode::state));
 }

@@ -35,9 +35,10 @@ int mpirun(int ranks, const std::vector<std::string>& program, const Environment
   constexpr int always_allowed = 16;
   const int processors = usable_processors(), most = std::max(always_allowed, 4 * processors);
   if (ranks > most) {
-    throw InputError(fmt::format("{} ranks on a machine whose {} processors this process may use: at most {}; "
-                                 "on several machines start them by mpirun {} ...",
-                                 ranks, processors, most, program.front()));
+    throw InputError(
+        fmt::format("{} ranks on a machine whose {} processors this process may use: at most {}; "
+                    "on several machines start them by mpirun {} ...",
+                    ranks, processors, most, program.front()));
   }
   // mpirun passes SIGUSR2 on and waits, upon which a run saves its state; after SIGTERM and SIGINT it kills
   // its ranks within a second. Ranks without mpirun are lost.
@@ -58,7 +59,8 @@ int mpirun(int ranks, const std::vector<std::string>& program, const Environment
     all.emplace_back("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
   }
   log::detail("{}", fmt::join(arguments, " "));
-  const int code = run_process(arguments, all, {.end_signal = SIGUSR2, .may_be_killed = true, .patience = 10.0});
+  const int code =
+      run_process(arguments, all, {.end_signal = SIGUSR2, .may_be_killed = true, .patience = 10.0});
   if (const int signal = last_signal(); code > 128 && (signal == SIGINT || signal == SIGTERM))
     return 128 + signal;
   // A rank that was killed cannot say so, and mpirun --quiet does not.

@@ -8,8 +8,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -212,7 +212,8 @@ void start_in_background(const std::vector<std::string>& arguments, const std::f
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
   posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, output.c_str(), O_WRONLY | O_CREAT | O_APPEND, readable);
+  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, output.c_str(), O_WRONLY | O_CREAT | O_APPEND,
+                                   readable);
   posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
@@ -223,8 +224,8 @@ void start_in_background(const std::vector<std::string>& arguments, const std::f
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&files);
   if (fault != 0) {
-    throw InputError(fmt::format("cannot start '{}' with its output in {}: {}", arguments.front(), output.string(),
-                                 std::strerror(fault)));
+    throw InputError(fmt::format("cannot start '{}' with its output in {}: {}", arguments.front(),
+                                 output.string(), std::strerror(fault)));
   }
   started.push_back(pid);
 }

@@ -32,7 +32,8 @@ WHIPPLE_KERNEL void burn(const EosStrength& model, const Step& in, Chunk& out) {
   for (std::size_t k = 0; k < out.size; ++k) {
     const bool lit = lighting[k] >= 0.0, near = lit && time > lighting[k] - early;
     const double of_time = burnt_since(lighting[k], time, rate);
-    const double compression = std::clamp((1.0 - explosive.density / out.density[k]) * per_compression, 0.0, 1.0);
+    const double compression =
+        std::clamp((1.0 - explosive.density / out.density[k]) * per_compression, 0.0, 1.0);
     const double of_volume = by_volume && (near || !gated) ? compression : 0.0;
     const double now = std::max({fraction[k], of_time, of_volume});
     fraction[k] = now > burnt ? 1.0 : now;
@@ -49,7 +50,8 @@ void react(const EosStrength& model, const Step& in, Chunk& out) {
   Lanes& fraction = out.history[model.burn_fraction];
   Lanes compression;
   for (std::size_t k = 0; k < out.size; ++k) compression[k] = out.density[k] / explosive.density;
-  explosive.reaction->advance({in.settings.time_step, out.view(compression), out.view(out.pressure)}, out.view(fraction));
+  explosive.reaction->advance({in.settings.time_step, out.view(compression), out.view(out.pressure)},
+                              out.view(fraction));
   for (std::size_t k = 0; k < out.size; ++k) {
     const double now = std::max(fraction[k], burnt_since(lighting[k], in.settings.time, rate));
     fraction[k] = now > burnt ? 1.0 : now;
@@ -57,9 +59,9 @@ void react(const EosStrength& model, const Step& in, Chunk& out) {
 }
 
 void evaluate_burning(const EosStrength& model, const Step& in, Chunk& out) {
-  const eos::Batch batch{out.view(out.density),         out.view(out.energy), out.view(out.pressure),
-                         out.view(out.temperature),     out.view(out.bulk_sound_speed),
-                         out.view(out.melted),          out.view(out.vaporised)};
+  const eos::Batch batch{out.view(out.density),     out.view(out.energy),           out.view(out.pressure),
+                         out.view(out.temperature), out.view(out.bulk_sound_speed), out.view(out.melted),
+                         out.view(out.vaporised)};
   const auto fraction = out.view(out.history[model.burn_fraction]);
   book(out, in.energy == Energy::from_grid
                 ? model.burn->evaluate(batch, fraction)

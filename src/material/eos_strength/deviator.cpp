@@ -50,7 +50,8 @@ void mask_to_solids(const Chunk& chunk, std::span<Lanes, 6> tensors) {
 /// Modulus and elastic trial of a chunk with solids.
 void find_trial(const Step& step, Chunk& chunk) {
   Kinematics& motion = chunk.motion;
-  step.material.strength->shear_modulus(chunk.strength_state(chunk.old_density), chunk.view(chunk.solid_modulus));
+  step.material.strength->shear_modulus(chunk.strength_state(chunk.old_density),
+                                        chunk.view(chunk.solid_modulus));
   for (std::size_t k = 0; k < chunk.size; ++k) {
     motion.modulus[k] = chunk.solid_modulus[k] * chunk.solid_fraction[k];
   }
@@ -62,9 +63,9 @@ void find_trial(const Step& step, Chunk& chunk) {
 
 /// Increments of the plastic strain. @param modulus  that the return sees
 void find_increment(const Step& step, Chunk& chunk, Lanes& modulus) {
-  step.material.strength->plastic_increment(chunk.strength_state(chunk.old_density), chunk.view(chunk.motion.trial),
-                                            chunk.view(modulus), chunk.view(chunk.solid_fraction),
-                                            step.settings.time_step, chunk.view(chunk.increment));
+  step.material.strength->plastic_increment(
+      chunk.strength_state(chunk.old_density), chunk.view(chunk.motion.trial), chunk.view(modulus),
+      chunk.view(chunk.solid_fraction), step.settings.time_step, chunk.view(chunk.increment));
 }
 
 /// Books the fraction of the plastic work per volume (J/m^3) that does not become heat (eq. 24).

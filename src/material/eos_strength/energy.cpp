@@ -46,9 +46,13 @@ void take_cold_work(const EosStrength& model, const Step&, Chunk& out) {
   for (std::size_t k = 0; k < out.size; ++k) out.energy[k] -= stored[k];
 }
 
-void evaluate_simple(const EosStrength&, const Step& in, Chunk& out) { evaluate_equation_of_state<false>(in, out); }
+void evaluate_simple(const EosStrength&, const Step& in, Chunk& out) {
+  evaluate_equation_of_state<false>(in, out);
+}
 
-void evaluate_phases(const EosStrength&, const Step& in, Chunk& out) { evaluate_equation_of_state<true>(in, out); }
+void evaluate_phases(const EosStrength&, const Step& in, Chunk& out) {
+  evaluate_equation_of_state<true>(in, out);
+}
 
 void evaluate_porous(const EosStrength& model, const Step& in, Chunk& out) {
   evaluate_distended<false>(model, in, out);

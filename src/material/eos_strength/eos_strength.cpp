@@ -13,27 +13,50 @@
 namespace whipple::material {
 namespace {
 
-const HistoryField damage_field = {"damage", "1", "of failure criteria with a past: 0 none, 1 failed", Rank::scalar,
-                                   Convection::kept, 0.0, {.lower = 0.0, .upper = 1.0 + 1e-9}};
-const HistoryField distension_field = {"distension", "1", "volume over that of the material without its pores",
-                                       Rank::scalar, Convection::kept, 1.0, {.lower = 0.0, .lower_open = true}};
+const HistoryField damage_field = {"damage",
+                                   "1",
+                                   "of failure criteria with a past: 0 none, 1 failed",
+                                   Rank::scalar,
+                                   Convection::kept,
+                                   0.0,
+                                   {.lower = 0.0, .upper = 1.0 + 1e-9}};
+const HistoryField distension_field = {"distension",
+                                       "1",
+                                       "volume over that of the material without its pores",
+                                       Rank::scalar,
+                                       Convection::kept,
+                                       1.0,
+                                       {.lower = 0.0, .lower_open = true}};
 const HistoryField back_stress_field = {"back_stress", "Pa", "centre of the yield surface, xx yy zz xy yz zx",
                                         Rank::symmetric_tensor, Convection::corotated};
-const HistoryField strain_field = {"strain", "1", "logarithmic strain, rotated with the material, xx yy zz xy yz zx",
+const HistoryField strain_field = {"strain", "1",
+                                   "logarithmic strain, rotated with the material, xx yy zz xy yz zx",
                                    Rank::symmetric_tensor, Convection::corotated};
 const HistoryField cold_work_field = {"stored_cold_work", "J/kg", "plastic work that did not become heat"};
 
-const HistoryField burn_fraction_field = {"burn_fraction", "1", "of an explosive: 0 unreacted, 1 burnt to products",
-                                          Rank::scalar, Convection::kept, 0.0, {.lower = 0.0, .upper = 1.0}};
-const HistoryField lighting_time_field = {"lighting_time", "s", "when the detonation arrives at an explosive; -1: never",
-                                          Rank::scalar, Convection::kept, never, {.lower = never}};
+const HistoryField burn_fraction_field = {"burn_fraction",
+                                          "1",
+                                          "of an explosive: 0 unreacted, 1 burnt to products",
+                                          Rank::scalar,
+                                          Convection::kept,
+                                          0.0,
+                                          {.lower = 0.0, .upper = 1.0}};
+const HistoryField lighting_time_field = {"lighting_time",
+                                          "s",
+                                          "when the detonation arrives at an explosive; -1: never",
+                                          Rank::scalar,
+                                          Convection::kept,
+                                          never,
+                                          {.lower = never}};
 
 void share_of_damage(const EosStrength& model, const Chunk& chunk, Lanes& share) {
   const Lanes& damage = chunk.history[model.damage];
   for (std::size_t k = 0; k < chunk.size; ++k) share[k] = chunk.intact[k] == 0.0 ? 1.0 : damage[k];
 }
 
-void whole_share(const EosStrength&, const Chunk& chunk, Lanes& share) { std::fill_n(share.data(), chunk.size, 1.0); }
+void whole_share(const EosStrength&, const Chunk& chunk, Lanes& share) {
+  std::fill_n(share.data(), chunk.size, 1.0);
+}
 
 template <class Property>
 bool any_criterion(const Material& material, Property property) {
@@ -47,15 +70,16 @@ bool is_brittle(const Material& material) { return material.strength->brittle() 
 }  // namespace
 
 std::vector<HistoryField> EosStrength::fields() {
-  return {damage_field, distension_field, back_stress_field, strain_field, cold_work_field,
-          burn_fraction_field, lighting_time_field};
+  return {damage_field,    distension_field,    back_stress_field,  strain_field,
+          cold_work_field, burn_fraction_field, lighting_time_field};
 }
 
 EosStrength::EosStrength(const Material& material) : burn(material.burn) {
   if (is_brittle(material) || any_criterion(material, [](const auto& c) { return c.accumulates(); })) {
     damage = declare(damage_field);
   }
-  if (material.eos->initial_distension() > 1.0 || (is_brittle(material) && material.strength->brittle()->bulks())) {
+  if (material.eos->initial_distension() > 1.0 ||
+      (is_brittle(material) && material.strength->brittle()->bulks())) {
     distension = declare(distension_field);
   }
   if (material.strength->kinematic_modulus() > 0.0) back_stress = declare(back_stress_field);
@@ -140,14 +164,16 @@ std::shared_ptr<const Constitutive> EosStrength::adapted(const Material& materia
 }
 
 double EosStrength::sound_speed(const Material& material, const eos::State& state) const {
-  const std::array rho = {state.density}, p = {state.pressure}, kelvin = {state.temperature}, strain_of = {0.0};
+  const std::array rho = {state.density}, p = {state.pressure}, kelvin = {state.temperature},
+                   strain_of = {0.0};
   std::array<double, 1> modulus = {};
   material.strength->shear_modulus({rho, p, kelvin, strain_of}, modulus);
   const double solid = shear_bearing_fraction(state.melted_fraction, state.vaporised_fraction);
   return std::sqrt(state.sound_speed * state.sound_speed + 4.0 / 3.0 * solid * modulus[0] / state.density);
 }
 
-void EosStrength::start(const eos::State& state, MaterialPoints& points, std::size_t begin, std::size_t end) const {
+void EosStrength::start(const eos::State& state, MaterialPoints& points, std::size_t begin,
+                        std::size_t end) const {
   if (distension == undeclared) return;
   std::vector<double>& values = points.history.scalar(distension_field.name);
   for (std::size_t i = begin; i < end; ++i) values[i] = state.distension;

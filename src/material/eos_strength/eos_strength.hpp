@@ -26,7 +26,8 @@ class EosStrength final : public Constitutive {
   [[nodiscard]] std::string constants(const Material& material) const override;
   [[nodiscard]] std::shared_ptr<const Constitutive> adapted(const Material& material) const override;
   [[nodiscard]] double sound_speed(const Material& material, const eos::State& state) const override;
-  void start(const eos::State& state, MaterialPoints& points, std::size_t begin, std::size_t end) const override;
+  void start(const eos::State& state, MaterialPoints& points, std::size_t begin,
+             std::size_t end) const override;
   void void_share(const Chunk& chunk, Lanes& share) const override;
   void update(const Step& in, Chunk& out) const override;
 

@@ -37,7 +37,8 @@ Porous share_volume(const Porous& points, Four modulus, Four opening, Four least
   const Four relaxed = volume + strain * volume, excess = total - relaxed;
   const LanesMask whole = opening == 1.0, open = excess > 0.0;
   const LanesMask beyond = (opening > 0.0) & open & (strain != wanted);
-  limited += static_cast<std::size_t>(std::popcount(bits(beyond) & ((1U << std::min<std::size_t>(count, 4)) - 1U)));
+  limited +=
+      static_cast<std::size_t>(std::popcount(bits(beyond) & ((1U << std::min<std::size_t>(count, 4)) - 1U)));
   const Four matter = select(whole, relaxed, total - opening * excess);
   const Four cracked = minimum(pressure + modulus * (volume - matter) / volume, Four{});
   const Four closed = maximum(pressure - modulus * points.void_volume / volume, least);
@@ -69,8 +70,8 @@ inline void lose_strength(const EosStrength& model, Chunk& chunk, const Lanes& b
     const Four opening = select(loose, broadcast(1.0), damage);
     const Four least = brittle ? select(failed, Four{}, of(chunk.least_pressure)) : Four{};
     const Porous before = {of(chunk.acting_pressure), of(chunk.volume), of(chunk.void_volume)};
-    const Porous shared =
-        share_volume(before, density * of(bulk), opening, least, chunk.size - k, chunk.report.limited_void_steps);
+    const Porous shared = share_volume(before, density * of(bulk), opening, least, chunk.size - k,
+                                       chunk.report.limited_void_steps);
     const LanesMask parts = opening > 0.0;
     const Four pressure = select(parts, shared.pressure, before.pressure);
     const Four void_volume = select(parts, shared.void_volume, before.void_volume);
@@ -101,7 +102,8 @@ double lost_energy(const Chunk& chunk) {
   double sum = 0.0;
   for (std::size_t k = 0; k < chunk.size; ++k) {
     const double lost = 1.0 - chunk.kept[k] * chunk.kept[k], modulus = chunk.motion.modulus[k];
-    const double energy = tensor(chunk.motion.deviator, k).squared_norm() / (4.0 * (modulus > 0.0 ? modulus : 1.0));
+    const double energy =
+        tensor(chunk.motion.deviator, k).squared_norm() / (4.0 * (modulus > 0.0 ? modulus : 1.0));
     sum += modulus > 0.0 ? lost * energy * chunk.volume[k] : 0.0;
   }
   return sum;

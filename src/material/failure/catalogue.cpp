@@ -35,16 +35,16 @@ CriterionEntry entry() {
 
 const Catalogue<CriterionEntry>& catalogue() {
   static const Catalogue<CriterionEntry> all("failure criterion", {
-      entry<TensilePressure>(),
-      entry<TulerButcher>(),
-      entry<ViscousVoidGrowth>(),
-      entry<PlasticStrain>(),
-      entry<PrincipalStress>(),
-      entry<PrincipalStrain>(),
-      entry<JohnsonCookDamage>(),
-      entry<GradyKipp>(),
-      entry<Gurson>(),
-  });
+                                                                      entry<TensilePressure>(),
+                                                                      entry<TulerButcher>(),
+                                                                      entry<ViscousVoidGrowth>(),
+                                                                      entry<PlasticStrain>(),
+                                                                      entry<PrincipalStress>(),
+                                                                      entry<PrincipalStrain>(),
+                                                                      entry<JohnsonCookDamage>(),
+                                                                      entry<GradyKipp>(),
+                                                                      entry<Gurson>(),
+                                                                  });
   return all;
 }
 
@@ -59,7 +59,8 @@ const std::string& code_meanings() {
     std::map<int, std::string> causes;  // criteria of one cause share a code
     for (const CriterionEntry& entry : catalogue()) causes[entry.code] = entry.cause;
     std::string words;
-    for (const auto& [code, cause] : causes) words += fmt::format("{}{} {}", words.empty() ? "" : ", ", code, cause);
+    for (const auto& [code, cause] : causes)
+      words += fmt::format("{}{} {}", words.empty() ? "" : ", ", code, cause);
     return fmt::format("{} intact; failed by {}", static_cast<int>(intact), words);
   }();
   return text;

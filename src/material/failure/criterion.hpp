@@ -27,7 +27,8 @@ enum Code : std::uint8_t {
   void_growth = 7,       ///< growth and coalescence of voids
   spalled = 8,           ///< accumulated tension
 };
-constexpr std::size_t code_count = 16;  ///< that there is room for: a law may take the next free one, `Code{9}`
+constexpr std::size_t code_count =
+    16;  ///< that there is room for: a law may take the next free one, `Code{9}`
 
 /// Components xx, yy, zz, xy, yz, zx of a symmetric tensor, one entry per point.
 template <class Number>

@@ -79,7 +79,8 @@ struct Gurson {
       throw InputError("'initial_porosity' must be below 'failure_porosity'");
     }
     if (q1 * effective(failure_porosity) > 1.0 + 1e-12) {
-      throw InputError("'failure_porosity' times 'q1' exceeds 1: the material has no strength left before it");
+      throw InputError(
+          "'failure_porosity' times 'q1' exceeds 1: the material has no strength left before it");
     }
   }
   /// f*

@@ -35,12 +35,13 @@ struct TensilePressure : Threshold {
 
   static ParameterTable<TensilePressure> parameters() {
     using P = TensilePressure;
-    return {real("spall_strength", &P::spall_strength, "Pa", range::non_negative(),
-                 "tensile pressure p_cut at which the solid parts"),
-            choice("response", &P::response,
-                   "what the point loses: tension and deviator permanently, both while it is open, or only the "
-                   "tension beyond p_cut")
-                .optional()};
+    return {
+        real("spall_strength", &P::spall_strength, "Pa", range::non_negative(),
+             "tensile pressure p_cut at which the solid parts"),
+        choice("response", &P::response,
+               "what the point loses: tension and deviator permanently, both while it is open, or only the "
+               "tension beyond p_cut")
+            .optional()};
   }
   static constexpr const char* name = "tensile_pressure";
   static constexpr Code code = tensile;

@@ -45,9 +45,7 @@ struct TulerButcher {
         real("exponent", &P::exponent, "", range::positive(), "lambda").optional(),
         real("time", &P::time, "s", range::positive(),
              "tau = K/sigma_0^lambda: time to failure under twice the threshold"),
-        choice("measure", &P::measure,
-               "the tension sigma: the largest principal stress or -p")
-            .optional(),
+        choice("measure", &P::measure, "the tension sigma: the largest principal stress or -p").optional(),
         boolean("healing", &P::healing, "points whose void pressure has closed are whole again").optional()};
   }
   static constexpr const char* name = "tuler_butcher";

@@ -56,7 +56,8 @@ struct ViscousVoidGrowth : Threshold {
       "P = p/alpha, alpha = 1 + nuclei + void/material; resistance times (1 - melted fraction) * scatter "
       "factor. "
       "The deviator of the\n"
-      "material stays, compression closes the voids; fails (code 7) at failure_porosity, melted material (code "
+      "material stays, compression closes the voids; fails (code 7) at failure_porosity, melted material "
+      "(code "
       "1) "
       "where p < 0.\n"
       "Source: Johnson, J. Appl. Phys. 52 (1981) 2812; Carroll and Holt, J. Appl. Phys. 43 (1972) 1626.";

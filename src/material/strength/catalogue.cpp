@@ -22,27 +22,29 @@ namespace {
 /// `Constants` has name, summary, theory and parameters(); `Law` is made from them.
 template <class Constants, class Law>
 ModelEntry entry() {
-  return catalogue_entry<ModelEntry>(Constants::name, Constants::summary, Constants::theory, &Constants::parameters,
-                                     [](const Constants& constants) { return std::make_unique<const Law>(constants); });
+  return catalogue_entry<ModelEntry>(
+      Constants::name, Constants::summary, Constants::theory, &Constants::parameters,
+      [](const Constants& constants) { return std::make_unique<const Law>(constants); });
 }
 
 }  // namespace
 
 const Catalogue<ModelEntry>& catalogue() {
-  static const Catalogue<ModelEntry> all("strength model", {
-      entry<None, NoneModel>(),
-      entry<ViscousFluid, ViscousFluidModel>(),
-      entry<Elastic, ElasticModel>(),
-      entry<VonMises, VonMisesModel>(),
-      entry<PowerLaw, PowerLawModel>(),
-      entry<Voce, VoceModel>(),
-      entry<JohnsonCook, JohnsonCookModel>(),
-      entry<SteinbergGuinan, SteinbergGuinanModel>(),
-      entry<ZerilliArmstrong, ZerilliArmstrongModel>(),
-      entry<HolmquistJohnsonCook, HolmquistJohnsonCookModel>(),
-      entry<RiedelHiermaierThoma, RiedelHiermaierThomaModel>(),
-      entry<JohnsonHolmquist2, JohnsonHolmquist2Model>(),
-  });
+  static const Catalogue<ModelEntry> all("strength model",
+                                         {
+                                             entry<None, NoneModel>(),
+                                             entry<ViscousFluid, ViscousFluidModel>(),
+                                             entry<Elastic, ElasticModel>(),
+                                             entry<VonMises, VonMisesModel>(),
+                                             entry<PowerLaw, PowerLawModel>(),
+                                             entry<Voce, VoceModel>(),
+                                             entry<JohnsonCook, JohnsonCookModel>(),
+                                             entry<SteinbergGuinan, SteinbergGuinanModel>(),
+                                             entry<ZerilliArmstrong, ZerilliArmstrongModel>(),
+                                             entry<HolmquistJohnsonCook, HolmquistJohnsonCookModel>(),
+                                             entry<RiedelHiermaierThoma, RiedelHiermaierThomaModel>(),
+                                             entry<JohnsonHolmquist2, JohnsonHolmquist2Model>(),
+                                         });
   return all;
 }
 

@@ -101,7 +101,8 @@ struct RiedelHiermaierThoma : ElasticConstants {
   void require_consistent() const {
     if (!(relative_tensile_strength * shear_meridian() < relative_shear_strength * lode_ratio)) {
       throw InputError(
-          "'relative_shear_strength' is too small compared with 'relative_tensile_strength': the failure surface "
+          "'relative_shear_strength' is too small compared with 'relative_tensile_strength': the failure "
+          "surface "
           "would not "
           "close in tension");
     }

@@ -28,11 +28,13 @@ void Checkpoints::end(const Moment& moment, Outcome& outcome) {
       outcome.message += fmt::format("\n  the state could not be saved: {}", error.what());
     }
   } else if (outcome.kind == Outcome::Kind::out_of_resources) {
-    outcome.message += io::list_checkpoints(directory_.checkpoint_folder()).empty()
-                           ? "; no checkpoint had been written"
-                           : fmt::format("; once space is available resume from the last checkpoint with: whipple run "
-                                         "--restart {}",
-                                         directory_.path().string());
+    outcome.message +=
+        io::list_checkpoints(directory_.checkpoint_folder()).empty()
+            ? "; no checkpoint had been written"
+            : fmt::format(
+                  "; once space is available resume from the last checkpoint with: whipple run "
+                  "--restart {}",
+                  directory_.path().string());
   }
 }
 

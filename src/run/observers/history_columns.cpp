@@ -31,7 +31,8 @@ std::string_view bounds_text() {
   static const std::string text = [] {
     std::string list = "bound that determined the time step:";
     for (const auto& [bound, name] : words(solver::TimeStepBound{})) {
-      list += fmt::format("{} {} {}", bound == solver::TimeStepBound::none ? "" : ",", static_cast<int>(bound), name);
+      list += fmt::format("{} {} {}", bound == solver::TimeStepBound::none ? "" : ",",
+                          static_cast<int>(bound), name);
     }
     return list;
   }();
@@ -186,7 +187,8 @@ std::vector<HistoryColumn> columns_of(const Parts& parts) {
   const auto add_for_bodies = [&](std::span<const BodyColumn> group) {
     for (std::size_t b = 0; b < parts.bodies.size(); ++b) {
       for (const BodyColumn& c : group) {
-        columns.push_back({fmt::format("{}.{}", c.name, parts.bodies[b]), std::string(c.unit), std::string(c.meaning),
+        columns.push_back({fmt::format("{}.{}", c.name, parts.bodies[b]), std::string(c.unit),
+                           std::string(c.meaning),
                            [value = c.value, b](const Source& s) { return value(s, b); }});
       }
     }
@@ -207,7 +209,8 @@ std::vector<HistoryColumn> columns_of(const Parts& parts) {
 }
 
 bool stores_cold_work(const cases::Case& setup) {
-  return std::ranges::any_of(setup.materials, [](const auto& material) { return material->stores_cold_work(); });
+  return std::ranges::any_of(setup.materials,
+                             [](const auto& material) { return material->stores_cold_work(); });
 }
 
 }  // namespace
@@ -232,11 +235,11 @@ HistorySource::HistorySource(const solver::Simulation& simulation)
   std::tie(figures.speed, figures.pressure, figures.temperature) = std::tuple_cat(maxima);
   const cases::Case& setup = simulation.setup();
   if (setup.has_bars() || setup.has_burn() || stores_cold_work(setup)) {
-    std::array<double, 5> sums = {figures.stored_cold_work, figures.chemical_energy, figures.bars, figures.broken_bars,
-                                  figures.bar_energy};
+    std::array<double, 5> sums = {figures.stored_cold_work, figures.chemical_energy, figures.bars,
+                                  figures.broken_bars, figures.bar_energy};
     parallel::sum(simulation.communicator(), sums);
-    std::tie(figures.stored_cold_work, figures.chemical_energy, figures.bars, figures.broken_bars, figures.bar_energy) =
-        std::tuple_cat(sums);
+    std::tie(figures.stored_cold_work, figures.chemical_energy, figures.bars, figures.broken_bars,
+             figures.bar_energy) = std::tuple_cat(sums);
   }
 }
 

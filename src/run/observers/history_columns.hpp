@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "src/io/history.hpp"
 #include "src/case/case.hpp"
+#include "src/io/history.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple::run {

@@ -11,7 +11,8 @@ namespace whipple::run {
 /// restart goes on with it.
 class InputRecord : public RunObserver {
  public:
-  InputRecord(const io::RunDirectory& directory, const io::Ranks& ranks) : directory_(directory), ranks_(ranks) {}
+  InputRecord(const io::RunDirectory& directory, const io::Ranks& ranks)
+      : directory_(directory), ranks_(ranks) {}
 
   void after_step(const Moment& moment) override;
 

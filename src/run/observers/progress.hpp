@@ -22,10 +22,11 @@ class ProgressBar : public RunObserver {
     if (!bar_) return;
     if (moment.schedule.end != end_) start(moment);
     const solver::RunState& state = moment.simulation.state();
-    bar_->update(state.time,
-                 fmt::format("step {}, t = {:.3f} us, dt = {:.2f} ns, {} particles, dE/E = {:.1e}{}", state.step,
-                             1e6 * state.time, 1e9 * state.time_step, moment.simulation.particle_count(),
-                             state.ledger.energy_error(moment.simulation.totals()), moment.paused ? ", paused" : ""));
+    bar_->update(
+        state.time,
+        fmt::format("step {}, t = {:.3f} us, dt = {:.2f} ns, {} particles, dE/E = {:.1e}{}", state.step,
+                    1e6 * state.time, 1e9 * state.time_step, moment.simulation.particle_count(),
+                    state.ledger.energy_error(moment.simulation.totals()), moment.paused ? ", paused" : ""));
   }
   /// Ends the line before others are written.
   void end(const Moment&, Outcome&) override { bar_.reset(); }

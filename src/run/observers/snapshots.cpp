@@ -53,8 +53,8 @@ std::int64_t next_multiple(double time, double every) {
 
 }  // namespace
 
-SnapshotFiles::SnapshotFiles(const cases::Case& setup, const io::RunDirectory& directory, const fs::path& folder,
-                             MPI_Comm communicator)
+SnapshotFiles::SnapshotFiles(const cases::Case& setup, const io::RunDirectory& directory,
+                             const fs::path& folder, MPI_Comm communicator)
     : particles_(series_options(setup, directory, folder), communicator) {
   if (setup.has_elements() || setup.has_bars())
     elements_.emplace(series_options(setup, directory, folder), communicator);
@@ -136,8 +136,8 @@ void Snapshots::end(const Moment& moment, Outcome& outcome) {
     SnapshotFiles(moment.simulation.setup(), directory_, folder, moment.simulation.communicator())
         .write(moment.simulation);
   } else if (ranks_.is_root()) {
-    log::info("wrote {} ({} snapshots: open {} in ParaView)", directory_.path().string(), files_.particles().size(),
-              files_.particles().index_path().string());
+    log::info("wrote {} ({} snapshots: open {} in ParaView)", directory_.path().string(),
+              files_.particles().size(), files_.particles().index_path().string());
   }
 }
 

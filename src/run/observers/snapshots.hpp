@@ -19,8 +19,8 @@ namespace whipple::run {
 class SnapshotFiles {
  public:
   /// Reads run.toml for their provenance. @param folder  where they go
-  SnapshotFiles(const cases::Case& setup, const io::RunDirectory& directory, const std::filesystem::path& folder,
-                MPI_Comm communicator);
+  SnapshotFiles(const cases::Case& setup, const io::RunDirectory& directory,
+                const std::filesystem::path& folder, MPI_Comm communicator);
 
   /// Drops what is later than a checkpoint. Collective.
   void restart(double time);

@@ -18,10 +18,13 @@ constexpr std::chrono::seconds interval{1};
 
 Activity state_of(Outcome::Kind kind) {
   switch (kind) {
-    case Outcome::Kind::done: return Activity::done;
-    case Outcome::Kind::stopped: return Activity::stopped;
+    case Outcome::Kind::done:
+      return Activity::done;
+    case Outcome::Kind::stopped:
+      return Activity::stopped;
     case Outcome::Kind::left_range:
-    case Outcome::Kind::out_of_resources: break;
+    case Outcome::Kind::out_of_resources:
+      break;
   }
   return Activity::failed;
 }
@@ -49,16 +52,17 @@ void StatusFile::write(const Moment& moment, Activity state, const std::string& 
   written_ = state;
   written_at_ = Clock::now();
   try {
-    write_status(file_, {.state = state,
-                         .time = moment.time(),
-                         .step = moment.step(),
-                         .time_step = moment.simulation.state().time_step,
-                         .end = moment.schedule.end,
-                         .wall_time = moment.wall_time,
-                         .time_left = done > 0.0 ? std::optional(moment.wall_time * left / done) : std::nullopt,
-                         .revision = program_,
-                         .message = message,
-                         .written = fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::time(nullptr)))});
+    write_status(file_,
+                 {.state = state,
+                  .time = moment.time(),
+                  .step = moment.step(),
+                  .time_step = moment.simulation.state().time_step,
+                  .end = moment.schedule.end,
+                  .wall_time = moment.wall_time,
+                  .time_left = done > 0.0 ? std::optional(moment.wall_time * left / done) : std::nullopt,
+                  .revision = program_,
+                  .message = message,
+                  .written = fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::time(nullptr)))});
   } catch (const InputError& error) {  // nothing of the results; the other ranks know of no error
     log::warning("{}", error.what());
   }

@@ -33,7 +33,7 @@ class StatusFile : public RunObserver {
   std::filesystem::path file_;
   std::string program_;
   io::Ranks ranks_;
-  double first_time_ = 0.0;  // s, simulated, at the start of this process
+  double first_time_ = 0.0;          // s, simulated, at the start of this process
   std::optional<Activity> written_;  // state
   Clock::time_point written_at_;
 };

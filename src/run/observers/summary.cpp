@@ -46,9 +46,10 @@ void tell(const Moment& moment) {
     if (count > 0.0) log::info("{}: {:.0f} times", limiter.meaning, count);
   }
   if (totals.unresolved_share() > much_unresolved) {
-    log::info("{:.3g} % of the kinetic energy is motion that the cells do not resolve: finer cells would change "
-              "the result",
-              100.0 * totals.unresolved_share());
+    log::info(
+        "{:.3g} % of the kinetic energy is motion that the cells do not resolve: finer cells would change "
+        "the result",
+        100.0 * totals.unresolved_share());
   }
 }
 
@@ -59,8 +60,8 @@ void Summary::end(const Moment& moment, Outcome& outcome) {
   ranks_.on_root([&] {
     io::write_text_atomically(directory_.profile_file(), profile_as_json(moment, profile_));
     if (outcome.kind == Outcome::Kind::stopped) {
-      log::info("{} at step {}, t = {:.6g} s; resume with: whipple run --restart {}", outcome.message, moment.step(),
-                moment.time(), directory_.path().string());
+      log::info("{} at step {}, t = {:.6g} s; resume with: whipple run --restart {}", outcome.message,
+                moment.step(), moment.time(), directory_.path().string());
     }
     tell(moment);
   });

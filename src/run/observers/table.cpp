@@ -20,7 +20,8 @@ void Table::resume(const Moment& moment, const io::CheckpointValues& values) {
     throw InputError(fmt::format(
         "{}: has {} rows up to step {} of the checkpoint, but {} were written; restore the file, or resume "
         "without them: whipple run --restart {} --force",
-        options_.file.string(), table_->rows(), moment.step(), expected, options_.file.parent_path().string()));
+        options_.file.string(), table_->rows(), moment.step(), expected,
+        options_.file.parent_path().string()));
   });
 }
 
@@ -36,7 +37,8 @@ void Table::append(const Moment& moment) {
 }
 
 void Table::remember(io::CheckpointValues& values) {
-  values.integers[options_.rows_name] = std::stoll(ranks_.broadcast(table_ ? fmt::format("{}", table_->rows()) : ""));
+  values.integers[options_.rows_name] =
+      std::stoll(ranks_.broadcast(table_ ? fmt::format("{}", table_->rows()) : ""));
   // What the checkpoint counts must not be lost where it is kept.
   ranks_.on_root([&] { table_->force_to_disk(); });
 }

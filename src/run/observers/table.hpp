@@ -18,8 +18,8 @@ class Table : public RunObserver {
  public:
   struct Options {
     std::filesystem::path file;
-    std::string rows_name;      ///< of the number of rows in checkpoints
-    double Schedule::* every;   ///< steps between rows
+    std::string rows_name;             ///< of the number of rows in checkpoints
+    double Schedule::* every;          ///< steps between rows
     bool accept_missing_rows = false;  ///< go on though the file has lost rows
   };
   Table(Options options, const io::Ranks& ranks) : options_(std::move(options)), ranks_(ranks) {}

@@ -125,7 +125,8 @@ void ParticleCarrier::retire_products() {
 void ParticleCarrier::remove_as_outflow(const std::vector<std::uint32_t>& leaving) {
   if (leaving.empty()) return;
   for (const std::uint32_t p : leaving) {
-    state_.book_outflow(state_.particles.body[p], totals_of(state_.particles, p, state_.particle_affine_inertia()));
+    state_.book_outflow(state_.particles.body[p],
+                        totals_of(state_.particles, p, state_.particle_affine_inertia()));
   }
   const std::vector<Move> moves = moves_into_gaps(state_.particles.body, leaving);
   const std::size_t size = state_.particles.size() - leaving.size();

@@ -34,8 +34,8 @@ struct Figures {
   double speed = 0.0;
   double pressure = -std::numeric_limits<double>::infinity();
   double temperature = -std::numeric_limits<double>::infinity();
-  double stored_cold_work = 0.0;                        ///< J
-  double chemical_energy = 0.0;                         ///< J, of unburnt explosive
+  double stored_cold_work = 0.0;                           ///< J
+  double chemical_energy = 0.0;                            ///< J, of unburnt explosive
   double bars = 0.0, broken_bars = 0.0, bar_energy = 0.0;  ///< numbers, and J
 };
 
@@ -50,9 +50,9 @@ struct Point {
 /// A particle, or one of the eight that an element may become: what gauges sample.
 struct Part {
   std::uint64_t id;
-  Vector3 position, velocity;     ///< m, m/s
-  double mass, volume;            ///< kg, m^3
-  const MaterialPoints& points;   ///< its state, at `p`
+  Vector3 position, velocity;    ///< m, m/s
+  double mass, volume;           ///< kg, m^3
+  const MaterialPoints& points;  ///< its state, at `p`
   std::size_t p;
 };
 /// Selects elements by number, centre (m) and largest distance of a corner from it (m).

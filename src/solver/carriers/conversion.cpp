@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From elements to particles (docs/theory/afemp.md).
+#include "src/afemp/conversion.hpp"
+
 #include <algorithm>
 #include <array>
 
-#include "src/afemp/conversion.hpp"
 #include "src/afemp/transition.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/parallel/mpi.hpp"
@@ -56,8 +57,9 @@ void Hexahedra::convert(ParticleCarrier& particles, double grid_step) {
 }
 
 void Hexahedra::mark_transition() {
-  state_.booked.transfer_heat += afemp::mark_transition(meshes_, state_.particles, state_.setup.geometry,
-                                                        state_.particle_affine_inertia(), state_.communicator);
+  state_.booked.transfer_heat +=
+      afemp::mark_transition(meshes_, state_.particles, state_.setup.geometry,
+                             state_.particle_affine_inertia(), state_.communicator);
 }
 
 void Hexahedra::warn_of_contact() const {

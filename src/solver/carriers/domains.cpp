@@ -13,7 +13,8 @@
 namespace whipple::solver::domains {
 
 bool follow_deformation(const State& state) {
-  return state.setup.transfer.shape_function == transfer::ShapeFunction::convected_gimp || state.setup.splitting.length > 0.0;
+  return state.setup.transfer.shape_function == transfer::ShapeFunction::convected_gimp ||
+         state.setup.splitting.length > 0.0;
 }
 
 bool are_needed(const State& state, bool may_meet_images) {
@@ -21,7 +22,8 @@ bool are_needed(const State& state, bool may_meet_images) {
          state.setup.contact_fields.several() || may_meet_images;
 }
 
-std::size_t deform(State& state, std::span<const std::uint32_t> particles, std::span<const Matrix3> gradients) {
+std::size_t deform(State& state, std::span<const std::uint32_t> particles,
+                   std::span<const Matrix3> gradients) {
   const double dt = state.run.time_step, dx = state.setup.domain.cell_size;
   const bool counted = state.setup.transfer.shape_function == transfer::ShapeFunction::convected_gimp;
   std::size_t larger = 0;
@@ -85,7 +87,8 @@ double divide(Particles& particles, std::size_t p, std::size_t other, const Vect
 void split(State& state, const Carriers& carriers, ParticleCarrier& of_particles) {
   if (state.setup.splitting.length <= 0.0) return;
   state.profile.time("split", [&] {
-    const double limit = 0.5 * state.setup.splitting.length * state.setup.domain.cell_size;  // half the length
+    const double limit =
+        0.5 * state.setup.splitting.length * state.setup.domain.cell_size;  // half the length
     std::vector<std::pair<std::uint32_t, Vector3>> divided;
     for (std::uint32_t p = 0; p < state.particles.size(); ++p) {
       const SymmetricTensor& e = state.particles.extent[p];
@@ -121,8 +124,8 @@ void split(State& state, const Carriers& carriers, ParticleCarrier& of_particles
     const std::size_t before = state.particles.size();
     resize(state.particles, before + divided.size());
     for (std::size_t i = 0; i < divided.size(); ++i) {
-      (state.keeps_losses() ? state.booked.unresolved_kept : state.booked.transfer_heat) +=
-          divide(state.particles, divided[i].first, before + i, divided[i].second, state.particle_affine_inertia());
+      (state.keeps_losses() ? state.booked.unresolved_kept : state.booked.transfer_heat) += divide(
+          state.particles, divided[i].first, before + i, divided[i].second, state.particle_affine_inertia());
       state.particles.id[before + i] = next++;
     }
     of_particles.reallocated();

@@ -21,7 +21,8 @@ bool are_needed(const State& state, bool may_meet_images);
 /// Deforms the domains of the particles of a list by their velocity gradients (1/s): E <- (I + dt L) E (I + dt L)^T
 /// (2.4).
 /// @returns how many domains are larger than the shape function takes
-std::size_t deform(State& state, std::span<const std::uint32_t> particles, std::span<const Matrix3> gradients);
+std::size_t deform(State& state, std::span<const std::uint32_t> particles,
+                   std::span<const Matrix3> gradients);
 
 /// Divides intact particles that are longer than the case wants along their longest direction (Ma, Zhang & Huang, CMES
 /// 54 (2009) 61: L = (1 + eps) V0^(1/3) > alpha dx); those that would leave the domain by it are not. Collective.

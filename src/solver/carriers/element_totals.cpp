@@ -26,8 +26,8 @@ Totals totals_of(const fem::Mesh& mesh, double affine_inertia) {
   const fem::Nodes& nodes = mesh.nodes;
   double affine = 0.0;
   Vector3 rotation = parallel::sum<VectorSum>(nodes.size(), [&](std::size_t a) {
-    return VectorSum{nodes.mass[a] * nodes.position[a].cross(nodes.velocity[a])};
-  }).value;
+                       return VectorSum{nodes.mass[a] * nodes.position[a].cross(nodes.velocity[a])};
+                     }).value;
   for_each_marked(nodes.in_transition, [&](std::size_t a) {
     affine += 0.5 * nodes.mass[a] * affine_inertia * nodes.affine_velocity[a].squaredNorm();
     rotation += nodes.mass[a] * affine_inertia * rotation_of(nodes.affine_velocity[a]);

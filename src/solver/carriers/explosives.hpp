@@ -15,7 +15,8 @@ class Explosives {
  public:
   explicit Explosives(const State& state)
       : state_(state), early_(state.setup.burn.settings(state.setup.domain.cell_size).early) {
-    const History* fraction = state.setup.has_burn() ? state.particles.history.find("burn_fraction") : nullptr;
+    const History* fraction =
+        state.setup.has_burn() ? state.particles.history.find("burn_fraction") : nullptr;
     if (fraction == nullptr) return;
     fraction_ = &std::get<std::vector<double>>(fraction->values);
     lighting_ = &state.particles.history.scalar("lighting_time");
@@ -58,14 +59,13 @@ class Explosives {
   [[nodiscard]] double chemical_energy() const {
     if (!any()) return 0.0;
     const Particles& q = state_.particles;
-    return parallel::sum<double>(q.size(), [&](std::size_t p) {
-      return q.mass[p] * store_[q.body[p]] * (1.0 - (*fraction_)[p]);
-    });
+    return parallel::sum<double>(
+        q.size(), [&](std::size_t p) { return q.mass[p] * store_[q.body[p]] * (1.0 - (*fraction_)[p]); });
   }
 
  private:
   const State& state_;
-  double early_;  // m, ahead of a front
+  double early_;                                   // m, ahead of a front
   const std::vector<double>* fraction_ = nullptr;  // null: nothing burns
   const std::vector<double>* lighting_ = nullptr;
   std::vector<double> velocity_, store_;  // of each body, m/s and J/kg; 0: it does not burn

@@ -25,7 +25,8 @@ Hexahedra::Hexahedra(State& state, const Loads& loads, std::vector<fem::Mesh> me
 const std::vector<std::vector<fem::Facet>>& Hexahedra::free_facets() {
   if (surfaces_changed_) {
     free_facets_.clear();
-    for (const fem::Mesh& mesh : meshes_) free_facets_.push_back(afemp::free_facets(mesh, state_.setup.geometry));
+    for (const fem::Mesh& mesh : meshes_)
+      free_facets_.push_back(afemp::free_facets(mesh, state_.setup.geometry));
     shared_nodes_.drop_inner_facets(meshes_, free_facets_);
     surfaces_changed_ = false;
   }
@@ -71,7 +72,8 @@ std::string Hexahedra::advance() {
     if (error.empty()) error = of_mesh;
   }
   const std::vector<double>& of_contact = state_.transition.contact_heat;
-  for (std::size_t i = 0; i < count_; ++i) state_.booked.transfer_heat -= of_contact[i];  // counted by contact
+  for (std::size_t i = 0; i < count_; ++i)
+    state_.booked.transfer_heat -= of_contact[i];  // counted by contact
   return error;
 }
 
@@ -82,7 +84,8 @@ std::string Hexahedra::advance_mesh(std::size_t m) {
   const fem::ConstraintBalance balance = advance_free_nodes(m);
   booked.wall_impulse += balance.impulse;
   booked.external_work += balance.work;
-  booked.wall_impulse += afemp::stop_at_faces(mesh.nodes, state_.setup.geometry, dt, motions_[m], node_heat_[m]);
+  booked.wall_impulse +=
+      afemp::stop_at_faces(mesh.nodes, state_.setup.geometry, dt, motions_[m], node_heat_[m]);
   Lanes heat{};
   bool heated = false;
   for (std::size_t a = 0; a < mesh.nodes.size(); a += 4) {
@@ -149,12 +152,15 @@ void Hexahedra::remove_outside() {
   bool gone_any = false;
   for (fem::Mesh& mesh : meshes_) {
     // (Nodes on walls may stand beyond them by round-off: those faces do not count.)
-    const auto is_outside = [&](std::size_t a) { return state_.setup.geometry.has_left(mesh.nodes.position[a]); };
+    const auto is_outside = [&](std::size_t a) {
+      return state_.setup.geometry.has_left(mesh.nodes.position[a]);
+    };
     const std::size_t nodes = mesh.nodes.size();
     const double any = parallel::maximum((nodes + 3) / 4, 0.0, [&](std::size_t four) {
       const std::size_t first = 4 * four, end = std::min(nodes, first + 4);
       const double* const x = mesh.nodes.position[first].data();
-      if (end == first + 4 && state_.setup.geometry.contains_four({load(x), load(x + 4), load(x + 8)})) return 0.0;
+      if (end == first + 4 && state_.setup.geometry.contains_four({load(x), load(x + 4), load(x + 8)}))
+        return 0.0;
       for (std::size_t a = first; a < end; ++a) {
         if (is_outside(a)) return 1.0;
       }
@@ -192,10 +198,9 @@ std::string Hexahedra::describe(const fem::Mesh& mesh, std::size_t point, const 
       "density {} kg/m^3, specific internal energy {} J/kg, pressure {} Pa, temperature {} K, plastic strain "
       "{}, failed {}",
       state_.run.step + 1, state_.run.time + state_.run.time_step, state_.setup.bodies[mesh.body].name,
-      mesh.elements.id[e],
-      reason, x[0], x[1], x[2], v[0], v[1], v[2], points.mass[point] / points.volume[point],
-      points.specific_internal_energy[point], points.pressure[point], points.temperature[point],
-      points.plastic_strain[point], points.failed[point]);
+      mesh.elements.id[e], reason, x[0], x[1], x[2], v[0], v[1], v[2],
+      points.mass[point] / points.volume[point], points.specific_internal_energy[point],
+      points.pressure[point], points.temperature[point], points.plastic_strain[point], points.failed[point]);
 }
 
 }  // namespace whipple::solver

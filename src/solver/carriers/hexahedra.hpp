@@ -47,7 +47,8 @@ class Hexahedra : public Carrier {
   [[nodiscard]] std::uint64_t largest_particle_id() const override;
   [[nodiscard]] std::size_t bytes() const override;
   void for_each_point(const std::function<void(const Point& point)>& visit) const override;
-  void for_each_part(const SelectElement& select, const std::function<void(const Part& part)>& visit) const override;
+  void for_each_part(const SelectElement& select,
+                     const std::function<void(const Part& part)>& visit) const override;
   [[nodiscard]] std::string count_text(std::size_t body) const override;
   void keep_share() override;
   void gather() override;
@@ -61,7 +62,8 @@ class Hexahedra : public Carrier {
   [[nodiscard]] fem::ConstraintBalance advance_free_nodes(std::size_t mesh);
   [[nodiscard]] std::string advance_mesh(std::size_t mesh);
   [[nodiscard]] std::string deform(std::size_t mesh, bool heated);
-  [[nodiscard]] std::string describe(const fem::Mesh& mesh, std::size_t point, const std::string& reason) const;
+  [[nodiscard]] std::string describe(const fem::Mesh& mesh, std::size_t point,
+                                     const std::string& reason) const;
   void elements_removed();
 
   const Loads& loads_;
@@ -71,8 +73,8 @@ class Hexahedra : public Carrier {
   fem::SharedNodes shared_nodes_;
   std::vector<std::array<double, 5>> shared_;  // force (N), mass (kg), sound speed of all copies of each
   // In the step under way:
-  std::size_t first_ = 0, count_ = 0;  // of the nodes in State::transition
-  struct Motion {                      // of each mesh
+  std::size_t first_ = 0, count_ = 0;   // of the nodes in State::transition
+  struct Motion {                       // of each mesh
     std::vector<Vector3> acceleration;  // m/s^2, of the nodes by loads
     fem::VelocityGradients gradient;
   };

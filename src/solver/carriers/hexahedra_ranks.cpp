@@ -120,7 +120,8 @@ void Hexahedra::add_totals(Totals& sum) {
 }
 
 void Hexahedra::add_phases(std::span<PhaseMasses> of_body) const {
-  for (const fem::Mesh& mesh : meshes_) of_body[mesh.body] += phase_masses(mesh.points, 0, mesh.points.size());
+  for (const fem::Mesh& mesh : meshes_)
+    of_body[mesh.body] += phase_masses(mesh.points, 0, mesh.points.size());
 }
 
 void Hexahedra::add_figures(Figures& figures) const {
@@ -157,7 +158,8 @@ void Hexahedra::for_each_point(const std::function<void(const Point& point)>& vi
   for (const fem::Mesh& mesh : meshes_) visit_nodes(mesh.nodes, mesh.body, state_, visit);
 }
 
-void Hexahedra::for_each_part(const SelectElement& select, const std::function<void(const Part& part)>& visit) const {
+void Hexahedra::for_each_part(const SelectElement& select,
+                              const std::function<void(const Part& part)>& visit) const {
   constexpr std::size_t corners = 8;
   for (const fem::Mesh& mesh : meshes_) {
     const std::size_t rows = fem::points_per_element(mesh.quadrature);
@@ -171,8 +173,13 @@ void Hexahedra::for_each_part(const SelectElement& select, const std::function<v
       for (std::size_t k = 0; k < corners; ++k) {
         const std::size_t row = e * rows + (rows == corners ? k : 0);
         const double fraction = rows == corners ? 1.0 : 1.0 / corners;
-        Part part{corners * mesh.elements.id[e] + k, Vector3::Zero(), Vector3::Zero(),
-                  fraction * mesh.points.mass[row], fraction * mesh.points.volume[row], mesh.points, row};
+        Part part{corners * mesh.elements.id[e] + k,
+                  Vector3::Zero(),
+                  Vector3::Zero(),
+                  fraction * mesh.points.mass[row],
+                  fraction * mesh.points.volume[row],
+                  mesh.points,
+                  row};
         for (std::size_t a = 0; a < corners; ++a) {
           double weight = 1.0 / corners;
           for (std::size_t i = 0; i < 3; ++i) {

@@ -13,14 +13,15 @@ namespace whipple::solver {
 
 /// Evaluates the accelerations of the nodes at a time (s) and adds the forces.
 /// @param acceleration  m/s^2, for `book_loads`; empty without a load
-inline void add_loads(const Loads& loads, double time, fem::Nodes& nodes, std::vector<Vector3>& acceleration) {
+inline void add_loads(const Loads& loads, double time, fem::Nodes& nodes,
+                      std::vector<Vector3>& acceleration) {
   loads.evaluate({nodes.id, nodes.position, nodes.velocity}, time, acceleration);
   for (std::size_t a = 0; a < acceleration.size(); ++a) nodes.force[a] += nodes.mass[a] * acceleration[a];
 }
 
 /// Accumulates momentum and work of these accelerations in a step of `dt` (s).
-inline void book_loads(const std::vector<Vector3>& acceleration, const fem::Nodes& nodes, const fem::Motion& motion,
-                       double dt, Ledger& booked) {
+inline void book_loads(const std::vector<Vector3>& acceleration, const fem::Nodes& nodes,
+                       const fem::Motion& motion, double dt, Ledger& booked) {
   for (std::size_t a = 0; a < acceleration.size(); ++a) {
     const Vector3 impulse = dt * nodes.mass[a] * acceleration[a];
     booked.external_impulse += impulse;

@@ -41,16 +41,16 @@ std::function<bool(std::size_t)> ParticleCarrier::stays_since(std::size_t& arran
 double ParticleCarrier::fastest() {
   const Particles& particles = state_.particles;
   const Explosives explosives(state_);
-  parallel::update_chunks(particles.size(), fastest_.values, stays_since(fastest_.arrangement),
-                          [&](std::size_t begin, std::size_t end) {
-                            double fastest = 0.0;
-                            for (std::size_t p = begin; p < end; ++p) {
-                              fastest = std::max(fastest, particles.sound_speed[p] +
-                                                              particles.velocity[p].cwiseAbs().maxCoeff());
-                            }
-                            if (explosives.any()) fastest = std::max(fastest, explosives.fastest(begin, end));
-                            return fastest;
-                          });
+  parallel::update_chunks(
+      particles.size(), fastest_.values, stays_since(fastest_.arrangement),
+      [&](std::size_t begin, std::size_t end) {
+        double fastest = 0.0;
+        for (std::size_t p = begin; p < end; ++p) {
+          fastest = std::max(fastest, particles.sound_speed[p] + particles.velocity[p].cwiseAbs().maxCoeff());
+        }
+        if (explosives.any()) fastest = std::max(fastest, explosives.fastest(begin, end));
+        return fastest;
+      });
   double speed = 0.0;
   for (const double fastest : fastest_.values) speed = std::max(speed, fastest);
   return speed;
@@ -107,7 +107,8 @@ void ParticleCarrier::for_each_point(const std::function<void(const Point& point
   }
 }
 
-void ParticleCarrier::for_each_part(const SelectElement&, const std::function<void(const Part& part)>& visit) const {
+void ParticleCarrier::for_each_part(const SelectElement&,
+                                    const std::function<void(const Part& part)>& visit) const {
   const Particles& q = state_.particles;
   for (std::size_t p = 0; p < q.size(); ++p) {
     visit({q.id[p], q.position[p], q.velocity[p], q.mass[p], q.volume[p], q, p});
@@ -115,7 +116,8 @@ void ParticleCarrier::for_each_part(const SelectElement&, const std::function<vo
 }
 
 std::string ParticleCarrier::count_text(std::size_t body) const {
-  if (state_.setup.bodies[body].discretization.has_elements() || state_.setup.bodies[body].discretization.is_bars()) {
+  if (state_.setup.bodies[body].discretization.has_elements() ||
+      state_.setup.bodies[body].discretization.is_bars()) {
     return {};
   }
   return fmt::format("{} particles", sum_over_ranks(state_.communicator, state_.bodies[body].count));

@@ -38,7 +38,8 @@ class ParticleCarrier : public Carrier {
   [[nodiscard]] std::uint64_t largest_particle_id() const override;
   [[nodiscard]] std::size_t bytes() const override;
   void for_each_point(const std::function<void(const Point& point)>& visit) const override;
-  void for_each_part(const SelectElement& select, const std::function<void(const Part& part)>& visit) const override;
+  void for_each_part(const SelectElement& select,
+                     const std::function<void(const Part& part)>& visit) const override;
   [[nodiscard]] std::string count_text(std::size_t body) const override;
   void save(Contents& contents) const override { contents.particles = &state_.particles; }
   void show(View& view) const override { view.particles = &state_.particles; }

@@ -17,7 +17,9 @@ namespace whipple::solver {
 constexpr int rank_of_bars_in_files = 0;
 
 /// Lists the nodes of every element.
-inline const std::vector<fem::Corners>& nodes_of_elements(const fem::Mesh& mesh) { return mesh.elements.corners; }
+inline const std::vector<fem::Corners>& nodes_of_elements(const fem::Mesh& mesh) {
+  return mesh.elements.corners;
+}
 inline const std::vector<std::array<std::uint32_t, 2>>& nodes_of_elements(const fem::Bars& bars) {
   return bars.elements.ends;
 }

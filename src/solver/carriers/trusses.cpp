@@ -153,7 +153,8 @@ void Trusses::keep_share() {
 /// All go to one rank, and from there to the owners of their blocks.
 void Trusses::gather() {
   const auto all_to_one = [&](auto& points) {
-    std::vector<std::vector<std::uint32_t>> leaving(static_cast<std::size_t>(parallel::size(state_.communicator)));
+    std::vector<std::vector<std::uint32_t>> leaving(
+        static_cast<std::size_t>(parallel::size(state_.communicator)));
     for (std::uint32_t i = 0; i < points.size(); ++i) leaving[rank_of_bars_in_files].push_back(i);
     exchange_rows(points, {}, leaving, state_.communicator);
   };

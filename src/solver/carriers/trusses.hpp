@@ -40,8 +40,9 @@ class Trusses : public Carrier {
 
   const Loads& loads_;
   std::vector<fem::Bars> bars_;
-  std::vector<std::vector<Vector3>> acceleration_;  // of the nodes of each body by loads, in the step under way
-  std::size_t first_ = 0;                           // of their nodes in State::transition
+  std::vector<std::vector<Vector3>>
+      acceleration_;       // of the nodes of each body by loads, in the step under way
+  std::size_t first_ = 0;  // of their nodes in State::transition
 };
 
 }  // namespace whipple::solver

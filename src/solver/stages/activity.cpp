@@ -74,13 +74,15 @@ void Activity::find_free_flight() {
   const std::vector<std::uint32_t> loose = parallel::where(state_.particles.size(), without_stress);
   if (loose.empty()) return;
   state_.grid.count_cells(state_.particles.position, state_.transition.position);
-  std::ranges::copy_if(loose, std::back_inserter(flying_),
-                       [&](std::uint32_t p) { return state_.grid.is_alone(p, state_.particles.position[p]); });
+  std::ranges::copy_if(loose, std::back_inserter(flying_), [&](std::uint32_t p) {
+    return state_.grid.is_alone(p, state_.particles.position[p]);
+  });
   state_.grid.release(flying_);
 }
 
 bool Activity::is_restless(std::size_t p) const {
-  const double tolerance = state_.setup.transfer.rest_tolerance, sound_speed = state_.particles.sound_speed[p];
+  const double tolerance = state_.setup.transfer.rest_tolerance,
+               sound_speed = state_.particles.sound_speed[p];
   const double speed = tolerance * sound_speed;
   // The negations also catch NaN.
   if (!(state_.particles.velocity[p].cwiseAbs().maxCoeff() <= speed)) return true;
@@ -89,8 +91,8 @@ bool Activity::is_restless(std::size_t p) const {
     return true;
   }
   const SymmetricTensor& s = state_.particles.deviatoric_stress[p];
-  const double stress = std::abs(state_.particles.pressure[p]) + std::abs(state_.particles.artificial_viscosity[p]) +
-                        std::sqrt(s.squared_norm());
+  const double stress = std::abs(state_.particles.pressure[p]) +
+                        std::abs(state_.particles.artificial_viscosity[p]) + std::sqrt(s.squared_norm());
   return !(stress * state_.particles.volume[p] <= speed * sound_speed * state_.particles.mass[p]);
 }
 
@@ -110,8 +112,8 @@ bool Activity::material_may_rest() const {
 bool Activity::explosives_are_lit(double before) const {
   if (!state_.setup.has_burn()) return false;
   const Explosives explosives(state_);
-  const double lit = parallel::maximum(state_.particles.size(), 0.0,
-                                       [&](std::size_t p) { return explosives.is_lit(p, before) ? 1.0 : 0.0; });
+  const double lit = parallel::maximum(
+      state_.particles.size(), 0.0, [&](std::size_t p) { return explosives.is_lit(p, before) ? 1.0 : 0.0; });
   return parallel::maximum(state_.communicator, lit) > 0.0;
 }
 
@@ -142,11 +144,11 @@ void Activity::let_material_rest() {
   if (state_.run.particles_at_rest == 0 && state_.run.step % look_for_rest_every != 0) return;
   const Explosives explosives(state_);
   const double end = state_.run.time + state_.run.time_step;
-  if (explosives_are_lit(end)) state_.grid.wake();  // detonation begins in material at rest, too: it is looked at again
+  if (explosives_are_lit(end))
+    state_.grid.wake();  // detonation begins in material at rest, too: it is looked at again
   const std::size_t at_rest = state_.grid.let_rest(layers_ahead_of_motion(), [&](std::size_t slot) {
-    return std::ranges::any_of(state_.grid.particles_in(slot), [&](std::uint32_t p) {
-      return is_restless(p) || explosives.is_lit(p, end);
-    });
+    return std::ranges::any_of(state_.grid.particles_in(slot),
+                               [&](std::uint32_t p) { return is_restless(p) || explosives.is_lit(p, end); });
   });
   std::array<double, 1> of_all_ranks = {static_cast<double>(at_rest)};
   parallel::sum(state_.communicator, of_all_ranks);

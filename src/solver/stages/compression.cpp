@@ -55,8 +55,8 @@ double TimeStep::compression_rate_of_most(double largest) const {
     for (std::size_t p = begin; p < end; ++p) {
       if (explosives.is_at_front(p)) continue;  // as in find_compression_rate
       if (state_.particles.closing_rate[p] <= harmless || state_.particles.pressure[p] <= 0.0) continue;
-      (*mass)[Bins::of(state_.particles.closing_rate[p])].fetch_add(std::llround(per_mass * state_.particles.mass[p]),
-                                                              std::memory_order_relaxed);
+      (*mass)[Bins::of(state_.particles.closing_rate[p])].fetch_add(
+          std::llround(per_mass * state_.particles.mass[p]), std::memory_order_relaxed);
     }
   });
   std::array<double, Bins::count> of_all_ranks;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/solver/stages/contact.hpp"
-#include "src/transfer/shape_function.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <utility>
 #include <vector>
+
+#include "src/transfer/shape_function.hpp"
 
 namespace whipple::solver {
 
@@ -52,8 +53,9 @@ std::vector<double> ContactStage::least_relaxation_rates() const {
                             std::numeric_limits<double>::infinity());
   for (std::size_t b = 0; b < field_of_body.size(); ++b) {
     double& rate = rates[field_of_body[b]];
-    rate = std::min(rate, share_of_tight_matter * state_.setup.transfer.kappa *
-                              state_.setup.materials[b]->reference.sound_speed / state_.setup.domain.cell_size);
+    rate =
+        std::min(rate, share_of_tight_matter * state_.setup.transfer.kappa *
+                           state_.setup.materials[b]->reference.sound_speed / state_.setup.domain.cell_size);
   }
   return rates;
 }
@@ -69,7 +71,8 @@ void ContactStage::separate_fields() {
   for (const std::uint32_t body : state_.transition_body) field_of_node_.push_back(field_of_body_[body]);
   state_.grid.separate_fields(transfer::stencil(state_.shape), {state_.particles.position, field_},
                               {state_.transition.position, field_of_node_},
-                              *std::ranges::max_element(field_of_body_) + 1U, state_.setup.contact.everywhere);
+                              *std::ranges::max_element(field_of_body_) + 1U,
+                              state_.setup.contact.everywhere);
 }
 
 void ContactStage::find_surfaces(bool after_transfer) {
@@ -82,8 +85,8 @@ void ContactStage::find_surfaces(bool after_transfer) {
     if (!state_.is_parallel()) near.emplace(state_.grid);
     const std::vector<fem::Mesh>& meshes = hexahedra_.meshes();
     for (std::size_t m = 0; m < meshes.size(); ++m) {
-      surface_points_.add(meshes[m], facets[m], field_of_body_[meshes[m].body],
-                          state_.setup.domain.cell_size, near ? &*near : nullptr);
+      surface_points_.add(meshes[m], facets[m], field_of_body_[meshes[m].body], state_.setup.domain.cell_size,
+                          near ? &*near : nullptr);
     }
     surface_points_.send_to_owners(state_.grid, transfer::stencil(state_.shape), state_.communicator);
     contact_->find_surfaces(state_.shape, state_.particles, surface_points_, state_.grid,

@@ -57,8 +57,8 @@ class ContactStage {
   std::optional<contact::Contact> contact_;  // if bodies have velocity fields of their own
   std::vector<std::uint8_t> field_of_body_;
   std::optional<transfer::FirstTouches> first_touches_;
-  bool surfaces_found_ = false;             // in the step under way
-  std::vector<std::uint8_t> field_;         // of each particle
+  bool surfaces_found_ = false;              // in the step under way
+  std::vector<std::uint8_t> field_;          // of each particle
   std::vector<std::uint8_t> field_of_node_;  // of each node of elements that moves with the grid
   contact::SurfacePoints surface_points_;
 };

@@ -12,7 +12,11 @@ class ElementStage {
  public:
   ElementStage(State& state, const Carriers& carriers, ParticleCarrier& particles, Hexahedra& hexahedra,
                Partition& partition)
-      : state_(state), carriers_(carriers), particles_(particles), hexahedra_(hexahedra), partition_(partition) {}
+      : state_(state),
+        carriers_(carriers),
+        particles_(particles),
+        hexahedra_(hexahedra),
+        partition_(partition) {}
 
   /// Turns distorted elements into particles; nodes at particles or at other bodies move with the grid. Collective.
   /// @param contact  have bodies velocity fields of their own?

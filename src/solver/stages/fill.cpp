@@ -26,15 +26,16 @@ void FillWatch::look() {
   state_.profile.time("fill", [&] {
     const auto is_pressed = [&](std::size_t p) {
       const double c = state_.particles.sound_speed[p];
-      return state_.particles.failed[p] == 0 &&
-             state_.particles.pressure[p] * state_.particles.volume[p] > strong * state_.particles.mass[p] * c * c;
+      return state_.particles.failed[p] == 0 && state_.particles.pressure[p] * state_.particles.volume[p] >
+                                                    strong * state_.particles.mass[p] * c * c;
     };
     const bool any = !parallel::where(state_.particles.size(), is_pressed).empty();
     if (!parallel::any(state_.communicator, any)) {
       state_.run.squeezed_beside_voids = 0.0;
       return;
     }
-    const std::vector<double> fill = transfer::fill_of_cells(state_.particles, state_.transition, state_.grid);
+    const std::vector<double> fill =
+        transfer::fill_of_cells(state_.particles, state_.transition, state_.grid);
     std::array<double, 1> mass = {parallel::sum<double>(state_.particles.size(), [&](std::size_t p) {
       return fill[p] < filled && is_pressed(p) ? state_.particles.mass[p] : 0.0;
     })};
@@ -46,7 +47,8 @@ void FillWatch::look() {
     warned_ = true;
     if (parallel::rank(state_.communicator) != 0) return;
     log::warning(
-        "step {}, t = {:.4g} us: {:.3g} g of intact material are under high pressure in cells that they do not "
+        "step {}, t = {:.4g} us: {:.3g} g of intact material are under high pressure in cells that they do "
+        "not "
         "fill: "
         "where bodies or layers meet across a gap in one velocity field, pressures come out too high",
         state_.run.step, 1e6 * state_.run.time, 1e3 * mass[0]);

@@ -23,7 +23,9 @@ void ContactStage::foresee_touches(double accurate_step) {
   state_.run.touched = first_touches_->words();
   const double begin = state_.run.time - state_.run.time_step;
   const bool too_long = state_.run.time_step > tolerance * state_.setup.time.first_step * accurate_step;
-  state_.run.first_touch = seen.hard && too_long ? state_.run.time : seen.next < 1e300 ? begin + seen.next : 1e300;
+  state_.run.first_touch = seen.hard && too_long ? state_.run.time
+                           : seen.next < 1e300   ? begin + seen.next
+                                                 : 1e300;
 }
 
 }  // namespace whipple::solver

@@ -38,7 +38,8 @@ void Partition::bin_particles() {
 
 /// Particles, and nodes of elements as off-grid points.
 bool Partition::bin() {
-  return state_.grid.bin(state_.particles.position, transfer::stencil(state_.shape), state_.transition.position);
+  return state_.grid.bin(state_.particles.position, transfer::stencil(state_.shape),
+                         state_.transition.position);
 }
 
 void Partition::share_out_elements() {
@@ -52,7 +53,9 @@ void Partition::follow_particles() {
   const Particles& particles = state_.particles;
   std::vector<Vector3> all_positions, all_velocities;
   const auto positions = [&] { return with(particles.position, state_.transition.position, all_positions); };
-  const auto velocities = [&] { return with(particles.velocity, state_.transition.velocity, all_velocities); };
+  const auto velocities = [&] {
+    return with(particles.velocity, state_.transition.velocity, all_velocities);
+  };
   adapt(positions(), velocities(), lookahead);
   if (state_.is_parallel() &&
       migrate(state_.particles, state_.grid.owners(particles.position), state_.communicator)) {
@@ -64,7 +67,8 @@ void Partition::follow_particles() {
 }
 
 /// Adapts the forest of blocks, and divides it among the ranks by their work.
-void Partition::adapt(std::span<const Vector3> positions, std::span<const Vector3> velocities, double lookahead) {
+void Partition::adapt(std::span<const Vector3> positions, std::span<const Vector3> velocities,
+                      double lookahead) {
   const grid::Stencil stencil = transfer::stencil(state_.shape);
   elements_astray_ = state_.is_parallel();
   if (!state_.is_parallel()) {  // one rank has nothing to distribute

@@ -31,7 +31,7 @@ class Partition {
   const Carriers& carriers_;
   ParticleCarrier& particles_;
   Activity& activity_;
-  std::vector<double> work_;     // of the particles (and elements) for the parts of the ranks
+  std::vector<double> work_;      // of the particles (and elements) for the parts of the ranks
   bool elements_astray_ = false;  // the forest was divided again since elements were
 };
 

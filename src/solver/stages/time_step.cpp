@@ -43,7 +43,8 @@ double TimeStep::accurate() {
   limit(diffusive_bound(), TimeStepBound::diffusion);
   limit(element_bound(), TimeStepBound::elements);
   if (state_.run.maximum_acceleration > 0.0) {
-    limit(std::sqrt(control.acceleration_limit * state_.setup.domain.cell_size / state_.run.maximum_acceleration),
+    limit(std::sqrt(control.acceleration_limit * state_.setup.domain.cell_size /
+                    state_.run.maximum_acceleration),
           TimeStepBound::acceleration);
   }
   compression_is_followed_ = true;

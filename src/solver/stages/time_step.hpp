@@ -38,7 +38,7 @@ class TimeStep {
   State& state_;
   const Carriers& carriers_;
   ParticleCarrier& particles_;
-  double step_ = 0.0;  // s, the least of the bounds so far
+  double step_ = 0.0;                       // s, the least of the bounds so far
   TimeStepBound by_ = TimeStepBound::none;  // that it is
   double accurate_step_ = 0.0;
   bool compression_is_followed_ = true;  // by that step, as `time.compression_limit` asks

@@ -92,7 +92,8 @@ void Transfers::to_grid(const std::function<void()>& send) {
     }
   });
   if (state_.setup.geometry.is_axisymmetric()) {
-    state_.booked.wall_impulse[1] -= state_.run.time_step * transfer::hoop_force(state_.particles, state_.grid);
+    state_.booked.wall_impulse[1] -=
+        state_.run.time_step * transfer::hoop_force(state_.particles, state_.grid);
   }
 }
 
@@ -148,17 +149,19 @@ void Transfers::to_particles(const transfer::TakeGradients& take, const std::fun
   for (const std::uint32_t p : activity_.flying()) state_.particles.closing_rate[p] = 0.0;
 }
 
-void Transfers::velocity_to_particles(const transfer::TakeGradients& take, const std::function<void()>& receive) {
-  const transfer::TransferBalance balance = transfer::update_velocity(
-      state_.shape, state_.particles, state_.grid, state_.run.time_step, relaxation(state_.setup.transfer).fixed,
-      take, acceleration_, receive);
+void Transfers::velocity_to_particles(const transfer::TakeGradients& take,
+                                      const std::function<void()>& receive) {
+  const transfer::TransferBalance balance =
+      transfer::update_velocity(state_.shape, state_.particles, state_.grid, state_.run.time_step,
+                                relaxation(state_.setup.transfer).fixed, take, acceleration_, receive);
   state_.booked.external_work += balance.external_work;
   state_.booked.plastic_work += balance.plastic_work;
   state_.rates.squared_change = balance.squared_change;
   fly();
 }
 
-void Transfers::gradient_to_particles(const transfer::TakeGradients& take, const std::function<void()>& receive) {
+void Transfers::gradient_to_particles(const transfer::TakeGradients& take,
+                                      const std::function<void()>& receive) {
   state_.booked.plastic_work +=
       transfer::gather_velocity_gradient(state_.shape, state_.particles, state_.grid, take, receive);
 }

@@ -72,13 +72,14 @@ class ReachCopy {
     // Along a row, which is contiguous: the nodes of the block before, of the block, of the block behind.
     const auto row = [&](int block_x, int block_y, bool along_z, int first, std::size_t here) {
       const auto part = [&](int block_along, auto from, auto to) {
-        const std::int32_t owner = neighbours[static_cast<std::size_t>(
-            along_z ? grid::neighbour_index(block_x, block_y, block_along)
-                    : grid::neighbour_index(block_x, block_along, 1))];
+        const std::int32_t owner =
+            neighbours[static_cast<std::size_t>(along_z ? grid::neighbour_index(block_x, block_y, block_along)
+                                                        : grid::neighbour_index(block_x, block_along, 1))];
         if (owner == grid::BlockGrid::no_slot) return;
         auto* nodes = grid.nodes(static_cast<std::size_t>(owner), field);
         for (int n = from; n < to; ++n) {
-          f(nodes, first + map.node[static_cast<std::size_t>(n + skipped)], here + static_cast<std::size_t>(n));
+          f(nodes, first + map.node[static_cast<std::size_t>(n + skipped)],
+            here + static_cast<std::size_t>(n));
         }
       };
       using Number = std::integral_constant<int, before>;

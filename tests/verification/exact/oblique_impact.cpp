@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/transfer/shape_function.hpp"
 #include "tests/verification/exact/oblique_impact.hpp"
 
 #include <fmt/format.h>
@@ -8,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/transfer/shape_function.hpp"
 #include "tests/verification/exact/runs.hpp"
 
 namespace whipple::verification::exact {
@@ -76,8 +76,7 @@ velocity = [{}, 0, 0]
   const std::string more =
       affine_field.empty() ? "" : "[transfer]\naffine_field = \"" + affine_field + "\"\n";
   solver::Simulation simulation(default_case(impact.end, text, more), parallel::world());
-  const double inertia =
-      transfer::affine_inertia(simulation.setup().transfer.shape_function, cell);
+  const double inertia = transfer::affine_inertia(simulation.setup().transfer.shape_function, cell);
   const Vector3 at_start = angular_momentum(simulation.particles(), inertia).total();
   const std::size_t count = simulation.particles().size();
   EnergyWatch watch;

@@ -56,8 +56,7 @@ inline solver::Simulation start_with(const cases::Case& setup,
   change(particles);
   solver::RunState state;
   state.ledger.initial = solver::totals_of(
-      particles, transfer::affine_inertia(setup.transfer.shape_function,
-                                          setup.domain.cell_size));
+      particles, transfer::affine_inertia(setup.transfer.shape_function, setup.domain.cell_size));
   return solver::Simulation(setup, std::move(particles), state, parallel::world());
 }
 
