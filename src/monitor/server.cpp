@@ -3,12 +3,15 @@
 
 #include <fmt/format.h>
 
+// clang-format off: Boost 1.74 needs <optional> and <utility> and does not include them
+#include <optional>
+#include <utility>
+
 #include <boost/asio.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
-#include <optional>
+// clang-format on
 #include <random>
-#include <utility>  // Boost 1.74 needs it and does not include it
 
 #include "src/core/base/error.hpp"
 
