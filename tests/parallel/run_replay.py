@@ -17,7 +17,7 @@ import time
 import h5py
 
 WHIPPLE, CASE, FOLDER = *sys.argv[1:3], pathlib.Path(sys.argv[3])
-VALUES = ["--set", "domain.cell_size=0.6 mm", "--set", "output.checkpoint_every=0", "--set", "output.snapshot_every=0"]
+VALUES = ["--set", "domain.cell_size=0.3 mm", "--set", "output.checkpoint_every=0", "--set", "output.snapshot_every=0"]
 ENDLESS = ["--set", "time.end=1 s"]
 MOST_OF_A_CORE = 0.2  # of each rank in a pause
 
