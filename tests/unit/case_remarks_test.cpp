@@ -45,7 +45,7 @@ TEST(Remarks, NameADomainOfOneCellBetweenMirrorPlanes) {
   };
   EXPECT_NE(remarks_of(strip("1 mm", "quadratic_bspline")).find("one cell wide along y"), std::string::npos);
   EXPECT_EQ(remarks_of(strip("2 mm", "quadratic_bspline")), "");
-  EXPECT_EQ(remarks_of(strip("1 mm", "linear")), "");
+  EXPECT_EQ(remarks_of(strip("1 mm", "linear\"\nparticle_update = \"flip")), "");
 }
 
 TEST(Remarks, NameAGapThatIsNarrowerThanACell) {
