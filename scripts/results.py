@@ -29,12 +29,12 @@ from studies.validation.variants import variants_of  # noqa: E402
 
 
 def renewed(results, chosen):
-    """The stored results with those runs replaced that are here."""
+    """The stored results with those variants of runs replaced that are here."""
     for case in dict.fromkeys(case for case, _ in chosen):
-        study = comparison.case_study(case, [run for of, run in chosen if of is case])
+        former = {run["name"]: run for run in results["cases"].get(case.name, {}).get("runs", [])}
+        study = comparison.case_study(case, [run for of, run in chosen if of is case], former)
         if not study["runs"]:
             continue
-        former = {run["name"]: run for run in results["cases"].get(case.name, {}).get("runs", [])}
         former |= {run["name"]: run for run in study["runs"]}
         study["runs"] = [former[run.name] for run in case.runs if run.name in former]
         results["cases"][case.name] = study

@@ -69,9 +69,30 @@ def input_change(case, run, values, measured):
     return changes
 
 
-def collect(case, run):
-    """Measures and records of the variants of a run that are there and not stale."""
-    measures, records = {}, {}
+class StoredMeasures:
+    """What docs/generated/results.json knows of a variant whose folder is not here."""
+
+    def __init__(self, entry, name):
+        self.values = {(q["name"], q["measure"]): q["values"].get(name) for q in entry["quantities"]}
+        self.projectile_size = math.nan
+
+    def value(self, expectation):
+        return known(self.values.get((expectation.name, expectation.measure)))
+
+
+def stored_variants(run, entry):
+    """Measures and records of the variants of a stored run that belong to its present case and materials."""
+    if entry is None or entry["inputs"] != provenance.inputs_of(run):
+        return {}, {}
+    names = [variant.name for variant in variants_of(run, band=True) + extra_grids(run)]
+    records = {name: entry["records"][name] for name in names if name in entry["records"]
+               and entry["records"][name]["cell_size"] == run.cell_size[name if name in run.cell_size else "normal"]}
+    return {name: StoredMeasures(entry, name) for name in records}, records
+
+
+def collect(case, run, entry=None):
+    """Measures and records of the variants of a run that are there and not stale; of others, what is stored."""
+    measures, records = stored_variants(run, entry)
     for variant in variants_of(run, band=True) + extra_grids(run):
         folder = execution.folder_of(case, run, variant)
         record, state = execution.state_of(case, run, variant, folder)
@@ -95,7 +116,7 @@ RECORDED_KEYS = ("revision", "dirty", "program", "executable", "source", "parame
 def run_study(case, run, collected):
     """Return the entry of a run in results.json; None if nothing was run. `collected`: by name of run, from collect()."""
     measures, records = collected[run.name]
-    if not measures:
+    if all(isinstance(of_run, StoredMeasures) for of_run in measures.values()):
         return None
     grids = [name for name in ("coarse", "normal", "fine") if name in measures]
     moved = [name for name in measures if name not in grids]
@@ -113,7 +134,7 @@ def run_study(case, run, collected):
                      "kind": expectation.kind, "unit": expectation.unit, "expected": clean(expectation.value),
                      "tolerance": clean(expectation.tolerance), "source": expectation.source, "known": expectation.known,
                      "values": {name: clean(value) for name, value in values.items()}, **study})
-    size = measures[grids[-1]].projectile_size if grids else math.nan
+    size = next((s for s in (measures[name].projectile_size for name in reversed(grids)) if math.isfinite(s)), math.nan)
     return {"name": run.name, "title": run.title, "sensitivity": run.sensitivity, "headline": run.headline, "input": run.input,
             "decided_by": run.decided_by,
             "no_variants": [] if run.band is case.band else reasons(run.band),
@@ -129,9 +150,9 @@ def reasons(band):
                                                    ("moving frame", band.no_frame)) if why]
 
 
-def case_study(case, runs):
-    """What docs/generated/results.json says of a case: the runs that are there."""
-    collected = {run.name: collect(case, run) for run in case.runs}
+def case_study(case, runs, stored=None):
+    """What docs/generated/results.json says of a case: the runs that are there. `stored`: by name of run, what it says now."""
+    collected = {run.name: collect(case, run, (stored or {}).get(run.name)) for run in case.runs}
     studies = [run_study(case, run, collected) for run in runs]
     return {"title": case.title, "expected": provenance.digest_of_file(case.path), "overrides": case.overrides,
             "no_variants": reasons(case.band) if case.band else ["No positions of the lattice or moving frame are declared."],

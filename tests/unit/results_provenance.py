@@ -15,7 +15,7 @@ ROOT = pathlib.Path(sys.argv[1]).resolve()
 sys.path[:1] = [str(ROOT), str(ROOT / "scripts")]
 
 import drift  # noqa: E402
-from studies.validation import frozen_parameters, page, provenance  # noqa: E402
+from studies.validation import comparison, frozen_parameters, page, provenance  # noqa: E402
 from studies.validation.cases import Case, all_cases  # noqa: E402
 
 
@@ -144,6 +144,25 @@ def drift_is_seen():
     require(set(drift.baseline()) == {case["name"] for case in drift.cases()}, "every case of the gate has its numbers")
 
 
+def stored_variants_count_beside_new_ones():
+    """A run of one grid in a fresh checkout does not lose the other grids that the tables know."""
+    case = next(case for case in all_cases() if case.name == "two_spheres")
+    run = next(run for run in case.runs if run.name == "multi_field")
+    entry = next(e for e in page.load()["cases"]["two_spheres"]["runs"] if e["name"] == run.name)
+    measures, records = comparison.stored_variants(run, entry)
+    require(set(records) == set(entry["records"]) == set(measures), f"{sorted(records)} of {sorted(entry['records'])}")
+    quantity = entry["quantities"][0]
+    expectation = next(e for e in run.expectations if e.name == quantity["name"])
+    for name, value in quantity["values"].items():
+        require(measures[name].value(expectation) == value, f"{name}: {measures[name].value(expectation)}, stored {value}")
+    other = copy.deepcopy(entry)
+    other["inputs"]["case"] = "another"
+    require(comparison.stored_variants(run, other) == ({}, {}), "a stored run of another case")
+    other = copy.deepcopy(entry)
+    other["records"]["coarse"]["cell_size"] = "3 mm"
+    require("coarse" not in comparison.stored_variants(run, other)[1], "a grid that is no longer asked for")
+
+
 def the_repository_is_in_order():
     wrong = frozen_parameters.check(all_cases(), frozen_parameters.defaults())
     require(not wrong, "\n".join(wrong))
@@ -157,5 +176,6 @@ with tempfile.TemporaryDirectory() as name:
     digests_follow_the_files(pathlib.Path(name))
     departures_need_a_reason(pathlib.Path(name))
     drift_is_seen()
+    stored_variants_count_beside_new_ones()
     the_repository_is_in_order()
 print("records, parameters and drift: all checks passed")
