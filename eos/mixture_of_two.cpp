@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "eos/closure_search.hpp"
 #include "eos/modifiers/modified.hpp"
 
 namespace whipple::eos {
@@ -18,22 +19,6 @@ constexpr double tolerance = 1e-9;       // of pressure and energy
 constexpr double least_pressure = 1e-1;  // Pa, that is resolved beside those that cancel in a solid
 constexpr double largest_shrinkage = 0.75, largest_growth = 1.5;  // of a volume in an iteration
 constexpr double edge = 1e-9;                                     // from the compression limits
-
-/// Change of specific volume and energy of a component with pressure and temperature, the inverse of (K1),
-/// and sums of it.
-struct Response {
-  double volume_by_pressure = 0, volume_by_temperature = 0, energy_by_pressure = 0, energy_by_temperature = 0;
-
-  void add(double x, const Response& other) {
-    volume_by_pressure += x * other.volume_by_pressure;
-    volume_by_temperature += x * other.volume_by_temperature;
-    energy_by_pressure += x * other.energy_by_pressure;
-    energy_by_temperature += x * other.energy_by_temperature;
-  }
-  [[nodiscard]] double determinant() const {
-    return volume_by_pressure * energy_by_temperature - volume_by_temperature * energy_by_pressure;
-  }
-};
 
 /// One of the two materials at all points: where it is tried, and what it answers there.
 class Side {

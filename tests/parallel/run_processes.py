@@ -16,19 +16,9 @@ import subprocess
 import sys
 import time
 
+from waiting import require, wait_for
+
 WHIPPLE, CASE, PLAN, FOLDER = *sys.argv[1:4], pathlib.Path(sys.argv[4])
-
-
-def require(condition, message):
-    if not condition:
-        raise SystemExit(f"FAILED: {message}")
-
-
-def wait_for(condition, what, seconds=60):
-    deadline = time.monotonic() + seconds
-    while not condition():
-        require(time.monotonic() < deadline, f"waited in vain for {what}")
-        time.sleep(0.02)
 
 
 def start(*arguments):

@@ -16,22 +16,12 @@ import time
 
 import h5py
 
+from waiting import require, wait_for
+
 WHIPPLE, CASE, FOLDER = *sys.argv[1:3], pathlib.Path(sys.argv[3])
 VALUES = ["--set", "domain.cell_size=0.3 mm", "--set", "output.checkpoint_every=0", "--set", "output.snapshot_every=0"]
 ENDLESS = ["--set", "time.end=1 s"]
 MOST_OF_A_CORE = 0.2  # of each rank in a pause
-
-
-def require(condition, message):
-    if not condition:
-        raise SystemExit(f"FAILED: {message}")
-
-
-def wait_for(condition, what, seconds=60):
-    deadline = time.monotonic() + seconds
-    while not condition():
-        require(time.monotonic() < deadline, f"waited in vain for {what}")
-        time.sleep(0.01)
 
 
 def start(run, ranks, *more):
