@@ -1,5 +1,5 @@
 # Measures of finished runs.
-whipple_test(test_analysis SOURCES unit/analysis_test.cpp unit/analysis_instruments_test.cpp unit/analysis_paths_test.cpp unit/view_test.cpp DEPENDS whipple_view whipple_analysis LABELS fast)
+whipple_test(test_analysis OPTIMIZED SOURCES unit/analysis_test.cpp unit/analysis_instruments_test.cpp unit/analysis_paths_test.cpp unit/view_test.cpp DEPENDS whipple_view whipple_analysis LABELS fast)
 if(WHIPPLE_PYTHON)
   foreach(part expectations uncertainty provenance)
     add_test(NAME results_${part}

@@ -1,5 +1,5 @@
 # Tests of the fit of equations of state and of the comparison with experiments.
-whipple_test(fit_test
+whipple_test(fit_test OPTIMIZED
   SOURCES unit/fit_least_squares_test.cpp unit/fit_methods_test.cpp property/fit_adaptive_test.cpp
           property/fit_recovery_test.cpp property/fit_models_test.cpp property/fit_discrepancy_test.cpp
   DEPENDS whipple_fit LABELS fast)

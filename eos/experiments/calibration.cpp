@@ -6,15 +6,12 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "src/core/base/error.hpp"
 
 namespace whipple::eos::experiments {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 double median(std::vector<double> values) {
   if (values.empty()) return nan;

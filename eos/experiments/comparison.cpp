@@ -4,18 +4,13 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <limits>
 
 #include "eos/inversions.hpp"
 #include "eos/loci.hpp"
 #include "src/core/base/error.hpp"
 
 namespace whipple::eos::experiments {
-namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
+namespace {}  // namespace
 
 bool belongs_to(const Experiment& experiment, std::string_view material) {
   const auto lower = [](std::string_view text) {

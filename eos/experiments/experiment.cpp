@@ -10,7 +10,6 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <limits>
 #include <numeric>
 #include <regex>
 #include <string_view>
@@ -22,7 +21,6 @@ namespace whipple::eos::experiments {
 namespace {
 
 constexpr double room_temperature = 298.0;  // K
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Whether the file name or a comment holds a word.
 bool says(const MeasuredTable& table, const char* pattern) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -9,6 +10,9 @@
 #include <vector>
 
 namespace whipple::eos::experiments {
+
+/// Stands for what a row does not state and for states outside the range of a model.
+inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Names the two measured quantities of an experiment.
 enum class ExperimentKind {

@@ -44,9 +44,9 @@ def run(*arguments):
     return types.SimpleNamespace(returncode=code, stdout=output.getvalue(), stderr=errors.getvalue())
 
 
-def analyse(folder, output):
-    done = subprocess.run([WHIPPLE, "analyse", folder, "--output", output, "--witness", "200 mm", "--views", "3"], capture_output=True,
-                          text=True)
+def analyse(folder, output, views=1):
+    done = subprocess.run([WHIPPLE, "analyse", folder, "--output", output, "--witness", "200 mm", "--views", str(views)],
+                          capture_output=True, text=True)
     require(done.returncode == 0, done.stderr)
 
 
@@ -77,7 +77,7 @@ def report_of_the_cloud(work):
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
     plt.figure().savefig(figure)
-    analyse(CLOUD, work / "report")
+    analyse(CLOUD, work / "report", views=3)
     state = {"density": 8600.0, "temperature": 1003.6, "melted_fraction": 0.0, "vaporised_fraction": 0.0}
     (work / "report" / "planar_impact.json").write_text(json.dumps([{
         "projectile": "disk", "target": "plate", "velocity": 5550.0, "pressure": 105.7e9, "interface_velocity": 3760.0,

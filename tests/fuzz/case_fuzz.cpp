@@ -144,7 +144,7 @@ TEST(CaseFuzz, IsReadOrRefusedAndRunsOrEndsWithAStateError) {
   ASSERT_GE(files.size(), 10U);
   constexpr double small = 500.0 * 20000;  // bytes: runs that end soon
   int run = 0;
-  const fuzz::Outcomes outcomes = fuzz::try_inputs("case", 200, [&](fuzz::Random& random) {
+  const fuzz::Outcomes outcomes = fuzz::try_inputs("case", 120, [&](fuzz::Random& random) {
     const fs::path& file = files[fuzz::any(random, files.size())];  // materials are looked up beside it
     const cases::Case setup = cases::read_case_text(Mutator(random())(io::read_text(file)), file.string());
     if (cases::expected_memory(setup) >= small) return;
