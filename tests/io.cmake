@@ -7,7 +7,8 @@ whipple_test(test_io
 
 # Written and read by several ranks.
 add_executable(test_io_ranks parallel/io_ranks.cpp)
-target_link_libraries(test_io_ranks PRIVATE whipple_flags whipple_io GTest::gmock GTest::gtest)
+target_link_libraries(test_io_ranks PRIVATE whipple_io GTest::gmock GTest::gtest)
+whipple_test_flags(test_io_ranks)
 foreach(ranks 1 3)
   add_test(NAME test_io_ranks.${ranks}
            COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} $<TARGET_FILE:test_io_ranks>)
@@ -17,7 +18,8 @@ endforeach()
 
 # A made-up run, to test what reads runs.
 add_executable(io_synthetic_cloud unit/io_synthetic_cloud.cpp)
-target_link_libraries(io_synthetic_cloud PRIVATE whipple_flags whipple_io)
+target_link_libraries(io_synthetic_cloud PRIVATE whipple_io)
+whipple_test_flags(io_synthetic_cloud OPTIMIZED)
 
 # The layout as h5py sees it, written by one and by three ranks.
 if(WHIPPLE_PYTHON)

@@ -12,6 +12,7 @@ whipple_test(md_simulated_crystal_test SOURCES unit/md_worker_source_test.cpp DE
 # Programs under mpirun, started by the test itself.
 add_executable(md_guard_abort parallel/md_guard_abort.cpp)
 target_link_libraries(md_guard_abort PRIVATE whipple_md_lammps)
+whipple_test_flags(md_guard_abort)
 whipple_test(md_ranks_test SOURCES parallel/md_ranks_test.cpp DEPENDS whipple_md_data_set LABELS fast)
 whipple_test(md_kill_test SOURCES parallel/md_kill_test.cpp DEPENDS whipple_md_data_set LABELS long)
 target_compile_definitions(md_kill_test PRIVATE WHIPPLE_MD="$<TARGET_FILE:whipple-md>" WHIPPLE_MPIEXEC="${MPIEXEC_EXECUTABLE}")

@@ -9,8 +9,8 @@ if(TARGET whipple_python_eos AND WHIPPLE_PYTHON)
 
   # A million states beside C++, by processor times.
   add_executable(evaluate_states benchmark/evaluate_states.cpp)
-  target_link_libraries(evaluate_states PRIVATE whipple_flags whipple_material)
-  target_compile_options(evaluate_states PRIVATE ${whipple_optimized_test_options})
+  target_link_libraries(evaluate_states PRIVATE whipple_material)
+  whipple_test_flags(evaluate_states OPTIMIZED)
   add_test(NAME python_speed COMMAND ${WHIPPLE_PYTHON} ${PROJECT_SOURCE_DIR}/python/tests/test_speed.py
            $<TARGET_FILE:evaluate_states>)
   set_tests_properties(python_speed PROPERTIES LABELS "fast;timing" TIMEOUT 300

@@ -36,7 +36,8 @@ whipple_test(test_case SOURCES unit/case_bodies_test.cpp unit/case_case_test.cpp
 # Distributed: against one rank, restart on another number of ranks, errors and killed ranks.
 add_executable(test_solver_ranks parallel/solver_ranks.cpp parallel/solver_wall_ranks.cpp parallel/solver_element_ranks.cpp
                parallel/solver_burn_ranks.cpp)
-target_link_libraries(test_solver_ranks PRIVATE whipple_flags whipple_run whipple_analysis GTest::gtest)
+target_link_libraries(test_solver_ranks PRIVATE whipple_run whipple_analysis GTest::gtest)
+whipple_test_flags(test_solver_ranks)
 target_compile_definitions(test_solver_ranks PRIVATE WHIPPLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 foreach(ranks 1 2 4 8)
   if(ranks EQUAL 1 OR ranks GREATER 4)  # one rank agrees with itself
@@ -73,6 +74,7 @@ add_library(whipple_exact STATIC EXCLUDE_FROM_ALL
   verification/exact/result.cpp verification/exact/gas_solutions.cpp verification/exact/gas_problems.cpp
   verification/exact/planar_impact.cpp verification/exact/piston.cpp verification/exact/oblique_impact.cpp)
 target_link_libraries(whipple_exact PUBLIC whipple_flags whipple_solver)
+whipple_test_flags(whipple_exact OPTIMIZED)
 target_compile_definitions(whipple_exact PRIVATE WHIPPLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 add_executable(exact_suite EXCLUDE_FROM_ALL verification/exact_suite.cpp)
 target_link_libraries(exact_suite PRIVATE whipple_exact)
