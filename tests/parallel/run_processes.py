@@ -16,7 +16,9 @@ import subprocess
 import sys
 import time
 
-from waiting import require, wait_for
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "unit"))
+
+from checks import require, wait_for  # noqa: E402
 
 WHIPPLE, CASE, PLAN, FOLDER = *sys.argv[1:4], pathlib.Path(sys.argv[4])
 

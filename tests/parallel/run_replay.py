@@ -16,7 +16,9 @@ import time
 
 import h5py
 
-from waiting import require, wait_for
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "unit"))
+
+from checks import require, wait_for  # noqa: E402
 
 WHIPPLE, CASE, FOLDER = *sys.argv[1:3], pathlib.Path(sys.argv[3])
 VALUES = ["--set", "domain.cell_size=0.3 mm", "--set", "output.checkpoint_every=0", "--set", "output.snapshot_every=0"]

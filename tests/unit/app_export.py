@@ -16,13 +16,10 @@ import xml.etree.ElementTree as xml
 import h5py
 import numpy as np
 
+from checks import require
+
 WHIPPLE, CASE = sys.argv[1:]
 TYPES = {"Float32": "<f4", "Float64": "<f8", "Int64": "<i8", "UInt8": "<u1", "UInt16": "<u2", "UInt64": "<u8"}
-
-
-def require(condition, message):
-    if not condition:
-        raise SystemExit(f"FAILED: {message}")
 
 
 def whipple(*arguments, code=0):

@@ -15,14 +15,11 @@ import sys
 import tempfile
 import tomllib
 
+from checks import require
+
 WHIPPLE, SOURCE, SMALL = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
 TYPES = {"object": dict, "array": list, "string": str, "boolean": bool, "integer": int, "number": (int, float)}
 REMARKS = {"$schema", "title", "description", "default", "$defs"}
-
-
-def require(condition, message):
-    if not condition:
-        raise SystemExit(f"FAILED: {message}")
 
 
 def is_type(value, name):

@@ -18,14 +18,10 @@ import subprocess
 import sys
 import time
 
+from checks import require
 from processes import end_runs_in, runs_in
 
 WHIPPLE, CASE, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
-
-
-def require(condition, message):
-    if not condition:
-        raise SystemExit(f"FAILED: {message}")
 
 
 def wait_for(condition, what, seconds=60):

@@ -16,7 +16,8 @@ import sys
 import threading
 import time
 
-from chromium import ENTER, RIGHT, SKIPPED, TAB, Browser, programs, require
+from checks import require
+from chromium import ENTER, RIGHT, SKIPPED, TAB, Browser, programs
 from processes import end_runs_in
 
 WHIPPLE, CASE, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])

@@ -12,17 +12,14 @@ import subprocess
 import sys
 import tempfile
 
+from checks import require
+
 BUILD, CASE = pathlib.Path(sys.argv[1]), sys.argv[2]
 WHIPPLE = BUILD / "bin" / "whipple"
 FULL = [["--help"], ["--version"], ["version"], ["units"], ["materials"], ["describe", "eos", "gray"], ["check", CASE],
         ["compare", "copper", "--with", "cu_hugoniot_marsh1980"], ["eos", "audit", "copper"], ["eos", "hugoniot", "copper", "--to", "10 GPa"],
         ["eos", "state", "copper", "--density", "9 g/cm^3", "--temperature", "300 K"],
         ["eos", "match", "copper", "aluminium", "--velocity", "1 km/s"], ["fit", "--help"]]
-
-
-def require(condition, message):
-    if not condition:
-        raise SystemExit(f"FAILED: {message}")
 
 
 def output_into_a_full_device():

@@ -11,14 +11,11 @@ import subprocess
 import threading
 import time
 
+from checks import require
+
 SKIPPED = 77  # exit code
 ELEMENT = "element-6066-11e4-a52e-4f735466cecf"  # key of the WebDriver protocol
 TAB, ENTER, RIGHT = "\ue004", "\ue007", "\ue014"  # keys of the WebDriver protocol
-
-
-def require(condition, message):
-    if not condition:
-        raise SystemExit(f"FAILED: {message}")
 
 
 def programs():

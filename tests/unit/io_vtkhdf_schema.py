@@ -11,6 +11,8 @@ import sys
 import h5py
 import numpy as np
 
+from checks import require
+
 BUILT_IN_FILTERS = {"deflate", "shuffle", "fletcher32", "scaleoffset"}
 REALS = ("mass pressure temperature density internal_energy melted_fraction vaporised_fraction plastic_strain "
          "void_fraction distension failure_threshold_factor von_mises_stress artificial_viscosity sound_speed volume").split()
@@ -18,11 +20,6 @@ POINT_DATA = {name: ("float32", 0) for name in REALS} | {
     "velocity": ("float32", 3), "stress": ("float32", 6), "phase": ("uint8", 0), "failed": ("uint8", 0),
     "body": ("uint16", 0), "material": ("uint16", 0), "id": ("uint64", 0),
 }
-
-
-def require(condition, message):
-    if not condition:
-        raise SystemExit(f"schema: {message}")
 
 
 def filters(dataset):

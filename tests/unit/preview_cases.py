@@ -12,7 +12,8 @@ import sys
 import time
 import tomllib
 
-from chromium import SKIPPED, Browser, programs, require
+from checks import require
+from chromium import SKIPPED, Browser, programs
 
 WHIPPLE, CASES, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
 MOST_BYTES, PLACES = 20e6, 10

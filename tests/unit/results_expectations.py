@@ -12,16 +12,12 @@ import sys
 import tempfile
 
 ROOT, WHIPPLE = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2]
-sys.path[0] = str(ROOT)
+sys.path.insert(0, str(ROOT))
 
+from checks import require  # noqa: E402
 from report import sensitivity  # noqa: E402
 from studies.validation import comparison, execution, page, provenance, variants  # noqa: E402
 from studies.validation.cases import UNITS, BadExpectation, Case, Expectation, apply  # noqa: E402
-
-
-def require(condition, message):
-    if not condition:
-        raise SystemExit(f"FAILED: {message}")
 
 
 def every_case_is_understood():

@@ -12,16 +12,12 @@ import tempfile
 import tomllib
 
 ROOT = pathlib.Path(sys.argv[1]).resolve()
-sys.path[:1] = [str(ROOT), str(ROOT / "scripts")]
+sys.path[:0] = [str(ROOT), str(ROOT / "scripts")]
 
 import drift  # noqa: E402
+from checks import require  # noqa: E402
 from studies.validation import comparison, frozen_parameters, page, provenance  # noqa: E402
 from studies.validation.cases import Case, all_cases  # noqa: E402
-
-
-def require(condition, message):
-    if not condition:
-        raise SystemExit(f"FAILED: {message}")
 
 
 def changed(record, key, value):

@@ -9,14 +9,10 @@ import pathlib
 import sys
 
 ROOT = pathlib.Path(sys.argv[1]).resolve()
-sys.path[0] = str(ROOT)
+sys.path.insert(0, str(ROOT))
 
+from checks import require  # noqa: E402
 from studies.validation import bands  # noqa: E402
-
-
-def require(condition, message):
-    if not condition:
-        raise SystemExit(f"FAILED: {message}")
 
 
 def near(value, expected, tolerance, name):

@@ -11,7 +11,8 @@ import statistics
 import subprocess
 import sys
 
-from chromium import SKIPPED, Browser, programs, require
+from checks import require
+from chromium import SKIPPED, Browser, programs
 
 WHIPPLE, MAKER, FOLDER = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
 MOST_BYTES, LEAST_RATIO = 12e6, 4.0

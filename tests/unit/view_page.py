@@ -18,13 +18,10 @@ import tempfile
 import h5py
 import numpy as np
 
+from checks import require
+
 WHIPPLE, CASE, SOURCE = sys.argv[1:]
 PAGE_CHECK = pathlib.Path(SOURCE) / "web" / "viewer" / "tests" / "page_check.js"
-
-
-def require(condition, message):
-    if not condition:
-        raise SystemExit(f"FAILED: {message}")
 
 
 def whipple(*arguments, code=0):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What tests of running programs share: conditions that must hold, at once or soon."""
+"""What tests written in Python share: conditions that must hold, at once or soon."""
 import time
 
 
