@@ -223,19 +223,6 @@ void remark_on_symmetry(const Case& setup, std::vector<std::string>& remarks) {
   }
 }
 
-/// Functions that reach beyond the neighbouring nodes would need the image of an image.
-void remark_on_narrow_domains(const Case& setup, std::vector<std::string>& remarks) {
-  if (setup.transfer.shape_function == transfer::ShapeFunction::linear) return;
-  const grid::Geometry& g = setup.geometry;
-  for (std::size_t a = 0; a < (g.is_planar() ? 2U : 3U); ++a) {
-    if (g.cells[a] > 1 || !g.mirrors(2 * a) || !g.mirrors(2 * a + 1)) continue;
-    remarks.push_back(fmt::format(
-        "the domain is one cell wide along {} between two mirror planes: with functions that are wider "
-        "than linear the energy is not conserved; take two cells",
-        "xyz"[a]));
-  }
-}
-
 void remark_on_meshes(const Case& setup, std::vector<std::string>& remarks) {
   for (const Body& body : setup.bodies) {
     if (body.discretization.mesh.empty()) continue;
@@ -265,7 +252,6 @@ std::vector<std::string> remarks(const Case& setup) {
   remark_on_explosives(setup, found);
   remark_on_detonators(setup, found);
   remark_on_symmetry(setup, found);
-  remark_on_narrow_domains(setup, found);
   remark_on_meshes(setup, found);
   return found;
 }

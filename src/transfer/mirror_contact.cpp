@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_set>
 
 #include "src/core/base/vector_math.hpp"
 #include "src/core/parallel/threads.hpp"
@@ -19,13 +20,14 @@ constexpr double no_mass = 1e-300;  // kg
 constexpr double sticking_gap = 0.04;
 
 /// 1 for the components that reflection reverses, in lanes 0 to 2.
-Lanes reversed(const grid::MirrorPlane& plane) {
+Lanes reversed(grid::Boundary kind, int axis) {
   Lanes lanes{};
   for (int c = 0; c < 3; ++c) {
-    if (plane.kind == grid::Boundary::no_slip || c == plane.axis) lanes[c] = 1.0;
+    if (kind == grid::Boundary::no_slip || c == axis) lanes[c] = 1.0;
   }
   return lanes;
 }
+Lanes reversed(const grid::MirrorPlane& plane) { return reversed(plane.kind, plane.axis); }
 
 /// Returns the fraction of the step in which two surfaces touch that close with a speed (m/s) at its end (3.9).
 double share_in_touch(double gap, double closing_speed, double dt) {
@@ -109,6 +111,12 @@ void MirrorContact::lay_out(const BlockGrid& grid) {
       if (both_concern(pair)) plane->couples.push_back({pair.image, pair.outside});
     }
     for (const std::uint32_t node : mirror.on_plane_apart) plane->couples.push_back({node, node});
+    for (const grid::MirrorPlane& opposite : mirrors) {
+      if (opposite.face != (mirror.face ^ 1)) continue;
+      plane->opposite = opposite.kind;
+      const std::unordered_set<std::uint32_t> held(opposite.on_plane.begin(), opposite.on_plane.end());
+      for (Couple& couple : plane->couples) couple.is_held = held.contains(couple.node);
+    }
     plane->share.assign(plane->couples.size(), 0.0);
     for (const Couple& couple : plane->couples) {
       coupled_[couple.node / nodes_per_block] = coupled_[couple.mirror / nodes_per_block] = 1;
@@ -185,6 +193,13 @@ bool MirrorContact::sticks(const Plane& plane, double gap) const {
   return plane.of.kind == grid::Boundary::no_slip && gap < sticking_gap * cell_size_;
 }
 
+/// Returns the part that a node has in the common velocity with the image at it, by components: all of what the
+/// opposite plane holds, the part of its mass otherwise.
+Lanes MirrorContact::part_of_node(const Plane& plane, const Couple& couple, double mass, double other_mass) {
+  const Lanes held = couple.is_held ? reversed(plane.opposite, plane.of.axis) : Lanes{};
+  return held + (1.0 - held) * (mass / (mass + other_mass));
+}
+
 /// Assigns one beta to all images of a node where planes intersect: otherwise the coupling at one plane would
 /// change with the next one. (beta has no effect at nodes with an independent step.)
 void MirrorContact::join_relaxation_at_corners(std::span<Node> nodes, const Among& among) {
@@ -236,12 +251,12 @@ double MirrorContact::meet(const Plane& plane, const Couple& couple, std::span<N
   if (!(share > 0.0)) return 0.0;
   const double before = loss(own[0], own[1], node) + loss(own_of_mirror[0], own_of_mirror[1], mirror);
   const bool on_plane = couple.node == couple.mirror;
-  const double total = mass + other_mass;
+  const Lanes part = part_of_node(plane, couple, mass, other_mass);
   if (beta > 0.0 || held) {
     if (!held && !(e + beta * w < 0.0)) return 0.0;  // in tension
     const Lanes to_common = share * mixed;
-    const Lanes v_common = (mass * v + other_mass * v_image) / total;
-    const Lanes d_common = (mass * d + other_mass * d_image) / total;
+    const Lanes v_common = part * v + (1.0 - part) * v_image;
+    const Lanes d_common = part * d + (1.0 - part) * d_image;
     node.velocity_and_relaxation = v + to_common * (v_common - v);
     node.increment_and_heat = d + to_common * (d_common - d);
     node.set_relaxation(beta);
@@ -253,9 +268,9 @@ double MirrorContact::meet(const Plane& plane, const Couple& couple, std::span<N
   } else {  // (3.11): a common velocity of the nodes would not slow what is not relaxed towards it
     const double stopped = -(w + e) - std::max(std::max(open, 0.0) / dt, w);
     if (!(stopped > 0.0)) return 0.0;
-    const double change = n * stopped / total;  // for a reduced mass: times the other mass
-    node.increment_and_heat[plane.of.axis] -= other_mass * change;
-    if (!on_plane) mirror.increment_and_heat[plane.of.axis] -= mass * change;
+    const double own_part = part[plane.of.axis];
+    node.increment_and_heat[plane.of.axis] -= (1.0 - own_part) * n * stopped;
+    if (!on_plane) mirror.increment_and_heat[plane.of.axis] -= own_part * n * stopped;
   }
   const double after = loss(own[0], own[1], node) + loss(own_of_mirror[0], own_of_mirror[1], mirror);
   const double half = 0.5 * (after - before);
@@ -304,7 +319,8 @@ void MirrorContact::apply_to_velocities(BlockGrid& grid, const Among& among) {
         share = sticks(plane, open) ? 1.0 : closing > 0.0 ? share_in_touch(open, closing, dt_) : 0.0;
       }
       const Lanes to_common = share * mixed;
-      const Lanes common = (mass * v + other_mass * v_image) / (mass + other_mass);
+      const Lanes part = part_of_node(plane, couple, mass, other_mass);
+      const Lanes common = part * v + (1.0 - part) * v_image;
       const Lanes changed = v + to_common * (common - v);
       if (couple.node != couple.mirror) of_mirror = sign * (v_image + to_common * (common - v_image));
       v = changed;

@@ -65,9 +65,12 @@ class MirrorContact {
   /// A node and its mirror node; the same one twice on the plane.
   struct Couple {
     std::uint32_t node, mirror;
+    /// Does the node lie on the opposite plane, where material is one with its image? It does not move across it.
+    bool is_held = false;
   };
   struct Plane {
     grid::MirrorPlane of;  // without its lists
+    grid::Boundary opposite = grid::Boundary::outflow;
     std::vector<Couple> couples;
     std::vector<double> share;  // of the step, that the two touch in: of each couple
     /// Those of nodes that other planes concern too: up to eight nodes have images of one another.
@@ -78,6 +81,8 @@ class MirrorContact {
   }
   [[nodiscard]] double gap(const Plane& plane, const Couple& couple) const;
   [[nodiscard]] bool sticks(const Plane& plane, double gap) const;
+  [[nodiscard]] static Lanes part_of_node(const Plane& plane, const Couple& couple, double mass,
+                                          double other_mass);
   void join_relaxation_at_corners(std::span<grid::Node> nodes, const Among& among);
   double meet(const Plane& plane, const Couple& couple, std::span<grid::Node> nodes, double dt);
   template <class Shape>

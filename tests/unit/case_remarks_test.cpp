@@ -31,23 +31,6 @@ TEST(Remarks, SayNothingOfAnImpactThatTouchesOrFliesFirst) {
   EXPECT_EQ(remarks_of(free_domain + sphere + plate("5 mm")), "");
 }
 
-TEST(Remarks, NameADomainOfOneCellBetweenMirrorPlanes) {
-  const auto strip = [](const std::string& width, const std::string& functions) {
-    return "[domain]\nlower = [\"0 mm\", \"0 mm\", \"0 mm\"]\nupper = [\"20 mm\", \"" + width +
-           "\", \"4 mm\"]\ncell_size = \"1 mm\"\nboundary = { y_lower = \"symmetry\", y_upper = \"symmetry\" "
-           "}\n"
-           "[time]\nend = \"1 us\"\n[transfer]\nshape_function = \"" +
-           functions +
-           "\"\n[[body]]\nname = \"bar\"\nmaterial = \"aluminium.toml\"\nshape = { box = { lower = [\"2 "
-           "mm\", \"0 mm\", "
-           "\"0 mm\"], upper = [\"9 mm\", \"" +
-           width + "\", \"4 mm\"] } }\n";
-  };
-  EXPECT_NE(remarks_of(strip("1 mm", "quadratic_bspline")).find("one cell wide along y"), std::string::npos);
-  EXPECT_EQ(remarks_of(strip("2 mm", "quadratic_bspline")), "");
-  EXPECT_EQ(remarks_of(strip("1 mm", "linear\"\nparticle_update = \"flip")), "");
-}
-
 TEST(Remarks, NameAGapThatIsNarrowerThanACell) {
   const std::string said = remarks_of(domain + sphere + plate("-0.75 mm"));
   EXPECT_NE(said.find("'sphere' and 'plate' is a gap of 0.25 mm, less than a cell of 1 mm"),

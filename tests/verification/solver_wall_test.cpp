@@ -412,6 +412,43 @@ TEST(WallContact, IsExactWherePlanesAndBodiesMeetAndTheSameByThreadsAndRestart) 
   }
 }
 
+// Between planes one cell apart nodes that one plane holds are the images of nodes beyond the other.
+TEST(WallContact, KeepsEnergyAndMomentumOfAGasThatFillsACellBetweenTwoPlanes) {
+  constexpr double end = 1.5e-6;
+  for (const char* wall : {"symmetry", "no_slip", "separating"}) {
+    for (const char* method : {"particle_update = \"relaxed_affine\"", "particle_update = \"flip\"",
+                               "particle_update = \"flip\"\nshape_function = \"cubic_bspline\"",
+                               "particle_update = \"flip\"\nshape_function = \"gimp\""}) {
+      for (const double lower : {0.0, 0.25}) {  // mm; on a plane at the start, or on none
+        SCOPED_TRACE(std::string(wall) + ", " + method + ", " + number(lower) + " mm");
+        const std::string planes = "x_lower = \"symmetry\", x_upper = \"symmetry\", y_lower = \"" +
+                                   std::string(wall) + "\", y_upper = \"" + wall +
+                                   "\", z_lower = \"symmetry\", z_upper = \"symmetry\"";
+        const cases::Case setup = cases::read_case_text(
+            "[domain]\nlower = [\"0 mm\", \"0 mm\", \"0 mm\"]\nupper = [\"8 mm\", \"1 mm\", \"1 mm\"]\n"
+            "cell_size = \"1 mm\"\nboundary = { " +
+                planes + " }\n[time]\nend = " + number(end) + "\n[transfer]\n" + method +
+                "\n[output]\nmaximum_energy_error = 10.0\n" +
+                body("gas", "tnt.toml",
+                     "box = { lower = [\"2 mm\", \"" + number(lower) +
+                         " mm\", \"0 mm\"], upper = [\"5 mm\", \"" + number(lower + 0.5) +
+                         " mm\", \"1 mm\"] }",
+                     {0, 100, 0}, "detonation = \"instantaneous\"\ndiscretization = { per_cell = 64 }\n"),
+            "narrow.toml");
+        solver::Simulation simulation(setup, parallel::world());
+        const Vector3 momentum = simulation.totals().momentum;
+        EnergyWatch watch;
+        run_to(simulation, end, [&](const solver::Simulation& s) {
+          watch(s);
+          const Vector3 error = s.totals().momentum - momentum - s.state().ledger.wall_impulse;
+          EXPECT_LT(error.norm(), 1e-11 * momentum.norm());
+        });
+        EXPECT_LT(watch.worst, 1e-12);
+      }
+    }
+  }
+}
+
 /// Elements beside particles in a column of two cells: nodes of elements near particles move with the grid.
 TEST(WallContact, StopsElementsThatMoveWithTheGridWhereTheirFacetsTouch) {
   constexpr double speed = 500.0, gap = 2.3;
