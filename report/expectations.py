@@ -25,7 +25,7 @@ def quantity(text, where):
     """Value in SI and the unit as written: "14 mm" -> (0.014, "mm")."""
     if isinstance(text, (int, float)) and not isinstance(text, bool):
         return float(text), ""
-    match = re.fullmatch(r"\s*([-+0-9.eE]+)\s*(\S*)\s*", str(text))
+    match = re.fullmatch(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S*)\s*", str(text))
     if not match or match[2] not in UNITS:
         raise BadExpectation(f"{where}: {text!r} is no number with one of the units {', '.join(filter(None, UNITS))}")
     return float(match[1]) * UNITS[match[2]], match[2]
@@ -133,6 +133,9 @@ class RunOfCase:
         self.set, self.analyse = table.get("set", []), table.get("analyse", [])
         self.set_at = {**case.set_at, **table.get("set_at", {})}
         self.cell_size = table.get("cell_size", case.cell_size)
+        for key, given in (("cell_size", self.cell_size), ("set_at", self.set_at)):
+            if others := sorted(set(given) - set(RESOLUTIONS)):
+                raise BadExpectation(f"{where}: run {self.name}: {key} of {others}, expected {', '.join(RESOLUTIONS)}")
         self.headline, self.sensitivity = table.get("headline", False), table.get("sensitivity", False)
         self.band = Band(table["band"], where) if "band" in table else case.band
         self.input, self.decided_by = table.get("input", []), table.get("decided_by", "")

@@ -9,13 +9,14 @@ from matplotlib.figure import Figure
 
 from report import style, units
 from report.curves import new_figure
-from report.expectations import UNITS, BadExpectation, Case, Expectation, RunOfCase, quantity, value_of
+from report.expectations import UNITS, BadExpectation, Case, Expectation, RunOfCase, quantity
 from report.measured import Measures
 from report.page import Page
 from report.run import Run
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 STUDIES = ROOT / "docs" / "generated" / "results.json"
+AXES = "xyz"
 
 
 def case_of(run: Run) -> Case | None:
@@ -24,7 +25,7 @@ def case_of(run: Run) -> Case | None:
     if not named:
         return None
     for folder in (pathlib.Path(named).parent, (ROOT / named).parent):
-        if (folder / "expected.toml").is_file():
+        if all((folder / name).is_file() for name in ("expected.toml", "case.toml")):
             return Case(folder / "expected.toml")
     return None
 
@@ -40,22 +41,69 @@ def same(written: object, wanted: object) -> bool:
         return str(written) == str(wanted)
 
 
-def holds_in(run: Run, assignment: str) -> bool:
-    """Whether the input of a run has the value of KEY=VALUE."""
-    key, _, text = assignment.partition("=")
-    value = run.input
-    for part in key.split("."):
+def turned(value: object, first: int) -> object:
+    """Returns a value of a case as run.toml of a section has it: axis number `first` is x there, the next one y."""
+    if isinstance(value, dict):
+        return {key: turned(entry, first) for key, entry in value.items()}
+    if isinstance(value, str) and value in AXES:
+        return AXES[(AXES.index(value) - first) % 3]
+    if isinstance(value, list) and len(value) == 3 and not any(isinstance(entry, (dict, list)) for entry in value):
+        return [value[(first + k) % 3] for k in range(3)]
+    return value
+
+
+def value_at(table: object, way: list[str]) -> object:
+    """Returns the value of a key that is split at its dots; a component stands for its vector. None if there is none."""
+    for i, part in enumerate(way):
+        if isinstance(table, list) and i + 1 == len(way) and not any(isinstance(entry, dict) for entry in table):
+            return table
         try:
-            value = value[int(part)] if isinstance(value, list) else value[part]
+            table = table[int(part)] if isinstance(table, list) else table[part]
         except (KeyError, IndexError, ValueError, TypeError):
-            return False
-    return same(value, value_of(text))
+            return None
+    return table
+
+
+def holds_in(run: Run, key: str, table: dict) -> bool:
+    """Whether the input of a run has the value that a key has in a resolved case, whose axes a section turns."""
+    domain = table["domain"]
+    first = AXES.index(domain.get("axis", "x")) if domain["dimension"] != "3d" else 0
+    way = key.split(".")
+    if way[0] == "domain" and way[1] in ("axis", "lower", "upper"):
+        return True  # run.toml has been turned, its axis is x; its domain may have grown to whole cells
+    wanted = turned(value_at(table, way), first)
+    if way[:2] == ["domain", "boundary"] and len(way) == 3:
+        axis, _, side = way[2].partition("_")
+        way = [*way[:2], f"{turned(axis, first)}_{side}"]
+    written = value_at(run.input, way)
+    if way[-1] == "material":  # a run keeps copies of its materials
+        written, wanted = (pathlib.PurePath(str(name)).stem for name in (written, wanted))
+    return same(written, wanted)
+
+
+def keys_of(assignments: list[str]) -> list[str]:
+    """Returns the keys of KEY=VALUE."""
+    return [assignment.partition("=")[0] for assignment in assignments]
+
+
+def table_of(each: RunOfCase) -> dict:
+    """Returns the input of a run of a case; cells apart, it is the same on all grids."""
+    table = each.resolved(next(iter(each.cell_size)))
+    table["domain"].setdefault("dimension", "3d")
+    return table
 
 
 def run_of(case: Case, run: Run) -> RunOfCase | None:
     """Finds the run of a case whose assignments a run has, the one with the most; None if there is none."""
-    fitting = [each for each in case.runs if all(holds_in(run, assignment) for assignment in each.set)]
+    fitting = [each for each in case.runs if all(holds_in(run, key, table_of(each)) for key in keys_of(each.set))]
     return max(fitting, key=lambda each: len(each.set), default=None)
+
+
+def departures(case: Case, each: RunOfCase, run: Run) -> list[str]:
+    """Returns the keys that runs of a case set and that have other values in a run than in the one it is compared with."""
+    table = table_of(each)
+    keys = dict.fromkeys(key for other in case.runs for key in keys_of(other.set))
+    return [key for key in keys if value_at(table, key.split(".")) is not None and not holds_in(run, key, table)]
 
 
 def studies_of(case: Case, run: RunOfCase, store: pathlib.Path = STUDIES) -> dict[str, dict]:
@@ -87,7 +135,8 @@ def verdict(e: Expectation, value: float, band: float | None) -> str:
         return "not measured"
     if e.holds(value):
         return "as expected"
-    if band and any(e.holds(value + sign * band) for sign in (-1, 1)):
+    nearest = min(max(e.value, value - band), value + band) if band else value
+    if e.holds(nearest):
         return "within the band"
     return "departs"
 
@@ -148,6 +197,8 @@ def add_to(page: Page, run: Run, add_figure) -> list[dict]:
                      "band": band, "verdict": result})
     page.heading("Expected, and found in this run")
     page.paragraph(f"Expectations of {case.title}" + (f", {found.title}" if found.title else "") + " (expected.toml of the case).")
+    if others := departures(case, found, run):
+        page.note(f"They are those of another input: this run has another value of {', '.join(others)}.")
     page.table(["quantity", "this run", "expected", "band of 95 %", "finest grid", "", "source"], rows, text_columns=(0, 5, 6))
     add_figure("expected.png", "Points: this run, with the band of 95 % of the case's grid study. Blue: expected value with "
                "its tolerance; arrows: bounds, and the side that is allowed.", figure_of(drawn))

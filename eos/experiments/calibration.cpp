@@ -89,7 +89,8 @@ Calibration calibrate(const EquationOfState& eos, const State& initial,
   int within_band = 0;
   std::array<int, coverage_levels.size()> within{};
   for (std::size_t i = 0; i < count; ++i) {
-    const bool counts = std::isfinite(result.model[i]) && 2 * states[i] > samples.size();
+    const bool counts = std::isfinite(result.model[i]) && std::isfinite(result.measurement_error[i]) &&
+                        2 * states[i] > samples.size();
     const double deviation = counts ? std::sqrt(squares[i] / static_cast<double>(states[i] - 1)) : nan;
     result.deviation.push_back(deviation);
     const double off = result.model[i] - experiment.ordinate[i];

@@ -35,7 +35,7 @@ struct Calibration {
 std::vector<double> measurement_errors(const Experiment& experiment, std::span<const double> slope);
 
 /// Compares the scatter over samples of an equation of state with an experiment. A point counts if the equation of
-/// state and more than half of the samples have a state there.
+/// state and more than half of the samples have a state there, and if its error is known.
 /// @param samples  with their initial states, two or more
 Calibration calibrate(const EquationOfState& eos, const State& initial,
                       std::span<const std::pair<const EquationOfState*, State>> samples,

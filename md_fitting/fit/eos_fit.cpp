@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -173,10 +174,18 @@ std::vector<std::string> model_names() {
   return names;
 }
 
-/// Scatter over the potentials of each element of which there are two fits or more, by element.
-std::map<std::string, PotentialSpread> spreads_of(const std::vector<NamedFit>& fits) {
+/// Scatter over the potentials of each element of which there are fits of two or more, by element. Of several
+/// stores of one potential the first counts.
+std::map<std::string, PotentialSpread> spreads_of(const std::vector<NamedFit>& fits,
+                                                  const std::vector<StoreOrigin>& origins) {
   std::map<std::string, std::vector<const Fit*>> by_element;
-  for (const NamedFit& fit : fits) by_element[fit.fit.element].push_back(&fit.fit);
+  std::set<std::pair<std::string, std::string>> taken;  // element and potential
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    const Fit& fit = fits[i].fit;
+    const auto content = origins[i].common.find("potential_sha256");
+    const std::string& potential = content == origins[i].common.end() ? fit.potential : content->second;
+    if (taken.emplace(fit.element, potential).second) by_element[fit.element].push_back(&fit);
+  }
   std::map<std::string, PotentialSpread> spreads;
   for (const auto& [element, members] : by_element) {
     if (const auto spread = potential_spread(members)) spreads.emplace(element, *spread);
@@ -231,7 +240,7 @@ void run(const Options& options) {
     fits.push_back({stem(store), fit_model(model_of(options.model), points, chosen, store.string())});
     origins.push_back(store_origin(store, points));
   }
-  const std::map<std::string, PotentialSpread> spreads = spreads_of(fits);
+  const std::map<std::string, PotentialSpread> spreads = spreads_of(fits, origins);
   for (std::size_t i = 0; i < files.size(); ++i) {
     const Fit& fit = fits[i].fit;
     const std::filesystem::path model = options.template_file.empty()

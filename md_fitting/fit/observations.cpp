@@ -107,7 +107,9 @@ std::vector<Isochore> isochores(std::span<const PointRecord> points) {
 
 /// Of the points of one pressure only those of the largest cells count: a plan may hold smaller ones to show
 /// the effect.
-std::vector<MeltingPoint> melting_points(const std::vector<PointRecord>& points) {
+std::vector<MeltingPoint> melting_points(std::vector<PointRecord> points) {
+  // Without the volume of the solid a point says nothing on V0.
+  std::erase_if(points, [](const auto& point) { return !point.results.contains("solid_specific_volume"); });
   const auto cells = [](const PointRecord& point) {
     const md::RunShape shape = md::run_shape(point.provenance);
     return shape.cells * shape.cells * shape.length;
@@ -119,8 +121,6 @@ std::vector<MeltingPoint> melting_points(const std::vector<PointRecord>& points)
   }
   std::vector<MeltingPoint> found;
   for (const PointRecord& point : points) {
-    if (!point.results.contains("solid_specific_volume"))
-      continue;  // without it the point says nothing on V0
     if (cells(point) < largest[point.condition("pressure")]) continue;
     const auto optional = [&](const char* name) {
       const auto result = point.results.find(name);
@@ -141,24 +141,40 @@ std::vector<IsothermState> isotherm_states(std::span<const PointRecord> points, 
     for (const PointRecord& point : md::select(points, protocol)) {
       if (!is_solid(point) || std::abs(point.condition("temperature") - temperature) > same_temperature)
         continue;
-      found.push_back({point.condition("specific_volume"), point.result("pressure")});
+      const IsothermState state{point.condition("specific_volume"), point.result("pressure")};
+      // An isotherm and an isochore may cross in one state: it is one datum.
+      const bool twice = std::ranges::any_of(found, [&](const IsothermState& other) {
+        return other.volume == state.volume && other.pressure.value == state.pressure.value;
+      });
+      if (!twice) found.push_back(state);
     }
   }
   std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.volume > b.volume; });
   return found;
 }
 
-/// -V dP/dV where an isotherm crosses zero pressure: P/(1 - V/V0) of the two nearest states, extrapolated to
-/// V0.
-double modulus_at_rest(std::vector<IsothermState> isotherm, double v0) {
-  constexpr double too_near = 2e-3;  // there P/(1 - V/V0) is the noise of P
+/// -V dP/dV where an isotherm crosses zero pressure: P/(1 - V/V0) of the two nearest states of different
+/// volumes, extrapolated to V0.
+/// @throws InputError if all states are of one volume, or next to V0
+double modulus_at_rest(std::vector<IsothermState> isotherm, double v0, const std::string& store_name) {
+  constexpr double too_near = 2e-3;  // there P/(1 - V/V0), or the difference of two, is the noise of P
   const auto strain = [&](const IsothermState& state) { return 1.0 - state.volume / v0; };
   std::erase_if(isotherm, [&](const IsothermState& state) { return std::abs(strain(state)) < too_near; });
   std::ranges::sort(isotherm, {}, [&](const IsothermState& state) { return std::abs(strain(state)); });
-  const double x0 = strain(isotherm[0]);
-  const double x1 = strain(isotherm[1]);
-  const double secant0 = isotherm[0].pressure.value / x0;
-  const double secant1 = isotherm[1].pressure.value / x1;
+  const auto next = std::ranges::find_if(isotherm, [&](const IsothermState& state) {
+    return std::abs(strain(state) - strain(isotherm.front())) >= too_near;
+  });
+  if (next == isotherm.end()) {
+    throw InputError(fmt::format(
+        "{}: the isotherm has no two volumes that differ from that at zero pressure and from one another by "
+        "{} of it: the points of the protocol \"quantum\" need its bulk modulus; add volumes, or fit with "
+        "--nuclei classical",
+        store_name, too_near));
+  }
+  const double x0 = strain(isotherm.front());
+  const double x1 = strain(*next);
+  const double secant0 = isotherm.front().pressure.value / x0;
+  const double secant1 = next->pressure.value / x1;
   return secant0 - (secant1 - secant0) / (x1 - x0) * x0;
 }
 
@@ -192,7 +208,7 @@ void add_quantum_nuclei(std::span<const PointRecord> points, Observations& data,
                     std::hypot(weight * above.pressure.error, (1 - weight) * below->pressure.error)};
   };
   const double v0 = data.reference_volume.value;
-  const double bulk_modulus = modulus_at_rest(data.isotherm, v0);
+  const double bulk_modulus = modulus_at_rest(data.isotherm, v0, store_name);
   const Estimate at_reference = quantum_pressure(v0);
   data.quantum_expansion = at_reference.value / bulk_modulus;
   data.reference_volume.value *= 1.0 + data.quantum_expansion;

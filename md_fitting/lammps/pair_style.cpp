@@ -48,6 +48,16 @@ bool looks_like_file(const std::string& word) {
          std::isalpha(static_cast<unsigned char>(word[dot + 1])) != 0;
 }
 
+/// Returns the path of a file as LAMMPS reads it between quotation marks.
+std::string readable_path(const std::filesystem::path& path) {
+  const std::string text = path.string();
+  const bool readable =
+      std::ranges::all_of(text, [](unsigned char c) { return c >= 0x20 && c < 0x7f && c != '"'; });
+  if (readable) return text;
+  throw InputError(fmt::format(
+      "{}: LAMMPS reads no paths with quotation marks or letters beyond ASCII: move the file", text));
+}
+
 void require_style(const std::string& style) {
   if (std::ranges::find(read_styles, style) != read_styles.end()) {
     throw InputError(
@@ -79,7 +89,7 @@ PairInteractions pair_interactions(const PairStyle& pair, const std::string& nam
   std::string content = command + "\n";
   for (const std::string& line : pair.coefficients) {
     require_plain(line);
-    std::string full = "pair_coeff";
+    std::string full = "pair_coeff", shown = full;  // without folders
     for (const std::string& word : words_of(line)) {
       std::filesystem::path path;
       for (const std::filesystem::path& place : {folder / word, potential_folder() / word}) {
@@ -94,9 +104,9 @@ PairInteractions pair_interactions(const PairStyle& pair, const std::string& nam
         std::ifstream file(path, std::ios::binary);
         content += sha256(std::string(std::istreambuf_iterator<char>(file), {})) + "\n";
       }
-      full += " " + (path.empty() ? word : path.string());
+      full += path.empty() ? " " + word : fmt::format(" \"{}\"", readable_path(path));
+      shown += " " + (path.empty() ? word : path.filename().string());
     }
-    const std::string shown = "pair_coeff " + line;
     result.interactions.in_box.push_back({full, shown});
     content += shown + "\n";
   }

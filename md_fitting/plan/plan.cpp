@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <vector>
 
 namespace whipple::md {
@@ -111,8 +112,17 @@ Plan read_plan(const std::filesystem::path& path) {
 
 std::string plan_text(const Plan& plan) {
   Plan copy = plan;
-  const std::filesystem::path beside = plan.folder / plan.potential;
-  if (std::filesystem::is_regular_file(beside)) copy.potential = std::filesystem::absolute(beside).string();
+  const auto placed = [&](const std::string& name) {
+    const std::filesystem::path beside = plan.folder / name;
+    return std::filesystem::is_regular_file(beside) ? std::filesystem::absolute(beside).string() : name;
+  };
+  copy.potential = placed(plan.potential);
+  for (std::string& line : copy.pair_coeff) {
+    std::istringstream words(line);
+    std::string found;
+    for (std::string word; words >> word;) found += (found.empty() ? "" : " ") + placed(word);
+    line = found;
+  }
   copy.adaptive.reset();
   return input::write_content(copy, "");
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "md_fitting/lammps/units.hpp"
@@ -25,11 +26,13 @@ CompressedStart compressed_start(const Potential& potential, double pressure) {
     return crystal.lammps().variable("virial") * metal::bar > pressure;
   };
   if (reaches(small)) return uncompressed;
-  double low = std::cbrt(0.4);
+  // Beyond its least volume a potential extrapolates, or refuses.
+  const double least_ratio = std::max(0.4, potential.least_volume_ratio());
+  double low = std::cbrt(least_ratio);
   double high = small;
-  if (!reaches(low)) {
-    throw StateError(fmt::format("the static crystal of {} does not reach {:.4g} GPa at V/V0 = 0.4",
-                                 potential.name(), 1e-9 * pressure));
+  if (!(low < high) || !reaches(low)) {
+    throw StateError(fmt::format("the static crystal of {} does not reach {:.4g} GPa at V/V0 = {:.3f}",
+                                 potential.name(), 1e-9 * pressure, least_ratio));
   }
   while (high - low > resolution) {
     const double middle = 0.5 * (low + high);

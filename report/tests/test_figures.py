@@ -89,6 +89,9 @@ name = "plain"
 [[run]]
 name = "flat"
 set = ["domain.dimension=axisymmetric", "body.0.shape.sphere.radius='2 mm'"]
+[[run]]
+name = "section"
+set = ["domain.dimension=axisymmetric", "domain.axis=z", "body.0.velocity=[0, 0, '2 km/s']", "body.0.material=iron"]
 [[quantity]]
 name = "depth"
 measure = "crater_depth.wall"
@@ -99,12 +102,24 @@ source = "made up"
 """
 
 
+CASE = """
+[domain]
+cell_size = "1 mm"
+[[body]]
+material = "copper.toml"
+velocity = ["0 m/s", "0 m/s", "1 km/s"]
+shape = { sphere = { center = ["0 mm", "0 mm", "4 mm"], radius = "1 mm" } }
+"""
+
+
 class Expectations(unittest.TestCase):
     def setUp(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = pathlib.Path(folder) / "expected.toml"
-            path.write_text(EXPECTED)
-            self.case = Case(path)
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        path = pathlib.Path(folder.name) / "expected.toml"
+        path.write_text(EXPECTED)
+        path.with_name("case.toml").write_text(CASE)
+        self.case = Case(path)
 
     def run_with(self, **keys):
         return types.SimpleNamespace(input=keys)
@@ -113,13 +128,25 @@ class Expectations(unittest.TestCase):
         flat = self.run_with(domain={"dimension": "axisymmetric"}, body=[{"shape": {"sphere": {"radius": "0.002 m"}}}])
         self.assertEqual(expected.run_of(self.case, flat).name, "flat")
         other = self.run_with(domain={"dimension": "axisymmetric"}, body=[{"shape": {"sphere": {"radius": "0.003 m"}}}])
-        self.assertEqual(expected.run_of(self.case, other).name, "plain")
+        plain = expected.run_of(self.case, other)
+        self.assertEqual(plain.name, "plain")
+        self.assertEqual(expected.departures(self.case, plain, other)[:2], ["domain.dimension", "body.0.shape.sphere.radius"])
+
+    def test_sections_are_turned_and_materials_copied_in_the_input_of_a_run(self):
+        body = {"material": "materials/iron.toml", "velocity": ["2000 m/s", "0 m/s", "0 m/s"],
+                "shape": {"sphere": {"center": ["0.004 m", "0 m", "0 m"], "radius": "0.001 m"}}}
+        section = self.run_with(domain={"dimension": "axisymmetric", "axis": "x"}, body=[body])
+        found = expected.run_of(self.case, section)
+        self.assertEqual(found.name, "section")
+        self.assertEqual(expected.departures(self.case, found, section), [])
+        slower = self.run_with(domain={"dimension": "axisymmetric", "axis": "x"}, body=[body | {"velocity": ["0 m/s", "0 m/s", "2000 m/s"]}])
+        self.assertEqual(expected.run_of(self.case, slower).name, "plain")
 
     def test_verdicts(self):
         e = self.case.common[0]
         self.assertEqual([expected.verdict(e, v, band) for v, band in
-                          ((0.0145, None), (0.016, None), (0.016, 0.001), (math.nan, 1.0))],
-                         ["as expected", "departs", "within the band", "not measured"])
+                          ((0.0145, None), (0.016, None), (0.016, 0.001), (0.016, 0.02), (0.016, 0.0005), (math.nan, 1.0))],
+                         ["as expected", "departs", "within the band", "within the band", "departs", "not measured"])
         self.assertEqual(expected.expectation_text(e), "14 mm ± 1.4 mm")
         self.assertIsNone(expected.figure_of([(e, math.nan, None)]))
         self.assertIsNotNone(expected.figure_of([(e, 0.0145, 0.001)]))

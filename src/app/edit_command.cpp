@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <sstream>
@@ -55,7 +56,11 @@ void edit(const EditOptions& options) {
       throw InputError(
           fmt::format("{}: error: was changed by another program meanwhile: nothing written", options.file));
     }
-    write_text_atomically(options.file, text);
+    // A link stays one: the file that it names is written, and keeps its permissions.
+    const std::filesystem::path file = std::filesystem::canonical(options.file);
+    const std::filesystem::perms permissions = std::filesystem::status(file).permissions();
+    write_text_atomically(file, text);
+    std::filesystem::permissions(file, permissions);
   }
   fmt::print("{}", report);
 }

@@ -158,6 +158,11 @@ void check_explosives(const Case& setup, const Faults& faults) {
              "there is no explosive to light: no body has a material of detonation "
              "products without a key 'detonation'");
   }
+  if (!any && setup.burn.retire_below > 0.0) {
+    faults.in("burn").add("retire_below",
+                          "no body burns in the run, and products that are there from the start are not "
+                          "removed: omit the key");
+  }
 }
 
 }  // namespace whipple::cases

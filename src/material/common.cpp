@@ -19,18 +19,32 @@ constexpr double least_density_ratio = 1e-9;
 /// Density that material may reach, as a part of that at which its equation of state ends.
 constexpr double greatest_density_ratio = 0.999;
 
+/// Returns the density at which the equation of state of a point ends: of an explosive, that of what there is of
+/// it. Products that a wall or another detonation stops are denser than the unreacted explosive ever is.
+double greatest_density_of(const Step& step, std::size_t point) {
+  const double of_reactant = step.material.eos->maximum_density();
+  if (!step.material.burns()) return of_reactant;
+  const double of_products = step.material.burn->explosive().products->maximum_density();
+  const double burnt = step.points.history.scalar("burn_fraction")[point];
+  return burnt >= 1.0 ? of_products : burnt > 0.0 ? std::min(of_reactant, of_products) : of_reactant;
+}
+
 /// Holds points below the greatest density of their equation of state, and counts them.
-WHIPPLE_KERNEL void hold_below_greatest_density(double greatest_density, Chunk& chunk) {
-  const double per_greatest = 1.0 / (greatest_density_ratio * greatest_density);
-  std::size_t held = 0;
-  for (std::size_t k = 0; k < chunk.size; ++k) held += chunk.volume[k] < chunk.mass[k] * per_greatest ? 1 : 0;
-  if (held == 0) return;
-  chunk.report.squeezed += held;
+WHIPPLE_KERNEL void hold_below_greatest_density(const Step& step, Chunk& chunk) {
+  double lowest = step.material.eos->maximum_density();
+  if (step.material.burns())
+    lowest = std::min(lowest, step.material.burn->explosive().products->maximum_density());
+  const double per_lowest = 1.0 / (greatest_density_ratio * lowest);
+  std::size_t beyond = 0;
+  for (std::size_t k = 0; k < chunk.size; ++k) beyond += chunk.volume[k] < chunk.mass[k] * per_lowest ? 1 : 0;
+  if (beyond == 0) return;
   for (std::size_t k = 0; k < chunk.size; ++k) {
-    const double least = chunk.mass[k] * per_greatest;
-    if (chunk.volume[k] >= least) continue;
+    const double greatest = greatest_density_of(step, chunk.index[k]);
+    const double least = chunk.mass[k] / (greatest_density_ratio * greatest);
+    if (!(chunk.volume[k] < least)) continue;
     chunk.volume_change[k] += least - chunk.volume[k];
     chunk.volume[k] = least;
+    ++chunk.report.squeezed;
     chunk.report.first_squeezed = std::min(chunk.report.first_squeezed, chunk.index[k]);
   }
 }
@@ -65,7 +79,7 @@ WHIPPLE_KERNEL void advance_volume(const Step& step, Chunk& chunk) {
       chunk.void_volume[k] = open ? total - matter : chunk.void_volume[k];
     }
   }
-  hold_below_greatest_density(step.material.eos->maximum_density(), chunk);
+  hold_below_greatest_density(step, chunk);
   if (chunk.any_failed) {
     // Stress acts on the material and strains it as the whole; in failed material, on nothing but itself.
     for (std::size_t k = 0; k < chunk.size; ++k) {

@@ -142,8 +142,8 @@ Errors read_errors(const std::filesystem::path& file, ErrorTier tier) {
     }
   }
   // All else is for the reader of the material, or for people.
-  for (const char* other : {"name", "source", "note", "group", "eos", "strength", "failure", "measured",
-                            "provenance", "defaults"}) {
+  for (const char* other : {"name", "source", "note", "group", "eos", "reaction", "strength", "failure",
+                            "constitutive", "thermal", "measured", "provenance", "defaults"}) {
     root.accept(other);
   }
   for (const char* other :

@@ -61,14 +61,16 @@ struct MaterialReport {
   double dissipation = 0.0;
   std::array<std::size_t, failure::code_count> failed{};  ///< points that failed in this step, by code
 
-  /// Returns whether the material as such is denser than its equation of state allows. Below one point in a
-  /// thousand it is single points that are squeezed by nodes which hardly anything else reaches: at the edge
-  /// of a contact, or in rings that converge on the axis.
-  [[nodiscard]] bool is_too_dense() const { return squeezed > points / 1000; }
+  /// Returns whether the material as such is denser than its equation of state allows, by the points of a body
+  /// on all ranks. Below one point in a thousand it is single points that are squeezed by nodes which hardly
+  /// anything else reaches: at the edge of a contact, or in rings that converge on the axis.
+  static constexpr bool is_too_dense(std::size_t squeezed, std::size_t points) {
+    return squeezed > points / 1000;
+  }
   /// Nothing that ends a run: `undefined` and `equation_of_state.out_of_range` are 0, and the material is not
-  /// too dense.
+  /// too dense, if these points are all of the body.
   [[nodiscard]] bool valid() const {
-    return undefined == 0 && equation_of_state.out_of_range == 0 && !is_too_dense();
+    return undefined == 0 && equation_of_state.out_of_range == 0 && !is_too_dense(squeezed, points);
   }
   void merge(const MaterialReport& other);
 };

@@ -152,6 +152,9 @@ def main():
                  allowed=(0, 3))
         results[metal] = calibrate(metal, options, binaries, stores)
         print(f"{metal}: done", flush=True)
+    if set(results) != set(METALS):
+        print(sections(results) + f"\na part of the metals: {PAGE.name} and {FIGURE.name} stay as they are")
+        return
     draw(results)
     head, rest = PAGE.read_text(encoding="utf-8").split(BEGIN)
     tail = rest.split(END)[1]

@@ -24,6 +24,7 @@ import tomllib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
+from report.expectations import quantity  # noqa: E402
 from studies.commands import call  # noqa: E402
 from studies.fit_calibration.fit_calibration import METALS, table, usable  # noqa: E402
 from studies.validation.bands import STUDENT, grid_study  # noqa: E402
@@ -99,6 +100,11 @@ def fitted(options, body, samples, tier):
     return folder / f"{central}.toml", sorted((folder / f"{central}_samples").glob("*.toml"))
 
 
+def shifted(cell, shift):
+    """The assignment that moves the grid by a part of a cell along the flight; `cell`: text with a unit."""
+    return f'domain.lower=["0 mm", "0 mm", "{-36 - 1e3 * shift * quantity(cell, "--cell")[0]:.10g} mm"]'
+
+
 def spread(values):
     """Mean and standard deviation of the finite values."""
     good = [value for value in values if math.isfinite(value)]
@@ -141,8 +147,7 @@ def uncertainty_section(options, ensemble):
     grids = {factor: central if factor == 1.0 else
              ensemble.run(f"grid_{factor:g}", own, cell=f"{factor * cell:g} {unit}") for factor in GRIDS}
     print("grids done", flush=True)
-    lattice = [central] + [ensemble.run(f"shift_{shift:g}", [*own, f'domain.lower=["0 mm", "0 mm", "{-36 - shift * cell} mm"]'])
-                           for shift in SHIFTS]
+    lattice = [central] + [ensemble.run(f"shift_{shift:g}", [*own, shifted(options.cell, shift)]) for shift in SHIFTS]
     members = {}
     for (body, tier), files in samples.items():
         number = BODIES[body][1]

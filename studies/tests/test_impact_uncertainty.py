@@ -35,6 +35,10 @@ class Bands(unittest.TestCase):
         self.assertEqual(study.spread([1.0, math.nan, 3.0]), (2.0, math.sqrt(2.0)))
         self.assertTrue(math.isnan(study.spread([1.0])[1]))
 
+    def test_the_grid_moves_by_cells_of_any_unit(self):
+        self.assertEqual(study.shifted("0.4 mm", 0.25), 'domain.lower=["0 mm", "0 mm", "-36.1 mm"]')
+        self.assertEqual(study.shifted("400 um", 0.25), study.shifted("0.4 mm", 0.25))
+
     def test_thresholds_are_read(self):
         found = study.THRESHOLD.findall("melting on release begins at 132.1 +- 1.1 GPa (100 of 100 samples)\n")
         self.assertEqual(found, [("melting on release begins at", "132.1", "1.1", "100", "100")])

@@ -113,10 +113,20 @@ RECORDED_KEYS = ("revision", "dirty", "program", "executable", "source", "parame
                  "machine", "threads", "wall_time", "cell_size", "variant")
 
 
-def run_study(case, run, collected):
-    """Return the entry of a run in results.json; None if nothing was run. `collected`: by name of run, from collect()."""
+def can_be_renewed(stored, run, records):
+    """Whether a stored entry of a run has all that its expectations measure now, and nothing of it is of former grids."""
+    known_measures = {(q["name"], q["measure"]) for q in stored["quantities"]}
+    return bool(records) and records.keys() == stored["records"].keys() and all(
+        (e.name, e.measure) in known_measures for e in run.expectations)
+
+
+def run_study(case, run, collected, stored=None):
+    """Return the entry of a run in results.json; None if nothing was run. `collected`: by name of run, from collect();
+    `stored`: the entry as it is, whose marks are renewed if its variants are not here but all that is expected was measured.
+    """
     measures, records = collected[run.name]
-    if all(isinstance(of_run, StoredMeasures) for of_run in measures.values()):
+    if all(isinstance(of_run, StoredMeasures) for of_run in measures.values()) and not (
+            stored and can_be_renewed(stored, run, records)):
         return None
     grids = [name for name in ("coarse", "normal", "fine") if name in measures]
     moved = [name for name in measures if name not in grids]
@@ -135,11 +145,12 @@ def run_study(case, run, collected):
                      "tolerance": clean(expectation.tolerance), "source": expectation.source, "known": expectation.known,
                      "values": {name: clean(value) for name, value in values.items()}, **study})
     size = next((s for s in (measures[name].projectile_size for name in reversed(grids)) if math.isfinite(s)), math.nan)
+    across = {name: round(size / run.cells(name), 1) for name in grids} if math.isfinite(size) else (stored or {}).get("across", {})
     return {"name": run.name, "title": run.title, "sensitivity": run.sensitivity, "headline": run.headline, "input": run.input,
             "decided_by": run.decided_by,
             "no_variants": [] if run.band is case.band else reasons(run.band),
             "cells": {name: run.cell_size[name] for name in grids},
-            "across": {name: round(size / run.cells(name), 1) for name in grids} if math.isfinite(size) else {},
+            "across": across,
             "inputs": provenance.inputs_of(run), "quantities": rows,
             "records": {name: {key: record[key] for key in RECORDED_KEYS} for name, record in records.items()}}
 
@@ -153,7 +164,7 @@ def reasons(band):
 def case_study(case, runs, stored=None):
     """What docs/generated/results.json says of a case: the runs that are there. `stored`: by name of run, what it says now."""
     collected = {run.name: collect(case, run, (stored or {}).get(run.name)) for run in case.runs}
-    studies = [run_study(case, run, collected) for run in runs]
+    studies = [run_study(case, run, collected, (stored or {}).get(run.name)) for run in runs]
     return {"title": case.title, "expected": provenance.digest_of_file(case.path), "overrides": case.overrides,
             "no_variants": reasons(case.band) if case.band else ["No positions of the lattice or moving frame are declared."],
             "runs": [study for study in studies if study]}

@@ -95,8 +95,9 @@ def main(words: list[str]) -> int:
         return 2
     program, case, folder = words[0], words[1], pathlib.Path(words[2])
     pairs = int(words[3]) if len(words) > 3 else 6
-    shutil.rmtree(folder, ignore_errors=True)
-    folder.mkdir(parents=True)
+    if folder.exists() and any(folder.iterdir()):
+        raise SystemExit(f"{folder} is not empty: name a new folder, which the runs are written to and removed from")
+    folder.mkdir(parents=True, exist_ok=True)
     times: dict[str, list[tuple[float, float]]] = {"alone": [], "watched": []}
     questions = 0
     for pair in range(pairs):

@@ -24,6 +24,7 @@
 #include "src/run/checkpointing.hpp"
 #include "src/run/gauges.hpp"
 #include "src/solver/simulation.hpp"
+#include "src/solver/stages/material.hpp"
 #include "tests/parallel/debris_case.hpp"
 
 namespace whipple::solver {
@@ -422,6 +423,29 @@ TEST_F(SolverRanks, AnErrorOfOneRankEndsTheStepOnAll) {
     EXPECT_EQ(text, ranks_.broadcast(text));
     EXPECT_NE(text.find("specific internal energy nan"), std::string::npos) << text;
   }
+}
+
+// Single points at the end of their equation of state are single by the number of all: 600 of a body on each of
+// two ranks are more than a thousand.
+TEST_F(SolverRanks, CountPointsAtTheEndOfTheEquationOfStateTogether) {
+  const cases::Case setup = read();
+  const auto fault_of = [&](std::size_t on_root, std::size_t elsewhere) {
+    MaterialReport report;
+    report.points = 600;
+    report.squeezed = is_root() ? on_root : elsewhere;
+    report.first_squeezed = 7;
+    SqueezedPoints squeezed(setup.bodies.size());
+    squeezed.add(1, report, [](std::size_t p, const std::string& why) { return std::to_string(p) + why; });
+    return squeezed.fault(MPI_COMM_WORLD, setup.materials);
+  };
+  const auto ranks = static_cast<std::size_t>(parallel::size(MPI_COMM_WORLD));
+  EXPECT_EQ(fault_of(0, 0), "");
+  EXPECT_EQ(fault_of(1, 0).empty(), !is_root() || ranks > 1);
+  const std::string fault = fault_of(600, 0);
+  EXPECT_EQ(fault.empty(), !is_root());  // one rank describes its point, the step ends on all
+  if (!is_root()) return;
+  EXPECT_NE(fault.find("7the equation of state"), std::string::npos) << fault;
+  EXPECT_NE(fault.find("600 of " + std::to_string(600 * ranks) + " points"), std::string::npos) << fault;
 }
 
 }  // namespace

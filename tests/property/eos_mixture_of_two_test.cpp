@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "eos/closure.hpp"
@@ -132,6 +133,42 @@ TEST_F(MixtureOfTwoMaterials, HasTheSoundSpeedOfItsOwnPressure) {
     const double squared = by_density + found.pressure / (at.density * at.density) * by_energy;
     EXPECT_NEAR(found.sound_speed * found.sound_speed, squared, 1e-4 * std::abs(squared) + 1e2)
         << at.density << " " << at.fraction;
+  }
+}
+
+/// Specific volume (m^3/kg) and energy (J/kg, from the zero of the model) at a pressure and a temperature; the
+/// densest, as cold reactant has a second state, that of a gas.
+std::pair<double, double> at_pressure(const EquationOfState& model, double pressure, double temperature) {
+  const auto below = [&](double density) {
+    return model.state_at_temperature(density, temperature).pressure < pressure;
+  };
+  double upper = 0.9 * model.maximum_density(), lower = upper;
+  while (!below(lower)) upper = std::exchange(lower, 0.97 * lower);
+  for (int k = 0; k < 60; ++k) {
+    const double middle = 0.5 * (lower + upper);
+    (below(middle) ? lower : upper) = middle;
+  }
+  const State found = model.state_at_temperature(upper, temperature);
+  return {1.0 / found.density, found.specific_internal_energy};
+}
+
+// Partly burnt explosive that a release has quenched: the products fill what the reactant, at next to no pressure,
+// leaves of the volume. From pressure and temperature of both the mixture follows without a search.
+TEST_F(MixtureOfTwoMaterials, HasThePressureAndTemperatureOfBothWhenItSpreads) {
+  for (const double fraction : {1e-6, 1e-5, 1e-3, 0.02, 0.1, 0.3, 0.6, 0.95, 0.998}) {
+    for (const double pressure : {1e5, 1e6, 1e7, 1e8, 1e9, 1e10}) {
+      for (const double temperature : {250.0, 400.0, 1000.0, 2500.0, 4000.0}) {
+        const auto [v1, e1] = at_pressure(reactant, pressure, temperature);
+        const auto [v2, e2] = at_pressure(products, pressure, temperature);
+        const double density = 1.0 / ((1.0 - fraction) * v1 + fraction * v2);
+        const double energy = (1.0 - fraction) * (e1 + store) + fraction * e2;
+        const Found found = mixture(density, energy, fraction);
+        ASSERT_EQ(found.report.out_of_range, 0u) << fraction << " " << pressure << " " << temperature;
+        EXPECT_NEAR(found.temperature, temperature, 1e-4 * temperature) << fraction << " " << pressure;
+        EXPECT_NEAR(found.pressure, pressure, 1e-3 * pressure + 1e3) << fraction << " " << temperature;
+        EXPECT_GT(found.sound_speed, 0.0) << fraction << " " << pressure << " " << temperature;
+      }
+    }
   }
 }
 

@@ -118,6 +118,13 @@ TEST(Calibration, WidthAndErrorsAreThoseOfTheirSources) {
   experiment.abscissa_error.assign(24, 20.0);
   const Calibration stated = calibrate(*central, initial, samples.all, experiment);
   EXPECT_NEAR(stated.measurement_error[5], std::hypot(30.0, 20.0 * S), 0.1);
+  // A point whose row states no error says nothing: it is not one outside of the band.
+  experiment.ordinate_error[5] = std::numeric_limits<double>::quiet_NaN();
+  const Calibration gap = calibrate(*central, initial, samples.all, experiment);
+  EXPECT_EQ(gap.points, stated.points - 1);
+  EXPECT_TRUE(std::isnan(gap.pull[5]));
+  EXPECT_EQ(std::lround(gap.coverage.back() * gap.points),
+            std::lround(stated.coverage.back() * stated.points) - 1);
   experiment.ordinate_error.clear();
   for (auto* column : {&experiment.abscissa, &experiment.ordinate}) column->resize(3);
   EXPECT_THROW(measurement_errors(experiment, {}), InputError);

@@ -215,6 +215,25 @@ SolidConstants debye_gruneisen_truth() {
   return solid;
 }
 
+// Of melting points at one pressure those of the largest cells count; one that says nothing on the volume hides none.
+TEST(FitModels, MeltingPointsAreThoseOfTheLargestCells) {
+  SyntheticStore store(true_constants(), Noise{}, 3);
+  std::erase_if(store.points, [](const md::PointRecord& point) { return point.protocol == "coexistence"; });
+  const auto add = [&](int cells, double temperature, bool with_volume) {
+    store.add("coexistence", {{"pressure", 0.0}}, {{"melting_temperature", {temperature, 5.0}}});
+    md::PointRecord& point = store.points.back();
+    point.provenance["cells"] = std::to_string(cells);
+    point.provenance["length"] = "30";
+    if (with_volume) point.results["solid_specific_volume"] = {0.118e-3, 0.0};
+  };
+  add(6, 1300.0, true);
+  add(10, 1320.0, true);
+  add(20, 1340.0, false);
+  const Observations data = observe(store.points, {}, {}, "s");
+  ASSERT_EQ(data.melting.size(), 1u);
+  EXPECT_EQ(data.melting.front().temperature.value, 1320.0);
+}
+
 // Classical data of a solid whose quantum isotherm is known: what the points of the protocol "quantum" add
 // leads back to it; without them, or with --nuclei classical, volume and modulus are those of the classical
 // crystal.
@@ -245,6 +264,16 @@ TEST(FitModels, QuantumNucleiShiftTheIsotherm) {
   EXPECT_NEAR(with.value("reference_density") * v0, 1.0, 1e-4);
   EXPECT_NEAR(with.value("bulk_modulus") / solid.bulk_modulus, 1.0, 5e-3);
   EXPECT_NEAR(with.value("debye_temperature"), 321.0, 1e-9);
+  // A state that an isochore shares with the isotherm is one datum, and two runs at one volume have no slope.
+  SyntheticStore crossed = store;
+  for (const double off : {0.0, 1e6}) {
+    const double v = 0.99 * v0, pressure = isotherm_pressure(solid, v) - quantum_pressure(v) + off;
+    crossed.add("isochore", {{"specific_volume", v}, {"temperature", 293.0}},
+                {{"pressure", {pressure, 2e7}}, {"specific_internal_energy", {0.0, 400.0}}});
+    const Fit again = fit_debye_gruneisen(crossed.points, noise_only(), "s");
+    if (off == 0.0) EXPECT_EQ(again.value("bulk_modulus"), with.value("bulk_modulus"));
+    EXPECT_NEAR(again.value("reference_density") * v0, 1.0, 1e-4);
+  }
   FitSettings settings = noise_only();
   settings.nuclei = Nuclei::classical;
   const Fit ignored = fit_debye_gruneisen(store.points, settings, "s");

@@ -29,7 +29,7 @@ TEST(Report, NamesTheFirstUndefinedPointAndCountsLimitedVolumeChanges) {
   EXPECT_EQ(report.limited_densities, 0U);
   EXPECT_EQ(report.first_squeezed, 17U);  // compressed to twice the density, the limit of this model
   EXPECT_EQ(report.squeezed, 1U);
-  EXPECT_TRUE(report.is_too_dense());
+  EXPECT_TRUE(MaterialReport::is_too_dense(report.squeezed, report.points));
   EXPECT_FALSE(report.valid());
   EXPECT_NEAR(points.volume[17], 0.5e-9 / 0.999, 1e-20);
 }

@@ -298,6 +298,15 @@ TEST_F(CommandLine, EditChangesAValueAndKeepsTheRest) {
   expected.replace(expected.find("\"0.8 mm\""), 8, "\"1 mm\"");
   expected.replace(expected.find("\"2 km/s\""), 8, "\"3 km/s\"");
   EXPECT_EQ(text_of(file), expected);
+  // A link to the case stays a link, and the file keeps its permissions.
+  using std::filesystem::perms;
+  std::filesystem::permissions(file, perms::owner_read | perms::owner_write);
+  const std::filesystem::path link = file.parent_path() / "link.toml";
+  std::filesystem::create_symlink(file, link);
+  EXPECT_EQ(whipple("edit link.toml domain.cell_size='0.8 mm'").code, 0);
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_THAT(text_of(file), HasSubstr("cell_size = \"0.8 mm\""));
+  EXPECT_EQ(std::filesystem::status(file).permissions(), perms::owner_read | perms::owner_write);
 }
 
 }  // namespace

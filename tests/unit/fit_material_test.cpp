@@ -446,6 +446,9 @@ TEST_F(FitMaterial, SeveralStoresAreWrittenIntoAFolder) {
   EXPECT_TRUE(std::filesystem::exists(materials + "second.toml"));
   EXPECT_THAT(output(), HasSubstr("\ncopper  "));
   EXPECT_THAT(output(), HasSubstr("\nsecond  "));
+  // Two stores of one potential say nothing of a scatter over potentials.
+  EXPECT_THAT(output(), Not(HasSubstr("second tier")));
+  EXPECT_THAT(read_text(materials + "copper.toml"), Not(HasSubstr("[potential_spread]")));
 }
 
 }  // namespace

@@ -119,6 +119,16 @@ TEST_F(FitTiers, MaterialFilesHoldTheTiers) {
   }
 }
 
+// What belongs to the material and not to its errors stays in the file: whoever adds a conductivity draws as before.
+TEST_F(FitTiers, OtherTablesOfTheMaterialAreLeftAlone) {
+  const std::filesystem::path path = folder.path() / "thermal.toml";
+  write_file(path, text(true) + "\n[thermal]\nsource = \"t\"\nconductivity = \"401 W/(m K)\"\n", true);
+  const MaterialSamples samples = sample_material(path, 2, 1);
+  EXPECT_EQ(samples.materials[1].conductivity, 401.0);
+  EXPECT_EQ(samples.materials[1].eos->reference_density(),
+            sample_material(file(true), 2, 1).materials[1].eos->reference_density());
+}
+
 TEST_F(FitTiers, BrokenTablesAreRefused) {
   const auto refused = [&](const std::string& from, const std::string& to) {
     std::string broken = text(true);

@@ -66,6 +66,7 @@ TEST(TextEdit, SaysWhatWasReplacedAndWhere) {
   EXPECT_EQ(edit.before, "\"1 mm\"");
   EXPECT_EQ(edit.after, "\"0.5 mm\"");
   EXPECT_EQ(edit.line, 5U);
+  EXPECT_EQ(set_in_text(case_text, "case.toml", "domain.cell_size", "1 mm").line, 5U);  // as it was
 }
 
 TEST(TextEdit, PutsNewKeysIntoTheirTable) {

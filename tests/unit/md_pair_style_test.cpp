@@ -5,12 +5,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <string>
 
+#include "md_fitting/lammps/pair_style.hpp"
 #include "md_fitting/lammps/potential.hpp"
 #include "md_fitting/plan/plan.hpp"
 #include "md_fitting/protocols/catalogue.hpp"
+#include "md_fitting/protocols/compressed_start.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/temporary_folder.hpp"
 #include "tests/unit/md_mpi_environment.hpp"
@@ -50,21 +53,44 @@ TEST(PairStyle, SplinesOfTitaniumAreHexagonal) {
   EXPECT_NEAR(titanium.lattice_constant(), 3.27, 0.05);
 }
 
+// Girifalco, Weizer (1959), copper.
+constexpr double depth = 0.3429, alpha = 1.3588, r0 = 2.866, cutoff = 6.5;
+
+/// Writes a table of Morse's function from a distance on (A); tapered, it ends smoothly.
+void write_morse_table(const std::filesystem::path& path, double least, bool tapered = false) {
+  std::ofstream file(path);
+  constexpr int points = 4000;
+  file << "# test\n\nMORSE\nN " << points << " R " << least << " " << cutoff << "\n\n";
+  for (int i = 0; i < points; ++i) {
+    const double r = least + (cutoff - least) * i / (points - 1), x = r / cutoff;
+    const double e = std::exp(-alpha * (r - r0));
+    const double energy = depth * (e * e - 2.0 * e), force = 2.0 * depth * alpha * (e * e - e);
+    const double taper = tapered ? (1.0 - x * x) * (1.0 - x * x) : 1.0;
+    const double slope = tapered ? -4.0 * x * (1.0 - x * x) / cutoff : 0.0;
+    file << fmt::format("{} {:.15g} {:.15g} {:.15g}\n", i + 1, r, taper * energy,
+                        taper * force - slope * energy);
+  }
+}
+
+// LAMMPS ends where two atoms are nearer than a table: the start of a melting point under pressure is sought
+// among the volumes that the potential admits.
+TEST(PairStyle, CompressedStartsStayWithinTheTable) {
+  const TemporaryFolder folder;
+  write_morse_table(folder.path() / "morse.table", 2.1, true);
+  const Potential table = Potential::load("table", "Cu", folder.path(), CrystalStructure::fcc,
+                                          {"table spline 8000", {"* * morse.table MORSE 6.5"}});
+  EXPECT_GT(table.least_volume_ratio(), 0.45);
+  EXPECT_LT(table.least_volume_ratio(), 0.75);
+  const CompressedStart start = compressed_start(table, 40e9);
+  EXPECT_LT(start.volume_ratio, 0.91);
+  EXPECT_GT(start.volume_ratio, table.least_volume_ratio());
+  EXPECT_THROW(compressed_start(table, 4e12), StateError);
+}
+
 // A table is the function that it was made of.
 TEST(PairStyle, TabulatedMorseIsMorse) {
   const TemporaryFolder folder;
-  const double depth = 0.3429, alpha = 1.3588, r0 = 2.866, cutoff = 6.5;  // Girifalco, Weizer (1959), copper
-  {
-    std::ofstream file(folder.path() / "morse.table");
-    constexpr int points = 4000;
-    file << "# test\n\nMORSE\nN " << points << " R 0.5 " << cutoff << "\n\n";
-    for (int i = 0; i < points; ++i) {
-      const double r = 0.5 + (cutoff - 0.5) * i / (points - 1);
-      const double e = std::exp(-alpha * (r - r0));
-      file << fmt::format("{} {:.15g} {:.15g} {:.15g}\n", i + 1, r, depth * (e * e - 2.0 * e),
-                          2.0 * depth * alpha * (e * e - e));
-    }
-  }
+  write_morse_table(folder.path() / "morse.table", 0.5);
   const Potential table = Potential::load("table", "Cu", folder.path(), CrystalStructure::fcc,
                                           {"table spline 8000", {"* * morse.table MORSE 6.5"}});
   const Potential formula = Potential::load("formula", "Cu", {}, CrystalStructure::fcc,
@@ -79,6 +105,43 @@ TEST(PairStyle, TabulatedMorseIsMorse) {
                             {"table spline 8000", {"* * morse.table MORSE 6.5"}})
                 .hash(),
             table.hash());
+}
+
+// A folder may have blanks in its name; what LAMMPS cannot read is said before it tries.
+TEST(PairStyle, FilesLieInFoldersWithBlanks) {
+  const TemporaryFolder folder;
+  const std::filesystem::path blanks = folder.path() / "my plans #1", accents = folder.path() / "pl\u00e4ne";
+  for (const std::filesystem::path& place : {blanks, accents}) {
+    std::filesystem::create_directories(place);
+    write_morse_table(place / "own.table", 2.0);
+  }
+  const PairStyle pair{"table spline 8000", {"* * own.table MORSE 6.5"}};
+  const Potential copper = Potential::load("mine", "Cu", blanks, CrystalStructure::fcc, pair);
+  EXPECT_NEAR(copper.lattice_constant(), 3.65, 0.01);
+  try {
+    static_cast<void>(pair_interactions(pair, "mine", accents));
+    ADD_FAILURE() << "no InputError";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("beyond ASCII: move the file"), std::string::npos)
+        << error.what();
+  }
+}
+
+// The rounds of an adaptive plan are plans in another folder: their points are those of the same potential.
+TEST(PairStyle, RoundsOfAPlanFindItsFiles) {
+  const TemporaryFolder folder;
+  std::filesystem::copy_file(potential_folder() / "Ni.adp", folder.path() / "own.adp");
+  Plan plan;
+  plan.element = "Ni";
+  plan.potential = "mine";
+  plan.pair_style = "adp";
+  plan.pair_coeff = {"* * own.adp Ni"};
+  plan.folder = folder.path();
+  const auto hash_of = [](const Plan& of) {
+    return pair_interactions({of.pair_style, of.pair_coeff}, of.potential, of.folder).hash;
+  };
+  auto document = input::Document::from_text(plan_text(plan), "elsewhere/round.toml");
+  EXPECT_EQ(hash_of(read_plan(document)), hash_of(plan));
 }
 
 TEST(PairStyle, ErrorsNameWhatIsAccepted) {

@@ -73,6 +73,7 @@ def comparisons():
 
 def mistakes_are_named():
     for keys, reason in (({"value": "14 furlong", "tolerance": "1 mm"}, "14 furlong"), ({"value": "14 mm"}, "tolerance"),
+                         ({"value": "1e mm", "tolerance": "1 mm"}, "1e mm"),
                          ({"value": 1, "tolerance": 1, "kind": "near"}, "near"), ({"valeu": 1}, "valeu"),
                          ({"kind": "record", "unit": "stone"}, "stone"),
                          ({"value": 1, "tolerance": 1, "class": "rumour"}, "rumour"),
@@ -83,6 +84,17 @@ def mistakes_are_named():
             require(reason in str(error), f"{reason!r} is not in {error}")
         else:
             require(False, f"{keys} passed")
+    with tempfile.TemporaryDirectory() as name:
+        path = pathlib.Path(name) / "expected.toml"
+        for text, reason in (('cell_size = { norml = "1 mm" }', "norml"),
+                             ('cell_size = { normal = "1 mm" }\nset_at.fien = []', "fien")):
+            path.write_text(f'{text}\n[[run]]\nname = "only"\n')
+            try:
+                Case(path)
+            except BadExpectation as error:
+                require(reason in str(error), f"{reason!r} is not in {error}")
+            else:
+                require(False, f"{text} passed")
 
 
 EXPECTED = """

@@ -159,6 +159,24 @@ def stored_variants_count_beside_new_ones():
     require("coarse" not in comparison.stored_variants(run, other)[1], "a grid that is no longer asked for")
 
 
+def marks_of_stored_runs_follow_their_expectations():
+    """What is not here keeps its values, and is compared with what is expected now."""
+    case = next(case for case in all_cases() if case.name == "two_spheres")
+    run = next(run for run in case.runs if run.name == "multi_field")
+    entry = next(e for e in page.load()["cases"]["two_spheres"]["runs"] if e["name"] == run.name)
+    collected = {run.name: comparison.stored_variants(run, entry)}
+    require(comparison.run_study(case, run, collected) is None, "nothing was run, nothing is stored")
+    same = comparison.run_study(case, run, collected, entry)
+    require(same == entry, f"renewed without a change: {same}")
+    expectation = next(e for e in run.expectations if e.kind == "within" and e.origin != "identity")
+    former = next(q for q in entry["quantities"] if q["name"] == expectation.name)
+    expectation.value = former["value"] + 10 * (former["u_num"] + expectation.tolerance)
+    renewed = next(q for q in comparison.run_study(case, run, collected, entry)["quantities"] if q["name"] == expectation.name)
+    require(renewed["values"] == former["values"] and renewed["mark"] == "differs", str(renewed))
+    expectation.measure = "never_measured"
+    require(comparison.run_study(case, run, collected, entry) is None, "what was never measured needs a run")
+
+
 def the_repository_is_in_order():
     wrong = frozen_parameters.check(all_cases(), frozen_parameters.defaults())
     require(not wrong, "\n".join(wrong))
@@ -173,5 +191,6 @@ with tempfile.TemporaryDirectory() as name:
     departures_need_a_reason(pathlib.Path(name))
     drift_is_seen()
     stored_variants_count_beside_new_ones()
+    marks_of_stored_runs_follow_their_expectations()
     the_repository_is_in_order()
 print("records, parameters and drift: all checks passed")

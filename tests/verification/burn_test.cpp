@@ -443,6 +443,25 @@ TEST(Burn, ProductsRetireBelowAPressureAndAreCounted) {
   EXPECT_NEAR(plate_velocity(*retired) / plate_velocity(*whole), 1.0, 0.01);
 }
 
+// Products that a wall stops are denser than unreacted explosive of this material can be (rho0 S/(S - 1) = 1.68
+// rho0): their own equation of state decides, and no point is held.
+TEST(Burn, ReflectedProductsAreDenserThanTheirReactantCanBe) {
+  std::string text = column("pbx_9404", 0.02, 2e-4, lit_at_wall);
+  const std::string end = fmt::format("upper = [{}", 1.1 * 0.02);
+  text.replace(text.find(end), end.size(), "upper = [0.02");
+  text.replace(text.find("x_lower = "), 0, "x_upper = \"symmetry\", ");
+  solver::Simulation simulation(default_case(3e-6, text), parallel::world());
+  const double reference = read_material("pbx_9404").eos->reference_density();
+  double densest = 0.0;
+  run_to(simulation, 3e-6, [&](const solver::Simulation& s) {
+    for (const double volume : s.particles().volume) densest = std::max(densest, 1.0 / volume);
+  });
+  densest *= simulation.particles().mass.front();  // all are alike
+  EXPECT_GT(densest / reference, 1.68);
+  EXPECT_LT(densest / reference, 2.2);
+  EXPECT_EQ(simulation.state().ledger.limited_compressions, 0.0);
+}
+
 TEST(Burn, SchemesWithoutAWorkIdentityBurn) {
   const TaylorWave exact(*read_material("tnt").eos);
   const Slab slab =
@@ -476,6 +495,8 @@ TEST(ExplosiveCases, SayWhatExplosivesAndDetonatorsLack) {
   refused("tnt", "[[detonation]]\nshape = \"cord\"\nposition = [0, 0]\nend = [1, 0]\n",
           "a cord takes 'velocity'");
   refused("tnt", "equation_of_state = \"table\"\n" + lit_at_wall, "takes no table");
+  refused("tnt", "detonation = \"instantaneous\"\n[burn]\nretire_below = \"1 MPa\"\n",
+          "no body burns in the run");
 }
 
 }  // namespace

@@ -159,9 +159,11 @@ TextEdit set_in_text(const std::string& text, const std::filesystem::path& file,
     } catch (const InputError&) {
       continue;
     }
+    // Where a value was replaced, and else where the text begins to differ.
     const auto [changed, unused] = std::ranges::mismatch(text, candidate);
-    const auto end = static_cast<std::size_t>(changed - text.begin());
-    const std::size_t place = std::min(candidate.find_first_not_of("\r\n", end), candidate.size());
+    const std::size_t begin =
+        edit.before.empty() ? static_cast<std::size_t>(changed - text.begin()) : begin_of(text, node);
+    const std::size_t place = std::min(candidate.find_first_not_of("\r\n", begin), candidate.size());
     edit.line = 1 + static_cast<std::size_t>(std::ranges::count(candidate.substr(0, place), '\n'));
     edit.text = std::move(candidate);
     return edit;

@@ -67,17 +67,20 @@ std::string Hexahedra::advance() {
   node_heat_.resize(meshes_.size());
   afemp::distribute(state_.transition, meshes_, motions_, node_heat_);
   std::string error;
+  SqueezedPoints squeezed(state_.setup.materials.size());
   for (std::size_t m = 0; m < meshes_.size(); ++m) {
-    const std::string of_mesh = advance_mesh(m);
+    const std::string of_mesh = advance_mesh(m, squeezed);
     if (error.empty()) error = of_mesh;
   }
+  const std::string too_dense = squeezed.fault(state_.communicator, state_.setup.materials);
+  if (error.empty()) error = too_dense;
   const std::vector<double>& of_contact = state_.transition.contact_heat;
   for (std::size_t i = 0; i < count_; ++i)
     state_.booked.transfer_heat -= of_contact[i];  // counted by contact
   return error;
 }
 
-std::string Hexahedra::advance_mesh(std::size_t m) {
+std::string Hexahedra::advance_mesh(std::size_t m, SqueezedPoints& squeezed) {
   fem::Mesh& mesh = meshes_[m];
   Ledger& booked = state_.booked;
   const double dt = state_.run.time_step;
@@ -95,7 +98,7 @@ std::string Hexahedra::advance_mesh(std::size_t m) {
   }
   booked.transfer_heat += sum4(heat);
   book_loads(of_mesh_[m].acceleration, mesh.nodes, motions_[m], dt, booked);
-  std::string error = deform(m, heated);
+  std::string error = deform(m, heated, squeezed);
   fem::move_nodes(mesh, motions_[m], dt);
   return error;
 }
@@ -103,7 +106,7 @@ std::string Hexahedra::advance_mesh(std::size_t m) {
 /// Strain, work, heat, new stresses and their forces of the elements of a mesh, block by block.
 /// @param heated  is there heat at any of its nodes?
 /// @returns an error that ends the run, or nothing
-std::string Hexahedra::deform(std::size_t m, bool heated) {
+std::string Hexahedra::deform(std::size_t m, bool heated, SqueezedPoints& squeezed) {
   using Clock = std::chrono::steady_clock;
   fem::Mesh& mesh = meshes_[m];
   const cases::Body& body = state_.setup.bodies[mesh.body];
@@ -135,9 +138,11 @@ std::string Hexahedra::deform(std::size_t m, bool heated) {
                           std::chrono::duration<double>(in_material).count() / parallel::threads());
   double& rate = state_.rates.element_compression;
   rate = std::max(rate, sum.compression_rate);
-  const std::string of_material = book(state_, sum, material, [&](std::size_t p, const std::string& reason) {
+  const auto of_point = [this, &mesh](std::size_t p, const std::string& reason) {
     return describe(mesh, p, reason);
-  });
+  };
+  const std::string of_material = book(state_, sum, material, of_point);
+  squeezed.add(mesh.body, sum, of_point);
   if (report.inverted == 0) return of_material;
   return describe(
       mesh, report.first_inverted * rows,

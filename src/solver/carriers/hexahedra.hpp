@@ -10,6 +10,7 @@
 #include "src/solver/carriers/carrier.hpp"
 #include "src/solver/carriers/particle_carrier.hpp"
 #include "src/solver/loads.hpp"
+#include "src/solver/stages/material.hpp"
 
 namespace whipple::solver {
 
@@ -60,8 +61,8 @@ class Hexahedra : public Carrier {
 
  private:
   [[nodiscard]] fem::ConstraintBalance advance_free_nodes(std::size_t mesh);
-  [[nodiscard]] std::string advance_mesh(std::size_t mesh);
-  [[nodiscard]] std::string deform(std::size_t mesh, bool heated);
+  [[nodiscard]] std::string advance_mesh(std::size_t mesh, SqueezedPoints& squeezed);
+  [[nodiscard]] std::string deform(std::size_t mesh, bool heated, SqueezedPoints& squeezed);
   [[nodiscard]] std::string describe(const fem::Mesh& mesh, std::size_t point,
                                      const std::string& reason) const;
   void elements_removed();

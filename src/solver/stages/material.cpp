@@ -43,7 +43,7 @@ std::span<const double> affine_divergence(const Particles& particles, std::span<
 }  // namespace
 
 std::string book(State& state, const MaterialReport& report, const Material& material,
-                 const std::function<std::string(std::size_t, const std::string&)>& describe) {
+                 const DescribePoint& describe) {
   state.booked.clamped_to_cold_curve += static_cast<double>(report.equation_of_state.below_cold_curve);
   state.booked.held_at_pressure_floor += static_cast<double>(report.equation_of_state.at_pressure_floor);
   state.booked.plastic_work += report.plastic_work;
@@ -57,18 +57,42 @@ std::string book(State& state, const MaterialReport& report, const Material& mat
     return describe(report.first_undefined,
                     "the state is not defined (NaN, or a volume that is not positive)");
   }
-  if (report.is_too_dense()) {
-    return describe(
-        report.first_squeezed,
-        fmt::format(
-            "the equation of state of {} is out of range: {} of {} points would be denser than the {:.6g} "
-            "kg/m^3 at which it ends",
-            material.name, report.squeezed, report.points, material.eos->maximum_density()));
-  }
   if (report.equation_of_state.out_of_range == 0) return {};
   return describe(report.equation_of_state.first,
                   fmt::format("the equation of state of {} is out of range: {}", material.name,
                               report.equation_of_state.bound));
+}
+
+void SqueezedPoints::add(std::size_t body, const MaterialReport& report, const DescribePoint& describe) {
+  counts_[2 * body] += static_cast<double>(report.squeezed);
+  counts_[2 * body + 1] += static_cast<double>(report.points);
+  if (report.squeezed == 0 || first_[body]) return;
+  first_[body] = [describe, point = report.first_squeezed](const std::string& reason) {
+    return describe(point, reason);
+  };
+}
+
+std::string SqueezedPoints::fault(MPI_Comm communicator,
+                                  std::span<const std::shared_ptr<const Material>> materials) {
+  parallel::sum(communicator, counts_);
+  for (std::size_t b = 0; b < first_.size(); ++b) {
+    const double squeezed = counts_[2 * b], points = counts_[2 * b + 1];
+    if (!first_[b] ||
+        !MaterialReport::is_too_dense(static_cast<std::size_t>(squeezed), static_cast<std::size_t>(points))) {
+      continue;
+    }
+    const Material& material = *materials[b];
+    const std::string products =
+        material.burns()
+            ? fmt::format(" (its products: {:.6g})", material.burn->explosive().products->maximum_density())
+            : "";
+    return first_[b](
+        fmt::format("the equation of state of {} is out of range: {:.0f} of {:.0f} points would be denser "
+                    "than the {:.6g} "
+                    "kg/m^3{} at which it ends",
+                    material.name, squeezed, points, material.eos->maximum_density(), products));
+  }
+  return {};
 }
 
 void MaterialStage::update(std::string_view stage, Energy energy,
@@ -122,14 +146,18 @@ void MaterialStage::update(std::string_view stage, Energy energy,
     state_.booked.limited_domains += static_cast<double>(limited_domains);
     std::ranges::sort(dissipations);  // so that the sum does not depend on the order of threads
     for (const auto& [first, dissipated] : dissipations) state_.booked.dissipation += dissipated;
+    SqueezedPoints squeezed(state_.bodies.size());
+    const auto describe = [&](std::size_t p, const std::string& reason) {
+      return state_.describe_particle(p, state_.run.time + state_.run.time_step, reason);
+    };
     for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
       state_.rates.compression = std::max(state_.rates.compression, reports[b].compression_rate);
-      const std::string of_body =
-          book(state_, reports[b], *state_.setup.materials[b], [&](std::size_t p, const std::string& reason) {
-            return state_.describe_particle(p, state_.run.time + state_.run.time_step, reason);
-          });
+      const std::string of_body = book(state_, reports[b], *state_.setup.materials[b], describe);
       if (error.empty()) error = of_body;
+      squeezed.add(b, reports[b], describe);
     }
+    const std::string too_dense = squeezed.fault(state_.communicator, state_.setup.materials);
+    if (error.empty()) error = too_dense;
   });
   state_.profile.reassign(stage, "material",
                           std::chrono::duration<double>(in_material).count() / parallel::threads());
