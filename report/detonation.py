@@ -132,3 +132,18 @@ def jet_speed(folder, body, fraction):
     order = found["velocity"][:, 0].argsort()[::-1]
     reached = found["mass"][order].cumsum() >= fraction * found["mass"].sum()
     return float(found["velocity"][order[reached.argmax()], 0])
+
+
+def jet_gap(folder, body, fraction):
+    """Share of the cells along x that hold none of a body, over the length of its jet at the last snapshot: what is faster than a
+    quarter of the speed that a fraction of its mass exceeds, and no faster than that.
+    """
+    import numpy as np
+
+    found, tip = particles_of(folder, body), jet_speed(folder, body, fraction)
+    if math.isnan(tip):
+        return math.nan
+    cell = float(tomllib.loads((folder / "run.toml").read_text(encoding="utf-8"))["domain"]["cell_size"].split()[0])
+    speed = found["velocity"][:, 0]
+    cells = np.unique(np.floor(found["x"][(speed <= tip) & (speed >= 0.25 * tip)] / cell))
+    return float(1.0 - len(cells) / (cells[-1] - cells[0] + 1.0))

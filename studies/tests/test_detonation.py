@@ -50,6 +50,16 @@ class Measures(unittest.TestCase):
         self.assertEqual(detonation.jet_speed(self.folder, "metal", 0.01), 99.0)
         self.assertEqual(detonation.jet_speed(self.folder, "metal", 0.1), 90.0)
 
+    def test_jet_gap_is_what_is_empty_between_tip_and_tail(self):
+        places, velocity = np.zeros((100, 3)), np.zeros((100, 3))
+        places[:, 0] = 1e-3 * (np.arange(100) + 0.5)  # one in each cell
+        velocity[:, 0] = 10.0 * np.arange(100)
+        write_run(self.folder, places, {"mass": np.ones(100), "velocity": velocity})
+        self.assertEqual(detonation.jet_gap(self.folder, "metal", 0.01), 0.0)
+        places[[10, 40, 41, 60], 0] += 1e-3  # the first is no jet: slower than a quarter of the tip
+        write_run(self.folder, places, {"mass": np.ones(100), "velocity": velocity})
+        self.assertAlmostEqual(detonation.jet_gap(self.folder, "metal", 0.01), 2.0 / 75.0)  # 41 came to 42, and 40 to 41
+
     def test_arrival_speed_is_the_slope_over_tracers(self):
         names = [f"front_{i}" for i in range(4)]
         rows = ["time [s]," + ",".join(f"{n}.x [m],{n}.pressure [Pa]" for n in names)]
