@@ -9,18 +9,26 @@ import tomllib
 from report.wall_speed import interpolate
 
 
+def last_snapshot(folder):
+    """Name of the file with the particles at the last snapshot of a run, and its time (s); None without any."""
+    series = sorted(folder.glob("*.particles.hdf.series"))
+    if not series:
+        return None
+    newest = max(json.loads(series[0].read_text())["files"], key=lambda entry: float(entry["time"]))
+    return newest["name"], float(newest["time"])
+
+
 def particles_of(folder, body):
     """Fields of the particles of a body at the last snapshot and, as "position" and "x", their places (m); None without any."""
     import h5py
 
-    series = sorted(folder.glob("*.particles.hdf.series"))
-    if not series or not (folder / "run.toml").is_file():
+    newest = last_snapshot(folder)
+    if newest is None or not (folder / "run.toml").is_file():
         return None
     bodies = [entry["name"] for entry in tomllib.loads((folder / "run.toml").read_text(encoding="utf-8"))["body"]]
     if body not in bodies:
         return None
-    newest = max(json.loads(series[0].read_text())["files"], key=lambda entry: float(entry["time"]))
-    with h5py.File(folder / newest["name"]) as file:
+    with h5py.File(folder / newest[0]) as file:
         data = file["VTKHDF"]["PointData"]
         own = data["body"][:] == bodies.index(body)
         places = file["VTKHDF"]["Points"][:][own]
