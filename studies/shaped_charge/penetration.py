@@ -89,7 +89,7 @@ def main():
     parser.add_argument("--face", type=float, default=0.271, help="place of the target along the axis, m")
     parser.add_argument("--target-density", type=float, default=7830.0, help="kg/m^3")
     parser.add_argument("--resistance", type=float, default=0.0, help="of the target, Pa")
-    parser.add_argument("--slowest", type=float, default=1000.0, help="velocity of the last element, m/s")
+    parser.add_argument("--slowest", type=float, default=2000.0, help="velocity of the last element, m/s")
     arguments = parser.parse_args()
     v, x = jet_of(arguments.free, arguments.slowest)
     tau, depth = penetrate(v, x, arguments.face, arguments.target_density, arguments.resistance)
@@ -97,11 +97,11 @@ def main():
     found = [depths(run) for run in arguments.runs]
     print("| time, us | v at the floor, km/s | depth by the law, mm | " + "".join(f"{run.name}, mm | " for run in arguments.runs))
     print("| --- " * (3 + len(found)) + "|")
-    for t in np.arange(40e-6, time[-1], 20e-6):
+    for t in np.arange(20e-6 * np.ceil(time[0] / 20e-6), min([time[-1], *(of_run[0][-1] for of_run in found)]) + 1e-9, 20e-6):
         print(f"| {1e6 * t:.0f} | {1e-3 * np.interp(t, time, v[:len(time)]):.2f} | {1e3 * np.interp(t, time, depth):.0f} | "
               + "".join(f"{1e3 * np.interp(t, *of_run):.0f} | " for of_run in found))
-    print(f"| {1e6 * time[-1]:.0f} | {1e-3 * v[len(time) - 1]:.2f} | {1e3 * depth[-1]:.0f} | "
-          + "".join(f"{1e3 * of_run[1][-1]:.0f} | " for of_run in found))
+    print(f"\nby the law until the target stops it or its slowest element of {1e-3 * v[len(time) - 1]:.2f} km/s: "
+          f"{1e3 * depth[-1]:.0f} mm")
 
 
 if __name__ == "__main__":
