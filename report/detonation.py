@@ -144,7 +144,7 @@ def jet_speed(folder, body, fraction):
 
 def jet_gap(folder, body, fraction):
     """Share of the cells along x that hold none of a body, over the length of its jet at the last snapshot: what is faster than a
-    quarter of the speed that a fraction of its mass exceeds, and no faster than that.
+    quarter of the speed that a fraction of its mass exceeds, less this fraction, which is ahead of the rest.
     """
     import numpy as np
 
@@ -152,6 +152,8 @@ def jet_gap(folder, body, fraction):
     if math.isnan(tip):
         return math.nan
     cell = float(tomllib.loads((folder / "run.toml").read_text(encoding="utf-8"))["domain"]["cell_size"].split()[0])
-    speed = found["velocity"][:, 0]
-    cells = np.unique(np.floor(found["x"][(speed <= tip) & (speed >= 0.25 * tip)] / cell))
+    order = found["x"].argsort()[::-1]
+    behind = found["mass"][order].cumsum() >= fraction * found["mass"].sum()
+    own = order[behind & (found["velocity"][order, 0] >= 0.25 * tip)]
+    cells = np.unique(np.floor(found["x"][own] / cell))
     return float(1.0 - len(cells) / (cells[-1] - cells[0] + 1.0))
