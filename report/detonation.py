@@ -143,7 +143,7 @@ def jet_speed(folder, body, fraction):
 
 
 def jet_gap(folder, body, fraction):
-    """Share of the cells along x that hold none of a body, over the length of its jet at the last snapshot: what is faster than a
+    """Fraction of the cells along x that hold none of a body, over the length of its jet at the last snapshot: what is faster than a
     quarter of the speed that a fraction of its mass exceeds, less this fraction, which is ahead of the rest.
     """
     import numpy as np
