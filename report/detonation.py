@@ -9,18 +9,26 @@ import tomllib
 from report.wall_speed import interpolate
 
 
+def last_snapshot(folder):
+    """Name of the file with the particles at the last snapshot of a run, and its time (s); None without any."""
+    series = sorted(folder.glob("*.particles.hdf.series"))
+    if not series:
+        return None
+    newest = max(json.loads(series[0].read_text())["files"], key=lambda entry: float(entry["time"]))
+    return newest["name"], float(newest["time"])
+
+
 def particles_of(folder, body):
     """Fields of the particles of a body at the last snapshot and, as "position" and "x", their places (m); None without any."""
     import h5py
 
-    series = sorted(folder.glob("*.particles.hdf.series"))
-    if not series or not (folder / "run.toml").is_file():
+    newest = last_snapshot(folder)
+    if newest is None or not (folder / "run.toml").is_file():
         return None
     bodies = [entry["name"] for entry in tomllib.loads((folder / "run.toml").read_text(encoding="utf-8"))["body"]]
     if body not in bodies:
         return None
-    newest = max(json.loads(series[0].read_text())["files"], key=lambda entry: float(entry["time"]))
-    with h5py.File(folder / newest["name"]) as file:
+    with h5py.File(folder / newest[0]) as file:
         data = file["VTKHDF"]["PointData"]
         own = data["body"][:] == bodies.index(body)
         places = file["VTKHDF"]["Points"][:][own]
@@ -132,3 +140,20 @@ def jet_speed(folder, body, fraction):
     order = found["velocity"][:, 0].argsort()[::-1]
     reached = found["mass"][order].cumsum() >= fraction * found["mass"].sum()
     return float(found["velocity"][order[reached.argmax()], 0])
+
+
+def jet_gap(folder, body, fraction):
+    """Fraction of the cells along x that hold none of a body, over the length of its jet at the last snapshot: what is faster than a
+    quarter of the speed that a fraction of its mass exceeds, less this fraction, which is ahead of the rest.
+    """
+    import numpy as np
+
+    found, tip = particles_of(folder, body), jet_speed(folder, body, fraction)
+    if math.isnan(tip):
+        return math.nan
+    cell = float(tomllib.loads((folder / "run.toml").read_text(encoding="utf-8"))["domain"]["cell_size"].split()[0])
+    order = found["x"].argsort()[::-1]
+    behind = found["mass"][order].cumsum() >= fraction * found["mass"].sum()
+    own = order[behind & (found["velocity"][order, 0] >= 0.25 * tip)]
+    cells = np.unique(np.floor(found["x"][own] / cell))
+    return float(1.0 - len(cells) / (cells[-1] - cells[0] + 1.0))

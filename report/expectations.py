@@ -58,7 +58,7 @@ class Expectation:
 
     # Keys that belong to the measures of one kind, and to these always.
     OF_KIND = {"place": ("wall_speed.", "run_distance."), "travel": ("wall_speed.",), "exact": ("profile_error.",),
-               "fraction": ("jet_speed.",)}
+               "fraction": ("jet_speed.", "jet_gap.")}
     KEYS = {"name", "measure", "time", *OF_KIND, "value", "tolerance", "kind", "source", "known", "unit", "class"}
 
     def __init__(self, table, where):

@@ -79,6 +79,8 @@ class Measures:
             return pieces.measure(kind, self.folder, of)
         if kind == "jet_speed":
             return detonation.jet_speed(self.folder, of, expectation.fraction)
+        if kind == "jet_gap":
+            return detonation.jet_gap(self.folder, of, expectation.fraction)
         if expectation.time is None:
             return self.single.get(expectation.measure, math.nan)
         series = self._gauges() if expectation.measure.startswith("gauge.") else self.series

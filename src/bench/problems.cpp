@@ -27,6 +27,23 @@ const Overrides whole_model = {{"domain.lower", "['-80.56 mm', '-118.72 mm', '-1
 const Overrides johnson_cook_bar = {{"domain.cell_size", "0.475 mm"},
                                     {"body.0.material", "copper_johnson_cook.toml"}};
 
+/// A block of 20 x 20 x 42 mm of the column of the case, of which 40 mm are explosive, which burns through during the
+/// steps before, or the metal that it drives, which flies so that none of it is at rest.
+const Overrides explosive_block = {
+    {"domain.cell_size", "1 mm"},
+    {"domain.upper", "['20 mm', '20 mm', '120 mm']"},
+    {"splitting.length", "0"},
+    {"body.0.shape", "{ box = { lower = ['0 mm', '0 mm', '-40 mm'], upper = ['20 mm', '20 mm', '0 mm'] } }"},
+    {"body.1.shape", "{ box = { lower = ['0 mm', '0 mm', '0 mm'], upper = ['20 mm', '20 mm', '2 mm'] } }"}};
+const Overrides metal_block = {
+    {"domain.cell_size", "1 mm"},
+    {"domain.upper", "['20 mm', '20 mm', '120 mm']"},
+    {"splitting.length", "0"},
+    {"detonation.0.position", "['0 mm', '0 mm', '-2 mm']"},
+    {"body.0.shape", "{ box = { lower = ['0 mm', '0 mm', '-2 mm'], upper = ['20 mm', '20 mm', '0 mm'] } }"},
+    {"body.1.shape", "{ box = { lower = ['0 mm', '0 mm', '0 mm'], upper = ['20 mm', '20 mm', '40 mm'] } }"},
+    {"body.1.velocity", "['0 m/s', '0 m/s', '300 m/s']"}};
+
 Overrides together(Overrides first, const Overrides& second) {
   first.insert(first.end(), second.begin(), second.end());
   return first;
@@ -109,6 +126,18 @@ std::vector<Problem> all_problems() {
        .case_file = "cases/long_rod_oblique_plate/case.toml",
        .overrides = {{"domain.cell_size", "1 mm"}},
        .steps_before = 400,
+       .steps = 100},
+      {.name = "explosive",
+       .what = "Composition B that has burnt and pushes a plate, default scheme",
+       .case_file = "cases/gurney/case.toml",
+       .overrides = explosive_block,
+       .steps_before = 150,
+       .steps = 100},
+      {.name = "explosive_metal",
+       .what = "the same with as much Mie-Grueneisen metal without strength in place of the explosive",
+       .case_file = "cases/gurney/case.toml",
+       .overrides = metal_block,
+       .steps_before = 50,
        .steps = 100},
   };
 }

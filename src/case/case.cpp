@@ -159,9 +159,6 @@ void check_planar(const Case& setup, const Faults& faults) {
   if (!lies_in_plane(setup.gravity.acceleration)) {
     faults.in("gravity").add("acceleration", fmt::format("'acceleration' must be {}", expected));
   }
-  if (setup.splitting.length > 0.0) {
-    faults.in("splitting").add("length", "particles are split in three dimensions only: omit it");
-  }
 }
 
 bool can_be_placed(const Case& setup) {

@@ -9,7 +9,7 @@ import unittest
 import h5py
 import numpy as np
 
-from studies.shaped_charge import shaped_charge
+from studies.shaped_charge import penetration, shaped_charge
 from report import detonation, pieces
 
 
@@ -49,6 +49,16 @@ class Measures(unittest.TestCase):
         write_run(self.folder, np.zeros((100, 3)), {"mass": np.ones(100), "velocity": velocity})
         self.assertEqual(detonation.jet_speed(self.folder, "metal", 0.01), 99.0)
         self.assertEqual(detonation.jet_speed(self.folder, "metal", 0.1), 90.0)
+
+    def test_jet_gap_is_what_is_empty_between_tip_and_tail(self):
+        places, velocity = np.zeros((100, 3)), np.zeros((100, 3))
+        places[:, 0] = 1e-3 * (np.arange(100) + 0.5)  # one in each cell
+        velocity[:, 0] = 10.0 * np.arange(100)
+        write_run(self.folder, places, {"mass": np.ones(100), "velocity": velocity})
+        self.assertEqual(detonation.jet_gap(self.folder, "metal", 0.01), 0.0)
+        places[[10, 40, 41, 60], 0] += 1e-3  # the first is no jet: slower than a quarter of the tip
+        write_run(self.folder, places, {"mass": np.ones(100), "velocity": velocity})
+        self.assertAlmostEqual(detonation.jet_gap(self.folder, "metal", 0.01), 2.0 / 75.0)  # 41 came to 42, and 40 to 41
 
     def test_arrival_speed_is_the_slope_over_tracers(self):
         names = [f"front_{i}" for i in range(4)]
@@ -116,6 +126,26 @@ class Theory(unittest.TestCase):
         narrow = shaped_charge.theory(10.0, "composition_b")
         self.assertGreater(narrow[0][0], velocity[0])  # faster and thinner
         self.assertLess(narrow[2], share)
+
+    def test_depth_of_a_jet_from_one_place(self):
+        v = np.linspace(8000.0, 2000.0, 400)
+        x = 0.1 + 50e-6 * v  # all from 0.1 m
+        for density in (8930.0, 7830.0, 2700.0):
+            tau, depth = penetration.penetrate(v, x, 0.27, density)
+            g = math.sqrt(density / 8930.0)
+            self.assertAlmostEqual(depth[-1] / (0.17 * ((8000.0 / 2000.0) ** (1.0 / g) - 1.0)), 1.0, delta=1e-4)
+            self.assertTrue(np.all(np.diff(tau) > 0.0) and tau[0] < 0.0)
+
+    def test_a_rod_goes_as_deep_as_the_roots_of_the_densities_say_and_no_deeper_in_what_resists(self):
+        v, x = np.linspace(5000.0, 4999.99, 3), np.array([0.2, 0.15, 0.1])
+        depth = penetration.penetrate(v, x, 0.2, 7830.0)[1][-1]
+        self.assertAlmostEqual(depth, 0.1 * math.sqrt(8930.0 / 7830.0), delta=1e-5)
+        self.assertLess(penetration.penetrate(v, x, 0.2, 7830.0, 4e9)[1][-1], 0.95 * depth)
+        # rho_j (v - u)^2 = rho_t u^2 + 2 R; nothing penetrates below v = sqrt(2 R/rho_j)
+        for density in (7830.0, 8930.0):
+            u = float(penetration.penetration_speed(5000.0, density, 4e9))
+            self.assertAlmostEqual(8930.0 * (5000.0 - u) ** 2, density * u**2 + 8e9, delta=1.0)
+        self.assertEqual(float(penetration.penetration_speed(900.0, 7830.0, 4e9)), 0.0)
 
 
 if __name__ == "__main__":

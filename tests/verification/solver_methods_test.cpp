@@ -353,57 +353,61 @@ TEST(SeparatingWall, LetsABarRebound) {
   }
 }
 
-/// A column of gas between mirror planes.
-std::string stretching_gas(const std::string& splitting) {
+/// A column of gas between mirror planes, in axisymmetry around the axis.
+std::string stretching_gas(const std::string& dimension, const std::string& splitting) {
   const std::string gas = write_material(
       "stretching_gas",
       "name = \"gas\"\nsource = \"verification\"\n[eos]\nmodel = \"ideal_gas\"\nsource = \"verification\"\n"
       "reference_density = \"10 kg/m^3\"\nheat_capacity_ratio = 1.4\nheat_capacity = \"718 J/(kg K)\"\n");
-  return splitting +
-         "[domain]\nlower = [-0.2, 0, 0]\nupper = [0.2, 0.001, 0.001]\ncell_size = 0.001\nboundary = { "
-         "y_lower = "
-         "\"symmetry\", y_upper = \"symmetry\", z_lower = \"symmetry\", z_upper = \"symmetry\" "
-         "}\n[[body]]\nname = "
-         "\"gas\"\nmaterial = \"" +
-         gas + "\"\nshape = { box = { lower = [-0.01, 0, 0], upper = [0.01, 0.001, 0.001] } }\n";
+  const bool space = dimension == "3d";
+  return splitting + "[domain]\ndimension = \"" + dimension + "\"\nlower = [-0.2, 0" + (space ? ", 0" : "") +
+         "]\nupper = [0.2, 0.001" + (space ? ", 0.001" : "") + "]\ncell_size = 0.001\nboundary = { " +
+         (dimension == "axisymmetric" ? "" : "y_lower = \"symmetry\", ") + "y_upper = \"symmetry\"" +
+         (space ? ", z_lower = \"symmetry\", z_upper = \"symmetry\"" : "") +
+         " }\n[[body]]\nname = \"gas\"\nmaterial = \"" + gas +
+         "\"\nshape = { box = { lower = [-0.01, 0, 0], upper = [0.01, 0.001, 0.001] } }\n";
 }
 
 // A gas that expands five-fold along x: its particles part, those that are divided stay neighbours.
 TEST(Splitting, KeepsStretchedMatterTogetherAndEverySumExact) {
-  for (const bool split : {false, true}) {
-    const cases::Case setup =
-        read(Method{}, 1.0, "",
-             stretching_gas(split ? "[splitting]\nlength = 1.0\nmaximum_generations = 6\n" : ""));
-    Particles particles = cases::seed(setup).particles;
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-      particles.velocity[p] = {1e5 * particles.position[p][0], 0, 0};
-      particles.affine_velocity[p] = Vector3(1e5, 0, 0).asDiagonal();
-    }
-    const std::size_t count = particles.size();
-    solver::Simulation simulation = simulation_of(setup, std::move(particles));
-    EnergyWatch watch;
-    run_to(simulation, 4e-5, std::ref(watch));
-    const Particles& q = simulation.particles();
-    EXPECT_LT(watch.worst, 1e-12);
-    EXPECT_LT(simulation.state().ledger.momentum_error(simulation.totals()), 1e-12);
-    EXPECT_NEAR(simulation.totals().mass, simulation.state().ledger.initial.mass,
-                1e-13 * simulation.totals().mass);
-    std::vector<double> x;
-    for (const Vector3& position : q.position) {
-      if (std::abs(position[0]) < 0.03) x.push_back(position[0]);
-    }
-    std::ranges::sort(x);
-    double gap = 0;
-    for (std::size_t i = 1; i < x.size(); ++i) gap = std::max(gap, (x[i] - x[i - 1]) / 1e-3);
-    std::printf("splitting %d: %zu particles of %zu, largest gap %.2f cells\n", split, q.size(), count, gap);
-    const std::set<std::uint64_t> ids(q.id.begin(), q.id.end());
-    EXPECT_EQ(ids.size(), q.size());
-    if (split) {
-      EXPECT_GT(q.size(), 2 * count);
-      EXPECT_LT(gap, 1.1);
-    } else {
-      EXPECT_EQ(q.size(), count);
-      EXPECT_GT(gap, 1.5);
+  for (const char* dimension : {"3d", "plane_strain", "axisymmetric"}) {
+    for (const bool split : {false, true}) {
+      SCOPED_TRACE(fmt::format("{}, splitting {}", dimension, split));
+      const cases::Case setup = read(
+          Method{}, 1.0, "",
+          stretching_gas(dimension, split ? "[splitting]\nlength = 1.0\nmaximum_generations = 6\n" : ""));
+      Particles particles = cases::seed(setup).particles;
+      for (std::size_t p = 0; p < particles.size(); ++p) {
+        particles.velocity[p] = {1e5 * particles.position[p][0], 0, 0};
+        particles.affine_velocity[p] = Vector3(1e5, 0, 0).asDiagonal();
+      }
+      const std::size_t count = particles.size();
+      solver::Simulation simulation = simulation_of(setup, std::move(particles));
+      EnergyWatch watch;
+      run_to(simulation, 4e-5, std::ref(watch));
+      const Particles& q = simulation.particles();
+      EXPECT_LT(watch.worst, 1e-12);
+      EXPECT_LT(simulation.state().ledger.momentum_error(simulation.totals()), 1e-12);
+      EXPECT_NEAR(simulation.totals().mass, simulation.state().ledger.initial.mass,
+                  1e-13 * simulation.totals().mass);
+      std::vector<double> x;
+      for (const Vector3& position : q.position) {
+        if (std::abs(position[0]) < 0.03) x.push_back(position[0]);
+      }
+      std::ranges::sort(x);
+      double gap = 0;
+      for (std::size_t i = 1; i < x.size(); ++i) gap = std::max(gap, (x[i] - x[i - 1]) / 1e-3);
+      std::printf("%s, splitting %d: %zu particles of %zu, largest gap %.2f cells\n", dimension, split,
+                  q.size(), count, gap);
+      const std::set<std::uint64_t> ids(q.id.begin(), q.id.end());
+      EXPECT_EQ(ids.size(), q.size());
+      if (split) {
+        EXPECT_GT(q.size(), 2 * count);
+        EXPECT_LT(gap, 1.1);
+      } else {
+        EXPECT_EQ(q.size(), count);
+        EXPECT_GT(gap, 1.5);
+      }
     }
   }
 }

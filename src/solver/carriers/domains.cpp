@@ -40,9 +40,15 @@ std::size_t deform(State& state, std::span<const std::uint32_t> particles,
 
 namespace {
 
-/// Longest half-edge of a particle's domain: the eigenvector of the largest eigenvalue of its extent.
-Vector3 longest_half_edge(const SymmetricTensor& extent) {
-  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(extent.matrix());
+/// Returns the longest half-edge of a particle's domain: the eigenvector of the largest eigenvalue of its extent, in
+/// two dimensions of its section with the plane.
+Vector3 longest_half_edge(const SymmetricTensor& extent, bool planar) {
+  Matrix3 moments = extent.matrix();
+  if (planar) {
+    moments.row(2).setZero();
+    moments.col(2).setZero();
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(moments);
   return std::sqrt(solver.eigenvalues()[2]) * solver.eigenvectors().col(2);
 }
 
@@ -89,6 +95,7 @@ void split(State& state, const Carriers& carriers, ParticleCarrier& of_particles
   state.profile.time("split", [&] {
     const double limit =
         0.5 * state.setup.splitting.length * state.setup.domain.cell_size;  // half the length
+    const grid::Geometry& geometry = state.setup.geometry;
     std::vector<std::pair<std::uint32_t, Vector3>> divided;
     for (std::uint32_t p = 0; p < state.particles.size(); ++p) {
       const SymmetricTensor& e = state.particles.extent[p];
@@ -97,13 +104,13 @@ void split(State& state, const Carriers& carriers, ParticleCarrier& of_particles
           state.particles.generation[p] >= state.setup.splitting.maximum_generations) {
         continue;
       }
-      const Vector3 half_edge = longest_half_edge(e);
+      const Vector3 half_edge = longest_half_edge(e, geometry.is_planar());
       if (half_edge.squaredNorm() <= limit * limit) continue;
       bool inside = true;
-      for (int a = 0; a < 3; ++a) {
+      for (int a = 0; a < (geometry.is_planar() ? 2 : 3); ++a) {  // no ring of radius 0
         const double reach = 0.5 * std::abs(half_edge[a]);
-        inside = inside && state.particles.position[p][a] - reach >= state.setup.geometry.lower[a] &&
-                 state.particles.position[p][a] + reach <= state.setup.geometry.upper(a);
+        inside = inside && state.particles.position[p][a] - reach > geometry.lower[a] &&
+                 state.particles.position[p][a] + reach < geometry.upper(a);
       }
       if (inside) divided.emplace_back(p, half_edge);
     }
