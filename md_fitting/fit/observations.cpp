@@ -162,47 +162,68 @@ double modulus_at_rest(std::vector<IsothermState> isotherm, double v0) {
   return secant0 - (secant1 - secant0) / (x1 - x0) * x0;
 }
 
-/// Turns the isotherm of classical nuclei, and the volume at zero pressure, into those of quantum ones.
-/// Between the volumes of the quantum points their pressure is linear.
-/// @throws InputError if these do not cover the isotherm
-void add_quantum_nuclei(std::span<const PointRecord> points, Observations& data,
-                        const std::string& store_name) {
+/// The points of the protocol "quantum" at a temperature, by falling volume.
+std::vector<QuantumState> quantum_states(std::span<const PointRecord> points, double temperature) {
+  std::vector<QuantumState> found;
   for (const PointRecord& point : md::select(points, "quantum")) {
-    if (std::abs(point.condition("temperature") - data.reference_temperature) > same_temperature) continue;
-    data.quantum.push_back({point.condition("specific_volume"), point.result("quantum_pressure"),
-                            point.result("debye_temperature").value});
+    if (std::abs(point.condition("temperature") - temperature) > same_temperature) continue;
+    found.push_back({point.condition("specific_volume"), point.result("quantum_pressure"),
+                     point.result("debye_temperature").value});
   }
-  std::ranges::sort(data.quantum, [](const auto& a, const auto& b) { return a.volume > b.volume; });
-  if (data.quantum.empty()) return;
-  const auto quantum_pressure = [&](double volume) {
-    const auto below =
-        std::ranges::find_if(data.quantum, [&](const auto& s) { return s.volume <= volume * (1 + 1e-9); });
-    const double least = data.quantum.back().volume;
-    const double most = data.quantum.front().volume;
-    if (below == data.quantum.end() || volume > most * (1 + 1e-9)) {
-      throw InputError(fmt::format(
-          "{}: the points of the protocol \"quantum\" at {} K reach from V = {:.5g} to {:.5g} cm^3/g, the "
-          "isotherm has {:.5g}; add volumes, or fit with --nuclei classical",
-          store_name, data.reference_temperature, 1e3 * least, 1e3 * most, 1e3 * volume));
-    }
-    if (below == data.quantum.begin()) return below->pressure;
-    const QuantumState& above = *std::prev(below);
-    const double weight = (volume - below->volume) / (above.volume - below->volume);
-    return Estimate{weight * above.pressure.value + (1 - weight) * below->pressure.value,
-                    std::hypot(weight * above.pressure.error, (1 - weight) * below->pressure.error)};
-  };
+  std::ranges::sort(found, [](const auto& a, const auto& b) { return a.volume > b.volume; });
+  return found;
+}
+
+/// What quantum nuclei add to the pressure, linear between the volumes of their points; nothing outside of
+/// these.
+std::optional<Estimate> quantum_pressure(const std::vector<QuantumState>& states, double volume) {
+  const auto below =
+      std::ranges::find_if(states, [&](const auto& s) { return s.volume <= volume * (1 + 1e-9); });
+  if (below == states.end() || volume > states.front().volume * (1 + 1e-9)) return std::nullopt;
+  if (below == states.begin()) return below->pressure;
+  const QuantumState& above = *std::prev(below);
+  const double weight = (volume - below->volume) / (above.volume - below->volume);
+  return Estimate{weight * above.pressure.value + (1 - weight) * below->pressure.value,
+                  std::hypot(weight * above.pressure.error, (1 - weight) * below->pressure.error)};
+}
+
+/// Compares the isotherm with that of quantum nuclei, where the points of the protocol reach the volume at zero
+/// pressure.
+void compare_nuclei(Observations& data) {
   const double v0 = data.reference_volume.value;
-  const double bulk_modulus = modulus_at_rest(data.isotherm, v0);
-  const Estimate at_reference = quantum_pressure(v0);
-  data.quantum_expansion = at_reference.value / bulk_modulus;
-  data.reference_volume.value *= 1.0 + data.quantum_expansion;
-  data.reference_volume.error =
-      std::hypot(data.reference_volume.error, v0 * at_reference.error / bulk_modulus);
+  const std::optional<Estimate> at_reference = quantum_pressure(data.quantum, v0);
+  if (!at_reference || data.isotherm.size() < least_isotherm) return;
+  data.nuclei.expansion = at_reference->value / modulus_at_rest(data.isotherm, v0);
+  for (const IsothermState& state : data.isotherm) {
+    if (const auto addition = quantum_pressure(data.quantum, state.volume)) {
+      data.nuclei.isotherm.push_back({state.volume, state.pressure.value, addition->value});
+    }
+  }
+}
+
+/// Turns the isotherm of classical nuclei, and the volume at zero pressure, into those of quantum ones.
+/// @throws InputError if the points of the protocol do not cover the isotherm
+void take_quantum_nuclei(Observations& data, const std::string& store_name) {
+  if (data.quantum.empty()) return;
+  const auto addition = [&](double volume) {
+    if (const auto pressure = quantum_pressure(data.quantum, volume)) return *pressure;
+    throw InputError(fmt::format(
+        "{}: the points of the protocol \"quantum\" at {} K reach from V = {:.5g} to {:.5g} cm^3/g, the "
+        "isotherm has {:.5g}; add volumes, or fit with --nuclei classical",
+        store_name, data.reference_temperature, 1e3 * data.quantum.back().volume,
+        1e3 * data.quantum.front().volume, 1e3 * volume));
+  };
+  Estimate& v0 = data.reference_volume;
+  const Estimate at_reference = addition(v0.value);
+  const double bulk_modulus = modulus_at_rest(data.isotherm, v0.value);
+  v0.error = std::hypot(v0.error, v0.value * at_reference.error / bulk_modulus);
+  v0.value *= 1.0 + data.nuclei.expansion;
   for (IsothermState& state : data.isotherm) {
-    const Estimate pressure = quantum_pressure(state.volume);
+    const Estimate pressure = addition(state.volume);
     state.pressure.value += pressure.value;
     state.pressure.error = std::hypot(state.pressure.error, pressure.error);
   }
+  data.nuclei.contained = true;
 }
 
 /// Adds the observations of liquid, vapour and Debye temperature.
@@ -313,8 +334,10 @@ Observations observe(std::span<const PointRecord> points, const FitSettings& set
                        fmt::format("{} solid states at {} K", data.isotherm.size(), reference_temperature),
                        fmt::format("{}", least_isotherm));
   }
-  if (lacking.empty() && needs.isotherm && settings.nuclei == Nuclei::quantum) {
-    add_quantum_nuclei(points, data, store_name);
+  if (lacking.empty()) {
+    data.quantum = quantum_states(points, reference_temperature);
+    compare_nuclei(data);
+    if (needs.isotherm && settings.nuclei == Nuclei::quantum) take_quantum_nuclei(data, store_name);
   }
   data.melting = melting_points(md::select(points, "coexistence"));
   add_other_phases(points, data);
