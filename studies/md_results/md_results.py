@@ -4,7 +4,7 @@
 compares with experiments, and writes the tables of docs/generated/results_md.md.
 
 Usage: studies/md_results/md_results.py [--bin build/release/bin] [--stores run/md] [--ranks N] [--metal NAME ...]
-                                        [-o docs/generated/results_md.md]
+                                        [--no-melting] [-o docs/generated/results_md.md]
 
 Models of OpenKIM need scripts/install_deps.sh --kim. With --metal only the sections of these metals are written again.
 """
@@ -197,6 +197,7 @@ def main():
     parser.add_argument("--ranks", type=int, default=0)
     parser.add_argument("--metal", nargs="+", choices=METALS, default=list(METALS))
     parser.add_argument("--no-md", action="store_true", help="take the stores as they are")
+    parser.add_argument("--no-melting", action="store_true", help="leave out the melting plans: T_m0 and Delta S stay defaults")
     parser.add_argument("-o", "--output", type=pathlib.Path, default=PAGE)
     options = parser.parse_args()
     binaries, stores = options.bin.resolve(), options.stores.resolve()
@@ -213,7 +214,7 @@ def main():
         fits = []
         for name, label in potentials.items():
             store = stores / f"{name}.md.h5"
-            for kind in () if options.no_md else ("short", "melting"):
+            for kind in () if options.no_md else ("short",) if options.no_melting else ("short", "melting"):
                 plan = ROOT / f"cases/md/{name}_{kind}.toml"
                 if plan.exists():
                     ranks = ["--ranks", options.ranks] if options.ranks else []
