@@ -31,7 +31,7 @@ METALS = {
     "tantalum": ("tantalum_ravelo", ["tantalum_zhou"], ["ta_isotherm_298K_dewaele2004"]),
 }
 # Named later, and counted by themselves (README.md, "More potentials").
-FURTHER = {"nickel": ["nickel_mishin"], "tantalum": ["tantalum_li", "tantalum_derlet"]}
+FURTHER = {"nickel": ["nickel_mishin"], "tantalum": ["tantalum_derlet"]}
 TIERS = {"fit": "the fit", "potentials": "the potentials", "all": "both"}
 WIDER = {"potentials": "the potentials and the further ones", "all": "the fit and all potentials"}
 LEVELS = [50, 68, 80, 90, 95, 99]

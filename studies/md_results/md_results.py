@@ -47,7 +47,7 @@ METALS = {
     "nickel": ({"nickel_u3": "Foiles et al. 1986, universal 3", "nickel_zhou": "Zhou et al. 2004",
                 "nickel_mishin": "Mishin et al. 1999 (KIM)"}, ["ni_hugoniot_marsh1980"]),
     "tantalum": ({"tantalum_zhou": "Zhou et al. 2004", "tantalum_ravelo": "Ravelo et al. 2013 (KIM)",
-                  "tantalum_li": "Li et al. 2003 (KIM)", "tantalum_derlet": "Derlet et al. 2007 (KIM)"},
+                  "tantalum_derlet": "Derlet et al. 2007 (KIM)"},
                  ["ta_isotherm_298K_dewaele2004"]),
     "tungsten": ({"tungsten_zhou": "Zhou et al. 2004"}, ["w_isotherm_298K_dewaele2004"]),
 }
