@@ -161,6 +161,24 @@ std::string unknown_to_classical_nuclei(const Fit& fit) {
   return text;
 }
 
+/// The isotherm of classical and of quantum nuclei, if the store has points of the protocol "quantum".
+std::string nuclei_text(const Fit& fit) {
+  const NucleiComparison& nuclei = fit.nuclei;
+  if (nuclei.isotherm.empty()) return {};
+  std::string text = fmt::format(
+      "\nisotherm at {} K of classical and of quantum nuclei (points of the protocol \"quantum\"; the fitted "
+      "constants {}): V (cm3/g), P classical, P quantum, difference (GPa)\n",
+      fit.settings.reference_temperature,
+      nuclei.contained ? "contain the difference" : "are those of classical nuclei");
+  for (const NucleiPressures& row : nuclei.isotherm) {
+    text += fmt::format("  {:.5f}  {:8.3f}  {:8.3f}  {:+.3f}\n", 1e3 * row.volume, 1e-9 * row.classical,
+                        1e-9 * (row.classical + row.addition), 1e-9 * row.addition);
+  }
+  return text + fmt::format("  the volume at zero pressure {} {:.3f} % with quantum nuclei\n",
+                            nuclei.expansion < 0.0 ? "shrinks by" : "grows by",
+                            100.0 * std::abs(nuclei.expansion));
+}
+
 std::string windows_text(const Fit& fit) {
   std::string text =
       "\nwindow of particle velocities (km/s), states, weight in the mean, C (km/s), S: the first is the "
@@ -277,6 +295,7 @@ std::string fit_details(const Fit& fit) {
   }
 
   text += unknown_to_classical_nuclei(fit);
+  text += nuclei_text(fit);
   text += "\nnot from the simulations\n";
   for (const Constant& constant : fit.constants) {
     if (constant.origin == Origin::fitted) continue;

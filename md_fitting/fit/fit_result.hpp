@@ -13,6 +13,7 @@
 #include "md_fitting/fit/bootstrap.hpp"
 #include "md_fitting/fit/cross_validation.hpp"
 #include "md_fitting/fit/fit_settings.hpp"
+#include "md_fitting/fit/observations.hpp"
 
 /// Holds the result of a fit, whatever the model.
 namespace whipple::fit {
@@ -114,6 +115,7 @@ struct Fit {
   std::vector<Residual> residuals;
   std::vector<IsochoreGruneisen> isochores;
   std::vector<WindowResult> windows;  ///< the fit's own window comes first
+  NucleiComparison nuclei;
   std::vector<ModelCheck> checks;
   std::vector<std::string> remarks;
   int superheated_states = 0;  ///< isochore states above T_m(V), left out

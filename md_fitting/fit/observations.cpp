@@ -153,24 +153,19 @@ std::vector<IsothermState> isotherm_states(std::span<const PointRecord> points, 
   return found;
 }
 
+/// Of V0: there P/(1 - V/V0), or the difference of two, is the noise of P.
+constexpr double too_near = 2e-3;
+
 /// -V dP/dV where an isotherm crosses zero pressure: P/(1 - V/V0) of the two nearest states of different
-/// volumes, extrapolated to V0.
-/// @throws InputError if all states are of one volume, or next to V0
-double modulus_at_rest(std::vector<IsothermState> isotherm, double v0, const std::string& store_name) {
-  constexpr double too_near = 2e-3;  // there P/(1 - V/V0), or the difference of two, is the noise of P
+/// volumes, extrapolated to V0; nothing if all states are of one volume, or next to V0.
+std::optional<double> modulus_at_rest(std::vector<IsothermState> isotherm, double v0) {
   const auto strain = [&](const IsothermState& state) { return 1.0 - state.volume / v0; };
   std::erase_if(isotherm, [&](const IsothermState& state) { return std::abs(strain(state)) < too_near; });
   std::ranges::sort(isotherm, {}, [&](const IsothermState& state) { return std::abs(strain(state)); });
   const auto next = std::ranges::find_if(isotherm, [&](const IsothermState& state) {
     return std::abs(strain(state) - strain(isotherm.front())) >= too_near;
   });
-  if (next == isotherm.end()) {
-    throw InputError(fmt::format(
-        "{}: the isotherm has no two volumes that differ from that at zero pressure and from one another by "
-        "{} of it: the points of the protocol \"quantum\" need its bulk modulus; add volumes, or fit with "
-        "--nuclei classical",
-        store_name, too_near));
-  }
+  if (next == isotherm.end()) return std::nullopt;
   const double x0 = strain(isotherm.front());
   const double x1 = strain(*next);
   const double secant0 = isotherm.front().pressure.value / x0;
@@ -178,47 +173,76 @@ double modulus_at_rest(std::vector<IsothermState> isotherm, double v0, const std
   return secant0 - (secant1 - secant0) / (x1 - x0) * x0;
 }
 
-/// Turns the isotherm of classical nuclei, and the volume at zero pressure, into those of quantum ones.
-/// Between the volumes of the quantum points their pressure is linear.
-/// @throws InputError if these do not cover the isotherm
-void add_quantum_nuclei(std::span<const PointRecord> points, Observations& data,
-                        const std::string& store_name) {
+/// The points of the protocol "quantum" at a temperature, by falling volume.
+std::vector<QuantumState> quantum_states(std::span<const PointRecord> points, double temperature) {
+  std::vector<QuantumState> found;
   for (const PointRecord& point : md::select(points, "quantum")) {
-    if (std::abs(point.condition("temperature") - data.reference_temperature) > same_temperature) continue;
-    data.quantum.push_back({point.condition("specific_volume"), point.result("quantum_pressure"),
-                            point.result("debye_temperature").value});
+    if (std::abs(point.condition("temperature") - temperature) > same_temperature) continue;
+    found.push_back({point.condition("specific_volume"), point.result("quantum_pressure"),
+                     point.result("debye_temperature").value});
   }
-  std::ranges::sort(data.quantum, [](const auto& a, const auto& b) { return a.volume > b.volume; });
-  if (data.quantum.empty()) return;
-  const auto quantum_pressure = [&](double volume) {
-    const auto below =
-        std::ranges::find_if(data.quantum, [&](const auto& s) { return s.volume <= volume * (1 + 1e-9); });
-    const double least = data.quantum.back().volume;
-    const double most = data.quantum.front().volume;
-    if (below == data.quantum.end() || volume > most * (1 + 1e-9)) {
-      throw InputError(fmt::format(
-          "{}: the points of the protocol \"quantum\" at {} K reach from V = {:.5g} to {:.5g} cm^3/g, the "
-          "isotherm has {:.5g}; add volumes, or fit with --nuclei classical",
-          store_name, data.reference_temperature, 1e3 * least, 1e3 * most, 1e3 * volume));
-    }
-    if (below == data.quantum.begin()) return below->pressure;
-    const QuantumState& above = *std::prev(below);
-    const double weight = (volume - below->volume) / (above.volume - below->volume);
-    return Estimate{weight * above.pressure.value + (1 - weight) * below->pressure.value,
-                    std::hypot(weight * above.pressure.error, (1 - weight) * below->pressure.error)};
-  };
+  std::ranges::sort(found, [](const auto& a, const auto& b) { return a.volume > b.volume; });
+  return found;
+}
+
+/// What quantum nuclei add to the pressure, linear between the volumes of their points; nothing outside of
+/// these.
+std::optional<Estimate> quantum_pressure(const std::vector<QuantumState>& states, double volume) {
+  const auto below =
+      std::ranges::find_if(states, [&](const auto& s) { return s.volume <= volume * (1 + 1e-9); });
+  if (below == states.end() || volume > states.front().volume * (1 + 1e-9)) return std::nullopt;
+  if (below == states.begin()) return below->pressure;
+  const QuantumState& above = *std::prev(below);
+  const double weight = (volume - below->volume) / (above.volume - below->volume);
+  return Estimate{weight * above.pressure.value + (1 - weight) * below->pressure.value,
+                  std::hypot(weight * above.pressure.error, (1 - weight) * below->pressure.error)};
+}
+
+/// Compares the isotherm with that of quantum nuclei, where the points of the protocol reach the volume at zero
+/// pressure.
+void compare_nuclei(Observations& data) {
   const double v0 = data.reference_volume.value;
-  const double bulk_modulus = modulus_at_rest(data.isotherm, v0, store_name);
-  const Estimate at_reference = quantum_pressure(v0);
-  data.quantum_expansion = at_reference.value / bulk_modulus;
-  data.reference_volume.value *= 1.0 + data.quantum_expansion;
-  data.reference_volume.error =
-      std::hypot(data.reference_volume.error, v0 * at_reference.error / bulk_modulus);
+  const std::optional<Estimate> at_reference = quantum_pressure(data.quantum, v0);
+  const std::optional<double> bulk_modulus = modulus_at_rest(data.isotherm, v0);
+  if (!at_reference || !bulk_modulus || data.isotherm.size() < least_isotherm) return;
+  data.nuclei.expansion = at_reference->value / *bulk_modulus;
+  for (const IsothermState& state : data.isotherm) {
+    if (const auto addition = quantum_pressure(data.quantum, state.volume)) {
+      data.nuclei.isotherm.push_back({state.volume, state.pressure.value, addition->value});
+    }
+  }
+}
+
+/// Turns the isotherm of classical nuclei, and the volume at zero pressure, into those of quantum ones.
+/// @throws InputError if the points of the protocol do not cover the isotherm, or its states tell no bulk modulus
+void take_quantum_nuclei(Observations& data, const std::string& store_name) {
+  if (data.quantum.empty()) return;
+  const auto addition = [&](double volume) {
+    if (const auto pressure = quantum_pressure(data.quantum, volume)) return *pressure;
+    throw InputError(fmt::format(
+        "{}: the points of the protocol \"quantum\" at {} K reach from V = {:.5g} to {:.5g} cm^3/g, the "
+        "isotherm has {:.5g}; add volumes, or fit with --nuclei classical",
+        store_name, data.reference_temperature, 1e3 * data.quantum.back().volume,
+        1e3 * data.quantum.front().volume, 1e3 * volume));
+  };
+  Estimate& v0 = data.reference_volume;
+  const Estimate at_reference = addition(v0.value);
+  const std::optional<double> bulk_modulus = modulus_at_rest(data.isotherm, v0.value);
+  if (!bulk_modulus) {
+    throw InputError(fmt::format(
+        "{}: the isotherm has no two volumes that differ from that at zero pressure and from one another by "
+        "{} of it: the points of the protocol \"quantum\" need its bulk modulus; add volumes, or fit with "
+        "--nuclei classical",
+        store_name, too_near));
+  }
+  v0.error = std::hypot(v0.error, v0.value * at_reference.error / *bulk_modulus);
+  v0.value *= 1.0 + data.nuclei.expansion;
   for (IsothermState& state : data.isotherm) {
-    const Estimate pressure = quantum_pressure(state.volume);
+    const Estimate pressure = addition(state.volume);
     state.pressure.value += pressure.value;
     state.pressure.error = std::hypot(state.pressure.error, pressure.error);
   }
+  data.nuclei.contained = true;
 }
 
 /// Adds the observations of liquid, vapour and Debye temperature.
@@ -329,8 +353,10 @@ Observations observe(std::span<const PointRecord> points, const FitSettings& set
                        fmt::format("{} solid states at {} K", data.isotherm.size(), reference_temperature),
                        fmt::format("{}", least_isotherm));
   }
-  if (lacking.empty() && needs.isotherm && settings.nuclei == Nuclei::quantum) {
-    add_quantum_nuclei(points, data, store_name);
+  if (lacking.empty()) {
+    data.quantum = quantum_states(points, reference_temperature);
+    compare_nuclei(data);
+    if (needs.isotherm && settings.nuclei == Nuclei::quantum) take_quantum_nuclei(data, store_name);
   }
   data.melting = melting_points(md::select(points, "coexistence"));
   add_other_phases(points, data);

@@ -71,6 +71,21 @@ struct QuantumState {
   double debye_temperature = 0.0;  ///< K, of the second moment of the frequencies
 };
 
+/// One volume of the isotherm, Pa.
+struct NucleiPressures {
+  double volume = 0.0;
+  double classical = 0.0;  ///< pressure of classical nuclei, as simulated
+  double addition = 0.0;   ///< of quantum nuclei
+};
+
+/// What quantum nuclei make of the isotherm at the reference temperature.
+struct NucleiComparison {
+  std::vector<NucleiPressures>
+      isotherm;            ///< by falling volume; empty without points of the protocol "quantum"
+  double expansion = 0.0;  ///< relative growth of the reference volume
+  bool contained = false;  ///< in the isotherm and the reference volume of the fit
+};
+
 struct Observations {
   std::string element;
   std::string potential;
@@ -84,8 +99,8 @@ struct Observations {
   std::vector<LiquidState> liquid;
   std::vector<SaturationState> saturation;  ///< by rising temperature
   std::vector<ElasticState> elastic;
-  std::vector<QuantumState> quantum;  ///< by falling volume; empty unless the isotherm contains them
-  double quantum_expansion = 0.0;     ///< relative growth of the reference volume by them
+  std::vector<QuantumState> quantum;  ///< by falling volume
+  NucleiComparison nuclei;
 };
 
 /// Which data must be there.

@@ -262,6 +262,7 @@ SolidFit fit_solid(Observations data, const SolidModel& model, const SolidConsta
   report.element = data.element;
   report.potential = data.potential;
   report.molar_mass = data.molar_mass;
+  report.nuclei = data.nuclei;
   report.settings = settings;
   report.chi_squared = solution.chi_squared;
   report.degrees_of_freedom = solution.degrees_of_freedom;

@@ -189,7 +189,8 @@ Fit fit_debye_gruneisen(std::span<const md::PointRecord> points, const FitSettin
   if (!melts) sources.by_default(table.melting_temperature);
   const std::vector<ElasticState>& elastic = solid.data.elastic;
   const std::vector<QuantumState>& quantum = solid.data.quantum;
-  if (!quantum.empty()) {
+  const bool quantum_nuclei = solid.data.nuclei.contained;
+  if (quantum_nuclei) {
     const QuantumState& near = *std::ranges::min_element(
         quantum, {}, [&](const QuantumState& state) { return std::abs(state.volume - v0); });
     constants.debye_temperature = near.debye_temperature;
@@ -218,15 +219,14 @@ Fit fit_debye_gruneisen(std::span<const md::PointRecord> points, const FitSettin
   if (settings.bootstrap > 0) fit.bootstrap = replicates(points, solid, needs, map, settings, store_name);
   if (settings.density) replace_density(fit, constants.reference_density, sources);
   list_constants(fit, whipple::bind(eos::DebyeGruneisen::parameters(), constants), sources);
-  fit.remarks.emplace_back(quantum.empty() ? "the isotherm is that of classical nuclei: zero-point motion "
-                                             "and quantum heat capacity enter through the "
-                                             "Debye temperature alone"
-                                           : fmt::format("the isotherm contains the pressure of quantum "
-                                                         "nuclei ({:.3f} GPa at V/V0 = {:.3f}), by which "
-                                                         "the volume at zero pressure grows by {:.3f} %",
-                                                         1e-9 * quantum.front().pressure.value,
-                                                         quantum.front().volume / v0,
-                                                         100.0 * solid.data.quantum_expansion));
+  fit.remarks.emplace_back(
+      quantum_nuclei
+          ? fmt::format("the isotherm contains the pressure of quantum nuclei, by which the volume at zero "
+                        "pressure grows by {:.3f} %",
+                        100.0 * solid.data.nuclei.expansion)
+          : "the isotherm is that of classical nuclei: zero-point motion and quantum heat capacity enter "
+            "through the "
+            "Debye temperature alone");
   return fit;
 }
 

@@ -30,7 +30,10 @@ METALS = {
     "nickel": ("nickel_u3", ["nickel_zhou"], ["ni_hugoniot_marsh1980"]),
     "tantalum": ("tantalum_ravelo", ["tantalum_zhou"], ["ta_isotherm_298K_dewaele2004"]),
 }
+# Named later, and counted by themselves (README.md, "More potentials").
+FURTHER = {"nickel": ["nickel_mishin"], "tantalum": ["tantalum_derlet"]}
 TIERS = {"fit": "the fit", "potentials": "the potentials", "all": "both"}
+WIDER = {"potentials": "the potentials and the further ones", "all": "the fit and all potentials"}
 LEVELS = [50, 68, 80, 90, 95, 99]
 ROW = re.compile(r"^(?P<experiment>\S+)\s+\S+\s+(?P<points>\d+)\s+(?P<width>[\d.]+) %\s+(?P<error>[\d.]+) %\s+"
                  r"(?P<band>[\d.]+) %\s+(?P<levels>[\d. ]+)$", re.MULTILINE)
@@ -64,27 +67,32 @@ def usable(binaries, stores, name):
 
 
 def calibrate(metal, options, binaries, stores):
-    """Rows of one metal by tier, the potentials that made no fit, and the deviation of the central one."""
+    """Rows of one metal by title of their errors, the potentials that made no fit, and the deviation of the central one."""
     central, others, experiments = METALS[metal]
-    refused, good = {}, []
-    for name in [central, *others]:
+    refused, good = {}, {}
+    for name in [central, *others, *FURTHER.get(metal, [])]:
         store, reason = usable(binaries, stores, name)
         if store:
-            good.append(store)
+            good[name] = store
         else:
             refused[name] = reason
     if central in refused:
         return {}, refused, ""
-    folder = stores / "calibration"
-    folder.mkdir(exist_ok=True)
-    call([binaries / "whipple-fit", *good, "-q", "-o", f"{folder}/", "--force"])
     rows, text = {}, ""
-    for tier in TIERS:
-        if tier != "fit" and len(good) < 2:
+    for tiers, names, folder in ((TIERS, [central, *others], "calibration"),
+                                 (WIDER, [central, *others, *FURTHER.get(metal, [])], "calibration_wider")):
+        found = [good[name] for name in names if name in good]
+        if tiers is WIDER and not any(name in good for name in FURTHER.get(metal, [])):
             continue
-        text = call([binaries / "whipple", "compare", folder / f"{central}.toml", "--with", *experiments, "--samples",
-                     options.samples, "--tier", tier, "--force", "--calibration", folder / f"{central}_{tier}.csv"]).stdout
-        rows[tier] = calibration_rows(text)
+        (stores / folder).mkdir(exist_ok=True)
+        material = stores / folder / f"{central}.toml"
+        call([binaries / "whipple-fit", *found, "-q", "-o", f"{stores / folder}/", "--force"])
+        for tier, title in tiers.items():
+            if tier != "fit" and len(found) < 2:
+                continue
+            text = call([binaries / "whipple", "compare", material, "--with", *experiments, "--samples", options.samples,
+                         "--tier", tier, "--force", "--calibration", stores / folder / f"{central}_{tier}.csv"]).stdout
+            rows[title] = calibration_rows(text)
     return rows, refused, deviations(text, experiments)
 
 
@@ -105,10 +113,10 @@ def draw(results):
     matplotlib.use("Agg")
     from matplotlib import pyplot
     figure, axes = pyplot.subplots(1, len(TIERS), figsize=(10, 3.8), sharey=True, layout="constrained")
-    for panel, (tier, title) in zip(axes, TIERS.items()):
+    for panel, title in zip(axes, TIERS.values()):
         panel.plot([0, 100], [0, 100], color="0.6", linewidth=1)
         for metal, (rows, _, _) in results.items():
-            for experiment, row in rows.get(tier, {}).items():
+            for experiment, row in rows.get(title, {}).items():
                 panel.plot(LEVELS, [row["levels"][level] for level in LEVELS], marker="o", markersize=3, label=experiment)
         panel.set(title=f"errors of {title}", xlabel="nominal coverage, %", xlim=(45, 101), ylim=(-2, 102))
     axes[0].set_ylabel("points inside, %")
@@ -120,12 +128,12 @@ def sections(results):
     rows = []
     for metal, (by_tier, _, rms) in results.items():
         for experiment in METALS[metal][2]:
-            for tier in TIERS:
-                row = by_tier.get(tier, {}).get(experiment)
+            for title in (*TIERS.values(), *WIDER.values()):
+                row = by_tier.get(title, {}).get(experiment)
                 if row:
-                    rows.append([metal, experiment, TIERS[tier], f"{row['points']}", f"{row['width']:.2f} %",
+                    rows.append([metal, experiment, title, f"{row['points']}", f"{row['width']:.2f} %",
                                  f"{row['error']:.2f} %", f"{row['levels'][95]:.1f} %", f"{row['band']:.1f} %",
-                                 rms.get(experiment, "") if tier == "fit" else ""])
+                                 rms.get(experiment, "") if title == TIERS["fit"] else ""])
     text = table(["metal", "measurement", "errors of", "points", "median half-width", "measurement error",
                   "inside 95 %", "inside the band alone", "rms (mean) deviation"], rows)
     for metal, (_, refused, _) in results.items():
@@ -147,7 +155,7 @@ def main():
     results = {}
     for metal in options.metal:
         central, others, _ = METALS[metal]
-        for name in () if options.no_md else [central, *others]:
+        for name in () if options.no_md else [central, *others, *FURTHER.get(metal, [])]:
             call([binaries / "whipple", "md", ROOT / f"cases/md/{name}_short.toml", "-o", stores / f"{name}.md.h5"],
                  allowed=(0, 3))
         results[metal] = calibrate(metal, options, binaries, stores)

@@ -4,7 +4,7 @@
 compares with experiments, and writes the tables of docs/generated/results_md.md.
 
 Usage: studies/md_results/md_results.py [--bin build/release/bin] [--stores run/md] [--ranks N] [--metal NAME ...]
-                                        [-o docs/generated/results_md.md]
+                                        [--no-melting] [-o docs/generated/results_md.md]
 
 Models of OpenKIM need scripts/install_deps.sh --kim. With --metal only the sections of these metals are written again.
 """
@@ -44,8 +44,11 @@ METALS = {
         ["al_hugoniot_mitchell_nellis1981", "al_isotherm_298K_dewaele2004"],
     ),
     "lead": ({"lead_zhou": "Zhou et al. 2004", "lead_landa": "Landa et al. 2000 (KIM)"}, []),
-    "nickel": ({"nickel_u3": "Foiles et al. 1986, universal 3", "nickel_zhou": "Zhou et al. 2004"}, []),
-    "tantalum": ({"tantalum_zhou": "Zhou et al. 2004", "tantalum_ravelo": "Ravelo et al. 2013 (KIM)"}, ["ta_isotherm_298K_dewaele2004"]),
+    "nickel": ({"nickel_u3": "Foiles et al. 1986, universal 3", "nickel_zhou": "Zhou et al. 2004",
+                "nickel_mishin": "Mishin et al. 1999 (KIM)"}, ["ni_hugoniot_marsh1980"]),
+    "tantalum": ({"tantalum_zhou": "Zhou et al. 2004", "tantalum_ravelo": "Ravelo et al. 2013 (KIM)",
+                  "tantalum_derlet": "Derlet et al. 2007 (KIM)"},
+                 ["ta_isotherm_298K_dewaele2004"]),
     "tungsten": ({"tungsten_zhou": "Zhou et al. 2004"}, ["w_isotherm_298K_dewaele2004"]),
 }
 
@@ -77,6 +80,14 @@ def published_rows(report):
     return rows
 
 
+def largest_factor(provenance):
+    """The largest factor by which chi^2 of a kind of data raised its model errors, with that kind."""
+    prefix = "inflation_"
+    factors = {key.removeprefix(prefix).replace("_", " "): value for key, value in provenance.items() if key.startswith(prefix)}
+    kind = max(factors, key=factors.get)
+    return f"{factors[kind]:.1f} ({kind})" if factors[kind] > 1.05 else "1"
+
+
 class Fitted:
     """One potential: constants, errors, and how far C and S move with the window of particle velocities."""
 
@@ -100,7 +111,7 @@ class Fitted:
                 place = covariance["names"].index(key)
                 self.errors[key] = factor * covariance["matrix"][key][place] ** 0.5
                 self.noise[key] = factor * covariance["statistical_error"][place]
-        self.reduced = covariance["chi_squared"] / covariance["degrees_of_freedom"]
+        self.factor = largest_factor(text["provenance"]["fit"])
         found = re.search(r"over the windows: C ([\d.]+) \.\.\. ([\d.]+) km/s, S ([\d.]+) \.\.\. ([\d.]+)", result.stdout)
         self.windows = tuple(map(float, found.groups()))
         self.left_out = int(re.search(r"(\d+) isochore states above", result.stdout + "0 isochore states above").group(1))
@@ -149,11 +160,11 @@ def metal_section(metal, fits, experiments):
         if fit.fault:
             rows.append([fit.label, f"no fit: {fit.fault.removeprefix('whipple fit: ')}"] + [""] * len(CONSTANTS))
             continue
-        rows.append([fit.label] + [fit.cell(key, decimals) for key, _, _, decimals in CONSTANTS] + [f"{fit.reduced:.1f}"])
+        rows.append([fit.label] + [fit.cell(key, decimals) for key, _, _, decimals in CONSTANTS] + [fit.factor])
     published = next((fit.published for fit in fits if not fit.fault), {})
     for name, row in published.items():
         rows.append([name, f"{row[0]:.5f}", *[f"{value:g}" for value in row[1:5]], "", f"{row[5]:g}", "", ""])
-    text.append(table(["", *[heading for _, heading, _, _ in CONSTANTS], "chi^2/dof"], rows))
+    text.append(table(["", *[heading for _, heading, _, _ in CONSTANTS], "model errors times"], rows))
     good = [fit for fit in fits if not fit.fault]
     rows = []
     for fit in good:
@@ -186,6 +197,7 @@ def main():
     parser.add_argument("--ranks", type=int, default=0)
     parser.add_argument("--metal", nargs="+", choices=METALS, default=list(METALS))
     parser.add_argument("--no-md", action="store_true", help="take the stores as they are")
+    parser.add_argument("--no-melting", action="store_true", help="leave out the melting plans: T_m0 and Delta S stay defaults")
     parser.add_argument("-o", "--output", type=pathlib.Path, default=PAGE)
     options = parser.parse_args()
     binaries, stores = options.bin.resolve(), options.stores.resolve()
@@ -202,7 +214,7 @@ def main():
         fits = []
         for name, label in potentials.items():
             store = stores / f"{name}.md.h5"
-            for kind in () if options.no_md else ("short", "melting"):
+            for kind in () if options.no_md else ("short",) if options.no_melting else ("short", "melting"):
                 plan = ROOT / f"cases/md/{name}_{kind}.toml"
                 if plan.exists():
                     ranks = ["--ranks", options.ranks] if options.ranks else []

@@ -15,8 +15,8 @@ cu_hugoniot_marsh1980  copper_mishin     144      2.50 %       0.90 %   96.5 %  
 
 class Calibration(unittest.TestCase):
     def test_plans_and_measurements_are_there(self):
-        for central, others, experiments in study.METALS.values():
-            for name in [central, *others]:
+        for metal, (central, others, experiments) in study.METALS.items():
+            for name in [central, *others, *study.FURTHER.get(metal, [])]:
                 self.assertTrue((study.ROOT / f"cases/md/{name}_short.toml").is_file(), name)
             for name in experiments:
                 self.assertTrue((study.ROOT / f"eos/data/{name}.csv").is_file(), name)
@@ -33,7 +33,7 @@ class Calibration(unittest.TestCase):
         self.assertEqual(found["cu_hugoniot_marsh1980"], "1.69 (-0.21) % of Us")
 
     def test_sections_name_what_makes_no_fit(self):
-        rows = {"fit": study.calibration_rows(REPORT)}
+        rows = {study.TIERS["fit"]: study.calibration_rows(REPORT)}
         text = study.sections({"copper": (rows, {"copper_zhou": "no points"}, {})})
         self.assertIn("| copper | cu_hugoniot_marsh1980 | the fit | 144 | 2.50 % | 0.90 % | 97.9 % | 96.5 % |  |", text)
         self.assertIn("Copper, copper_zhou: no fit, no points.", text)

@@ -32,3 +32,8 @@ class Tables(unittest.TestCase):
     def test_a_section_says_why_there_is_no_fit(self):
         fit = types.SimpleNamespace(fault="whipple fit: no points", label="one")
         self.assertIn("| one | no fit: no points |", study.metal_section("lead", [fit], []))
+
+    def test_the_largest_factor_names_its_kind_of_data(self):
+        self.assertEqual(study.largest_factor({"inflation_shock_velocity": 4.44, "inflation_heat_of_fusion": 1.0,
+                                               "model_error_volume": 9.0}), "4.4 (shock velocity)")
+        self.assertEqual(study.largest_factor({"inflation_shock_velocity": 1.0}), "1")

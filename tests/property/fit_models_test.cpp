@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include "md_fitting/fit/fit_report.hpp"
 #include "md_fitting/fit/laws.hpp"
 #include "md_fitting/fit/solid_models.hpp"
 #include "md_fitting/fit/solid_problem.hpp"
@@ -278,6 +279,19 @@ TEST(FitModels, QuantumNucleiShiftTheIsotherm) {
   settings.nuclei = Nuclei::classical;
   const Fit ignored = fit_debye_gruneisen(store.points, settings, "s");
   EXPECT_EQ(ignored.value("reference_density"), without.value("reference_density"));
+  // Both say what the nuclei make of the isotherm, volume by volume, and whether it is in the constants.
+  EXPECT_TRUE(without.nuclei.isotherm.empty());
+  EXPECT_NE(fit_details(with).find("the fitted constants contain the difference"), std::string::npos);
+  EXPECT_NE(fit_details(ignored).find("the fitted constants are those of classical nuclei"),
+            std::string::npos);
+  for (const Fit* fit : {&with, &ignored}) {
+    ASSERT_EQ(fit->nuclei.isotherm.size(), 8u);
+    EXPECT_NEAR(fit->nuclei.expansion, v0 / classical - 1.0, 0.02 * (v0 / classical - 1.0));
+    for (const NucleiPressures& row : fit->nuclei.isotherm) {
+      EXPECT_NEAR(row.addition, quantum_pressure(row.volume), 1.0);
+      EXPECT_NEAR(row.classical + row.addition, isotherm_pressure(solid, row.volume), 1.0) << row.volume / v0;
+    }
+  }
   // Points that do not reach the whole isotherm are no ground to extrapolate from.
   std::erase_if(store.points, [&](const md::PointRecord& point) {
     return point.protocol == "quantum" && point.condition("specific_volume") < v0;

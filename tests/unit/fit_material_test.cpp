@@ -295,6 +295,16 @@ TEST_F(FitMaterial, TableHoldsThePublishedRows) {
   }
 }
 
+TEST_F(FitMaterial, ElementsStandSideBySideEachWithItsPublishedRows) {
+  const Fit copper = fit_gray(store.points, {}, "s");
+  for (md::PointRecord& point : store.points) point.provenance["element"] = "Ta";
+  const std::string table =
+      constants_table(std::vector<NamedFit>{{"one", copper}, {"two", fit_gray(store.points, {}, "s")}});
+  EXPECT_THAT(table, HasSubstr("Liu, Wang & Zhang, Int. J. Mech. Mater. Des. 9 (2013) 127"));
+  EXPECT_THAT(table, HasSubstr("Steinberg, UCRL-MA-106439 (1996)"));
+  for (const char* figure : {"one", "two", "0.11180", "0.05992"}) EXPECT_THAT(table, HasSubstr(figure));
+}
+
 // The defaults' table says what the documents say: units and values of the public constants.
 TEST(ElementDefaults, CopperHoldsThePublishedConstants) {
   const ElementDefaults& copper = element_defaults("Cu");
