@@ -4,9 +4,11 @@
 central one of each metal by tier of the errors, and compares their scatter with the measurements (`whipple compare
 --samples`): tables of README.md and the figure of nominal over observed coverage.
 
-Usage: studies/fit_calibration/fit_calibration.py [--bin build/release/bin] [--stores run/md] [--samples N] [--no-md]
+Usage: studies/fit_calibration/fit_calibration.py [--bin build/release/bin] [--stores run/md] [--samples N] [--metal NAME ...]
+                                               [--no-md]
 
-Models of OpenKIM need scripts/install_deps.sh --kim.
+Models of OpenKIM need scripts/install_deps.sh --kim. With --metal only the rows of these metals are written again, and no
+figure.
 """
 import argparse
 import pathlib
@@ -124,8 +126,14 @@ def draw(results):
     figure.savefig(FIGURE, dpi=100)
 
 
-def sections(results):
-    rows = []
+def former_rows(text, results):
+    """Rows of the table that stand for other metals than those of the results."""
+    lines = [[cell.strip() for cell in line.strip().strip("|").split(" | ")] for line in text.splitlines() if line.startswith("|")]
+    return [cells for cells in lines if cells[0] in METALS and cells[0] not in results]
+
+
+def sections(results, kept=()):
+    rows = list(kept)
     for metal, (by_tier, _, rms) in results.items():
         for experiment in METALS[metal][2]:
             for title in (*TIERS.values(), *WIDER.values()):
@@ -160,14 +168,13 @@ def main():
                  allowed=(0, 3))
         results[metal] = calibrate(metal, options, binaries, stores)
         print(f"{metal}: done", flush=True)
-    if set(results) != set(METALS):
-        print(sections(results) + f"\na part of the metals: {PAGE.name} and {FIGURE.name} stay as they are")
-        return
-    draw(results)
+    if set(results) == set(METALS):
+        draw(results)
     head, rest = PAGE.read_text(encoding="utf-8").split(BEGIN)
-    tail = rest.split(END)[1]
-    PAGE.write_text(f"{head}{BEGIN}\n\n{sections(results)}\n{END}{tail}", encoding="utf-8")
-    print(sections(results))
+    former, tail = rest.split(END)
+    text = sections(results, former_rows(former, results))
+    PAGE.write_text(f"{head}{BEGIN}\n\n{text}\n{END}{tail}", encoding="utf-8")
+    print(text)
 
 
 if __name__ == "__main__":

@@ -37,3 +37,11 @@ class Calibration(unittest.TestCase):
         text = study.sections({"copper": (rows, {"copper_zhou": "no points"}, {})})
         self.assertIn("| copper | cu_hugoniot_marsh1980 | the fit | 144 | 2.50 % | 0.90 % | 97.9 % | 96.5 % |  |", text)
         self.assertIn("Copper, copper_zhou: no fit, no points.", text)
+
+    def test_rows_of_other_metals_are_kept(self):
+        rows = {"nickel": ({study.TIERS["fit"]: {"ni_hugoniot_marsh1980": study.calibration_rows(REPORT)["cu_hugoniot_marsh1980"]}}, {}, {})}
+        former = ("| metal | measurement |\n| --- | --- |\n| copper | one | the fit | 144 |  |\n| nickel | old | the fit | 18 |  |\n")
+        text = study.sections(rows, study.former_rows(former, rows))
+        self.assertIn("| copper | one | the fit | 144 |  |", text)
+        self.assertNotIn("old", text)
+        self.assertIn("| nickel | ni_hugoniot_marsh1980 | the fit | 144 |", text)
