@@ -32,14 +32,14 @@ class ShockScan {
         lower = upper;
         upper = std::min(growth * upper, highest_);
       }
+      for (int i = 0; i < 60 && upper - lower > tolerance * upper; ++i) {
+        const double middle = 0.5 * (lower + upper);
+        (holds(hugoniot_.at_pressure(middle).state) ? upper : lower) = middle;
+      }
+      return hugoniot_.at_pressure(0.5 * (lower + upper));
     } catch (const StateError&) {
-      return std::nullopt;  // the model ends before
+      return std::nullopt;  // the model ends before, or has a gap on the way
     }
-    for (int i = 0; i < 60 && upper - lower > tolerance * upper; ++i) {
-      const double middle = 0.5 * (lower + upper);
-      (holds(hugoniot_.at_pressure(middle).state) ? upper : lower) = middle;
-    }
-    return hugoniot_.at_pressure(0.5 * (lower + upper));
   }
 
  private:

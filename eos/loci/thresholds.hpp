@@ -12,7 +12,8 @@ struct ShockMelting {
   ShockState onset;
   ShockState completion;
 };
-/// Nothing if the model is not solid at rest, or never melts below the pressure or within its range.
+/// Nothing if the model is not solid at rest, never melts below the pressure or within its range, or has a gap on the
+/// way.
 std::optional<ShockMelting> shock_melting(const EquationOfState& eos, double highest_pressure = 2e12);
 
 /// The weakest shocks after which release to a pressure melts or vaporises (equilibrium of liquid and vapour,

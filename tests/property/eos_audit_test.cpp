@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "eos/audit.hpp"
+#include "eos/loci/thresholds.hpp"
 #include "eos/models/jwl.hpp"
 #include "src/core/base/error.hpp"
 #include "src/material/material_file.hpp"
@@ -201,6 +202,43 @@ TEST(EosAudit, APressureThatFallsWithDensityEndsTheRange) {
   EXPECT_NEAR(a.range.greatest_density, 1250, 2);
   EXPECT_THAT(a.summary(), HasSubstr("the pressure of the cold curve falls beyond 1250 kg/m^3"));
   EXPECT_LT(a.range.strongest_shock.state.density, 1251);
+}
+
+/// Copper that has no states in a narrow band of densities.
+class WithGap final : public EquationOfState {
+ public:
+  explicit WithGap(double density) : gap_(density) {}
+  [[nodiscard]] std::string_view model() const override { return "gap"; }
+  [[nodiscard]] double reference_density() const override { return whole_.reference_density(); }
+  [[nodiscard]] double reference_temperature() const override { return whole_.reference_temperature(); }
+  [[nodiscard]] double reference_energy() const override { return whole_.reference_energy(); }
+  [[nodiscard]] double maximum_density() const override { return whole_.maximum_density(); }
+  [[nodiscard]] double minimum_energy(double density) const override {
+    return whole_.minimum_energy(density);
+  }
+  [[nodiscard]] double least_temperature() const override { return whole_.least_temperature(); }
+  RangeReport evaluate(const Batch& batch) const override { return whole_.evaluate(batch); }
+  [[nodiscard]] State state(double density, double energy) const override {
+    if (std::abs(density / gap_ - 1.0) < 1e-3) throw StateError("no state in the gap");
+    return whole_.state(density, energy);
+  }
+  [[nodiscard]] State state_at_temperature(double density, double T) const override {
+    return whole_.state_at_temperature(density, T);
+  }
+  [[nodiscard]] std::string constants() const override { return ""; }
+
+ private:
+  GrayEos whole_{copper()};
+  double gap_;
+};
+
+// A sample of a fit may have such a gap: its thresholds are unknown, which is no error of the others.
+TEST(EosAudit, AThresholdBehindAGapIsNotKnown) {
+  const GrayEos whole{copper()};
+  const ShockMelting melting = shock_melting(whole).value();
+  const WithGap gap(melting.onset.state.density);
+  EXPECT_FALSE(shock_melting(gap).has_value());
+  EXPECT_NO_THROW(release_thresholds(gap, 1e5));
 }
 
 }  // namespace
