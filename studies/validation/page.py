@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """docs/generated/results.json as text and as the generated part of docs/generated/results.md: the page is a function of that file alone."""
+import collections
 import json
 import math
 
@@ -80,7 +81,17 @@ def summary(results):
     lines += [f"**Convergence**: of {len(studies)} quantities {three} have three grids; {converged} are converged.", "",
               f"**Identities** (energy, momentum; true by construction of the scheme, no evidence of physics): "
               f"{identities.count(bands.HOLDS)} of {len(identities)} hold.", ""]
-    return lines
+    return lines + parameter_sets(runs)
+
+
+def parameter_sets(runs):
+    """How many computations belong to which set of default numerical parameters: one set is the aim."""
+    counts = collections.Counter(record["frozen_set"] for run in runs for record in run["records"].values())
+    if not counts:
+        return []
+    sets = ", ".join(f"{number} with the set {name}" for name, number in counts.most_common())
+    return [f"**Numerical parameters**, defaults by digest (`scripts/frozen_parameters.py --defaults`): of {counts.total()} "
+            f"computations {sets}.", ""]
 
 
 def grid_text(text):
