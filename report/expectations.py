@@ -57,7 +57,7 @@ class Expectation:
     """One quantity: what is measured, when, and what is expected of it."""
 
     # Keys that belong to the measures of one kind, and to these always.
-    OF_KIND = {"place": ("wall_speed.", "run_distance."), "travel": ("wall_speed.",), "exact": ("profile_error.",),
+    OF_KIND = {"place": ("wall_speed.", "run_distance."), "travel": ("wall_speed.",), "table": ("profile_error.", "history_error."),
                "fraction": ("jet_speed.", "jet_gap.")}
     KEYS = {"name", "measure", "time", *OF_KIND, "value", "tolerance", "kind", "source", "known", "unit", "class"}
 
@@ -78,7 +78,7 @@ class Expectation:
         self.time, self.place, self.travel = (quantity(table[key], where)[0] if key in table else None
                                               for key in ("time", "place", "travel"))
         self.fraction = quantity(table["fraction"], where)[0] if "fraction" in table else None
-        self.exact = table.get("exact")  # file beside expected.toml
+        self.table = table.get("table")  # file beside expected.toml
         for key, kinds in self.OF_KIND.items():
             if (key in table) != self.measure.startswith(kinds):
                 names = " and ".join(f"{kind}NAME" for kind in kinds)
@@ -142,8 +142,8 @@ class RunOfCase:
         self.expectations = [Expectation(q, f"{where}, run {self.name}") for q in table.get("quantity", [])]
         self.expectations += case.common
         for expectation in self.expectations:
-            if expectation.exact is not None:
-                expectation.exact = case.path.parent / expectation.exact
+            if expectation.table is not None:
+                expectation.table = case.path.parent / expectation.table
 
     def cells(self, resolution):
         """Cell size in metres."""

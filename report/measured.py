@@ -73,7 +73,10 @@ class Measures:
         if kind in ("peak", "arrival"):
             return detonation.peak_of_gauge(self.folder / "gauges.csv", of)[kind == "arrival"]
         if kind == "profile_error":
-            return detonation.profile_error(self.folder, *of.split("."), expectation.exact)
+            return detonation.profile_error(self.folder, *of.split("."), expectation.table)
+        if kind == "history_error":
+            from report import measured_history  # takes numpy and matplotlib
+            return measured_history.measure(self.folder / "gauges.csv", of, expectation.table)
         if kind in ("piece_count", "piece_mass", "piece_exponent", "dust_share", "small_piece_share"):
             from report import pieces  # takes numpy
             return pieces.measure(kind, self.folder, of)
