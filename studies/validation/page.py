@@ -4,7 +4,7 @@ import collections
 import json
 import math
 
-from studies.validation import bands
+from studies.validation import bands, frozen_parameters
 from studies.validation.cases import ROOT, UNITS
 from studies.validation.provenance import digest_of_file, digest_of_sources, inputs_of
 
@@ -89,9 +89,14 @@ def parameter_sets(runs):
     counts = collections.Counter(record["frozen_set"] for run in runs for record in run["records"].values())
     if not counts:
         return []
-    sets = ", ".join(f"{number} with the set {name}" for name, number in counts.most_common())
+    parameters, parts = frozen_parameters.defaults(), []
+    for name, number in counts.most_common():
+        added = frozen_parameters.added_since(name, parameters)
+        parts.append(f"{number} with the set {name}" + (
+            " (**other values than now**)" if added is None else
+            f", which is the same but for {', '.join(f'`{key}`' for key in added)} that came later" if added else ""))
     return [f"**Numerical parameters**, defaults by digest (`scripts/frozen_parameters.py --defaults`): of {counts.total()} "
-            f"computations {sets}.", ""]
+            f"computations {'; '.join(parts)}.", ""]
 
 
 def grid_text(text):

@@ -273,7 +273,7 @@ def a_run_is_compared(case, work):
     for words in ("| quantity | 2 mm | 1 mm | 0.5 mm | order | limit |", "**differs**", "Not current",
                   "scripts/results.py made_up:only --band --run", "**Experiments**, one line each: 1, of which 1 differs", "0 of 1 hold",
                   "of 5 quantities 4 have three grids; 4 are converged",
-                  f"of {len(records)} computations {len(records)} with the set -."):
+                  f"of {len(records)} computations {len(records)} with the set - (**other values than now**)."):
         require(words in text, f"{words!r} is not in the page:\n{text}")
     study["decided_by"] = "finer"
     text = page.body(results, "-", set())

@@ -88,6 +88,10 @@ def departures_need_a_reason(work):
     for key in ("time.end", "domain.cell_size", "gravity.acceleration", "body.velocity", "output.fields"):
         require(key not in parameters, f"{key} is not numerical")
     other = parameters | {"time.courant": "0.4"}
+    require(frozen_parameters.added_since(frozen_parameters.digest(parameters), parameters) == (), "the present set")
+    require(frozen_parameters.added_since(frozen_parameters.digest(other), parameters) is None, "a set with another value")
+    for name, keys in frozen_parameters.ADDED.items():
+        require(frozen_parameters.added_since(name, parameters) == keys, f"{name} is no longer the set without {keys}")
     require(frozen_parameters.digest(parameters) != frozen_parameters.digest(other), "digest")
 
     folder = work / "tuned"
