@@ -78,6 +78,7 @@ void fill_in(Case& setup) {
     setup.dissipation.losses = default_losses(setup.time.scheme);
   }
   setup.geometry = setup.domain.geometry();
+  lay_into_section(setup.gauges, setup.tracers, setup.domain.dimension);
 }
 
 /// Makes the shapes of bodies that bring their own geometry.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include "src/case/case.hpp"
 
@@ -65,6 +66,19 @@ void Tracers::check(const Case& setup, const Faults& faults) const {
     for (Gauge& gauge : line->gauges()) before.push_back(std::move(gauge));
   }
   for (const Gauge& gauge : gauges()) check_twice(gauge.name, before, faults);
+}
+
+void lay_into_section(std::vector<Gauge>& gauges, std::vector<Tracers>& tracers, grid::Dimension dimension) {
+  if (dimension == grid::Dimension::space) return;
+  const auto lay = [&](Vector3& x) {
+    const double across = dimension == grid::Dimension::axisymmetric ? std::hypot(x[1], x[2]) : x[1];
+    x = Vector3(x[0], across, 0.0);
+  };
+  for (Gauge& gauge : gauges) lay(gauge.position);
+  for (Tracers& line : tracers) {
+    lay(line.from);
+    lay(line.to);
+  }
 }
 
 void check_places_of_gauges(const Case& setup, const Faults& faults) {

@@ -8,6 +8,7 @@
 
 #include "src/case/section.hpp"
 #include "src/core/base/tensor.hpp"
+#include "src/grid/geometry.hpp"
 
 namespace whipple::cases {
 
@@ -43,6 +44,10 @@ struct Tracers {
   /// Returns the gauges on the line.
   [[nodiscard]] std::vector<Gauge> gauges() const;
 };
+
+/// Lays gauges and tracers of a case that was written in three dimensions into its section: at z = 0, in axisymmetry
+/// at their distance from the axis.
+void lay_into_section(std::vector<Gauge>& gauges, std::vector<Tracers>& tracers, grid::Dimension dimension);
 
 /// Adds each gauge that cannot be: outside of the domain, or moving and where no material is. For a case with
 /// geometry and shapes.

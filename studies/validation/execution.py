@@ -78,7 +78,8 @@ def folders_there(case, run):
 
 def measures_of(folder, variant):
     measures = Measures(folder)
-    if any(variant.frame):
+    measures.moving = any(variant.frame)
+    if measures.moving:
         for name in FRAME_DEPENDENT:
             measures.single.pop(name, None)
     return measures

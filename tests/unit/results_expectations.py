@@ -15,7 +15,7 @@ ROOT, WHIPPLE = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2]
 sys.path.insert(0, str(ROOT))
 
 from checks import require  # noqa: E402
-from report import sensitivity  # noqa: E402
+from report import measured, sensitivity  # noqa: E402
 from studies.validation import comparison, execution, page, provenance, variants  # noqa: E402
 from studies.validation.cases import UNITS, BadExpectation, Case, Expectation, apply  # noqa: E402
 
@@ -266,6 +266,9 @@ def a_run_is_compared(case, work):
         require(abs(depth[key] - value) < 1e-6, f"{key}: {depth}")
     require(0.0 < depth["u_lattice"] < 0.02 and depth["u_num"] > depth["u_grid"], str(depth))
     require(speed["values"]["frame"] is None, "the greatest speed depends on the frame")
+    for measure, moves in (("gauge.rear.velocity_z", True), ("history_error.rear.velocity_z", True), ("peak.rear.pressure", False),
+                           ("gauge.rear.x", True), ("wall_speed.wall", True), ("front_velocity.wall", False)):
+        require(measured.depends_on_frame(measure) == moves, measure)
     require(study["across"] == {"coarse": 2.0, "normal": 4.0, "fine": 8.0}, str(study["across"]))
     results = {"cases": {"made_up": {"title": case.title, "expected": "", "overrides": {}, "no_variants": [],
                                      "runs": [study]}}}

@@ -457,6 +457,11 @@ TEST(TwoDimensions, WhatNeedsThreeIsRefusedWithTheReason) {
       replaced(text, "lower = [\"0 mm\", \"-8 mm\"], upper = [\"2 mm\", \"8 mm\"]",
                "lower = [\"0 mm\", \"0 mm\", \"0 mm\"], upper = [\"2 mm\", \"8 mm\", \"8 mm\"]");
   EXPECT_EQ(error_of(quarter), "");
+  // Gauges of such a model lie in the section at their distance from the axis, whatever its thickness.
+  const cases::Case gauged =
+      read(quarter +
+           "[[gauge]]\nname = \"rear\"\nkind = \"moving\"\nposition = [\"1.9 mm\", \"3 mm\", \"4 mm\"]\n");
+  EXPECT_LT((gauged.gauges.front().position - Vector3(1.9e-3, 5e-3, 0.0)).norm(), 1e-15);
 }
 
 }  // namespace
