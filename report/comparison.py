@@ -156,7 +156,7 @@ class Comparison:
             for field, (name, factor, _) in pictures.SCALED.items():
                 if not all(field in view.scales and field in at.section.fields for view, at in zip(views, last)):
                     continue
-                ends = [tuple(factor * end for end in view.scales[field]) for view in views]
+                ends = [tuple(factor * end for end in pictures.WHOLE.get(field, view.scales[field])) for view in views]
                 norm = pictures.scale_of((min(low for low, _ in ends), max(high for _, high in ends)))
                 painted = [pictures.scaled_picture(at.section, field, norm) for at in last]
                 extend = pictures.beyond([factor * at.section.fields[field] for at in last], norm)

@@ -84,6 +84,7 @@ def energy_figure(run: Run) -> Figure | None:
     drawn = lines(left, history, [("total_energy", "total"), ("kinetic_energy", "kinetic"),
                                   ("internal_energy", "internal"), ("affine_kinetic_energy", "affine kinetic"),
                                   ("unresolved_energy", "unresolved kinetic"),
+                                  ("chemical_energy", "chemical, part of the internal"),
                                   ("outflow_energy", "left through the border")], scale)
     left.set_ylabel("energy (kJ)" + (", full problem" if run.multiplicity > 1 else ""))
     if drawn:

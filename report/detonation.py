@@ -9,20 +9,24 @@ import tomllib
 from report.wall_speed import interpolate
 
 
-def last_snapshot(folder):
-    """Name of the file with the particles at the last snapshot of a run, and its time (s); None without any."""
+def snapshot_at(folder, time=math.inf):
+    """Name of the file with the particles at the last snapshot of a run until a time (s), and its time; None without any."""
     series = sorted(folder.glob("*.particles.hdf.series"))
-    if not series:
+    files = json.loads(series[0].read_text())["files"] if series else []
+    until = [(float(entry["time"]), entry["name"]) for entry in files if float(entry["time"]) <= time * (1.0 + 1e-6)]
+    if not until:
         return None
-    newest = max(json.loads(series[0].read_text())["files"], key=lambda entry: float(entry["time"]))
-    return newest["name"], float(newest["time"])
+    newest, name = max(until)
+    return name, newest
 
 
-def particles_of(folder, body):
-    """Fields of the particles of a body at the last snapshot and, as "position" and "x", their places (m); None without any."""
+def particles_of(folder, body, time=math.inf):
+    """Fields of the particles of a body at the last snapshot until a time (s) and, as "position" and "x", their places (m); None
+    without any.
+    """
     import h5py
 
-    newest = last_snapshot(folder)
+    newest = snapshot_at(folder, time)
     if newest is None or not (folder / "run.toml").is_file():
         return None
     bodies = [entry["name"] for entry in tomllib.loads((folder / "run.toml").read_text(encoding="utf-8"))["body"]]
@@ -157,3 +161,22 @@ def jet_gap(folder, body, fraction):
     own = order[behind & (found["velocity"][order, 0] >= 0.25 * tip)]
     cells = np.unique(np.floor(found["x"][own] / cell))
     return float(1.0 - len(cells) / (cells[-1] - cells[0] + 1.0))
+
+
+def jet_fraction(folder, body, time, speed):
+    """Fraction of the jet in the mass of a body that turns into jet and slug between a time (s) and the last snapshot: of what loses
+    half of its initial velocity along y, towards the plane of symmetry, what moves along x faster than a speed (m/s), that of
+    the place where the flow parts. Differences of masses: how the jet began does not count. NaN where nothing turns.
+    """
+    before, after = particles_of(folder, body, time), particles_of(folder, body)
+    if before is None or after is None:
+        return math.nan
+    entries = tomllib.loads((folder / "run.toml").read_text(encoding="utf-8"))["body"]
+    towards = float(next(entry["velocity"][1] for entry in entries if entry["name"] == body).split()[0])
+
+    def jet_and_turned(found):
+        jet, turned = found["velocity"][:, 0] > speed, abs(found["velocity"][:, 1]) < 0.5 * abs(towards)
+        return found["mass"][jet].sum(), found["mass"][turned].sum()
+
+    (jet_0, turned_0), (jet_1, turned_1) = jet_and_turned(before), jet_and_turned(after)
+    return float((jet_1 - jet_0) / (turned_1 - turned_0)) if turned_1 > turned_0 else math.nan

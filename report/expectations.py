@@ -58,7 +58,7 @@ class Expectation:
 
     # Keys that belong to the measures of one kind, and to these always.
     OF_KIND = {"place": ("wall_speed.", "run_distance."), "travel": ("wall_speed.",), "table": ("profile_error.", "history_error."),
-               "fraction": ("jet_speed.", "jet_gap.")}
+               "fraction": ("jet_speed.", "jet_gap."), "speed": ("jet_fraction.",)}
     KEYS = {"name", "measure", "time", *OF_KIND, "value", "tolerance", "kind", "source", "known", "unit", "class"}
 
     def __init__(self, table, where):
@@ -75,14 +75,16 @@ class Expectation:
         if self.origin not in CLASSES or (self.origin == "record") != (self.kind == "record"):
             raise BadExpectation(f"{where}: {self.name}: class {self.origin!r} with kind {self.kind!r}, "
                                  f"expected one of {', '.join(CLASSES)}")
-        self.time, self.place, self.travel = (quantity(table[key], where)[0] if key in table else None
-                                              for key in ("time", "place", "travel"))
+        self.time, self.place, self.travel, self.speed = (quantity(table[key], where)[0] if key in table else None
+                                                          for key in ("time", "place", "travel", "speed"))
         self.fraction = quantity(table["fraction"], where)[0] if "fraction" in table else None
         self.table = table.get("table")  # file beside expected.toml
         for key, kinds in self.OF_KIND.items():
             if (key in table) != self.measure.startswith(kinds):
                 names = " and ".join(f"{kind}NAME" for kind in kinds)
                 raise BadExpectation(f"{where}: {self.name}: measures {names}, and no others, take {key!r}")
+        if self.speed is not None and self.time is None:
+            raise BadExpectation(f"{where}: {self.name}: time is missing, from which on mass of the jet is counted")
         if self.kind == "record":
             self.value, self.unit, self.tolerance = math.nan, table.get("unit", ""), 0.0
             if self.unit not in UNITS:

@@ -99,6 +99,8 @@ class Measures:
             return detonation.jet_speed(self.folder, of, expectation.fraction)
         if kind == "jet_gap":
             return detonation.jet_gap(self.folder, of, expectation.fraction)
+        if kind == "jet_fraction":
+            return detonation.jet_fraction(self.folder, of, expectation.time, expectation.speed)
         if expectation.time is None:
             return self.single.get(expectation.measure, math.nan)
         series = self._gauges() if expectation.measure.startswith("gauge.") else self.series

@@ -144,7 +144,9 @@ FAILURE_NAMES = ("intact", "tension", "plastic strain", "principal stress", "pri
 # Fields that are shown by a scale: meaning, factor and unit.
 SCALED = {"pressure": ("pressure", units.GIGAPASCALS, "GPa"), "speed": ("speed", units.KM_PER_SECOND, "km/s"),
           "damage": ("damage", 1.0, ""), "temperature": ("temperature", 1.0, "K"),
-          "plastic_strain": ("plastic strain", 1.0, "")}
+          "plastic_strain": ("plastic strain", 1.0, ""), "burn_fraction": ("burn fraction", 1.0, "")}
+# Those whose scale does not depend on the values of the run.
+WHOLE = {"burn_fraction": (0.0, 1.0)}
 # Fields that are shown by words.
 WORDED = {"phase": ("phase", PHASES), "failed": ("cause of failure", FAILURE_NAMES)}
 SPHERES = (" Spheres of debris reach to their neighbours while these are nearer than five diameters: rings and rows that "
@@ -189,11 +191,11 @@ def cloud_figures(run: Run, views: Views) -> Iterator[tuple[str, str, Figure]]:
     for field, (name, factor, unit) in SCALED.items():
         if field not in views.scales or not all(field in section.fields for section in sections):
             continue
-        norm = scale_of(tuple(factor * end for end in views.scales[field]))
+        norm = scale_of(tuple(factor * end for end in WHOLE.get(field, views.scales[field])))
         painted = [scaled_picture(section, field, norm) for section in sections]
         extend = beyond([factor * section.fields[field] for section in sections], norm)
-        yield (f"cloud_{field}.png", f"{cut_text} Coloured by {name}. The scale holds 96 % of the mass that moves at each "
-               "of these times; arrows: values beyond it.",
+        what = "" if field in WHOLE else " The scale holds 96 % of the mass that moves at each of these times; arrows: values beyond it."
+        yield (f"cloud_{field}.png", f"{cut_text} Coloured by {name}.{what}",
                panels(views.geo, limits, [image for image, _ in painted], times, f"Section, by {name}",
                       bar=(*painted[0][1], extend)))
     for field, (name, words) in WORDED.items():

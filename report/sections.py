@@ -15,7 +15,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from report import analysis as measures
-from report import curves, expected, gauges, pictures, planar, sensitivity, style, units
+from report import curves, expected, explosives, gauges, pictures, planar, sensitivity, style, units
 from report.analysis import AXES
 from report.case_text import describe_discretization, describe_shape, describe_value
 from report.files import write_whole
@@ -80,6 +80,7 @@ class Report:
         self._given_figures(figures)
         self._cloud()
         self._view(view)
+        explosives.add_to(self.page, self.run, self._add_figure)
         self._curves()
         self._dissipation()
         self._gauges()
@@ -179,7 +180,8 @@ class Report:
         self._add_figure("surfaces.png", "Depth of craters on the axis and diameter at the original surface; depth of "
                          "penetration; diameter within which less than half of a plate is left.",
                          curves.surface_figure(analysis))
-        fragments = curves.fragment_figure(analysis)
+        # A piece of a section is a ring or a bar.
+        fragments = None if analysis.geometry.planar else curves.fragment_figure(analysis)
         if fragments is not None:
             self.page.heading("Fragments of the debris")
         self._add_figure("fragments.png", "Number of fragments of at least a mass (connected particles of condensed "

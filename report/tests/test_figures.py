@@ -142,6 +142,16 @@ class Expectations(unittest.TestCase):
         slower = self.run_with(domain={"dimension": "axisymmetric", "axis": "x"}, body=[body | {"velocity": ["0 m/s", "0 m/s", "2000 m/s"]}])
         self.assertEqual(expected.run_of(self.case, slower).name, "plain")
 
+    def test_what_a_case_leaves_out_is_no_departure(self):
+        written = {"moved": {"angle": "3.141592653589793 rad", "center": ["0 m", "0 m", "0 m"], "shape": {"cone": {"height": "0.1 m"}}}}
+        wanted = {"moved": {"angle": "180 degree", "shape": {"cone": {"height": "100 mm"}}}}
+        self.assertTrue(expected.same(written, wanted))
+        wanted["moved"]["shape"]["cone"]["height"] = "101 mm"
+        self.assertFalse(expected.same(written, wanted))
+        self.assertTrue(expected.same(["0.3 m", "0.0005 m", "0 m"], ["300 mm", "0.5 mm"]))
+        self.assertFalse(expected.same(["0.3 m", "0.0005 m", "0.1 m"], ["300 mm", "0.5 mm"]))
+        self.assertFalse(expected.same(["0.3 m", "0 m", "0 m"], ["300 mm"]))
+
     def test_verdicts(self):
         e = self.case.common[0]
         self.assertEqual([expected.verdict(e, v, band) for v, band in

@@ -49,6 +49,7 @@ const ShownField fields[] = {
      }},
     {"plastic_strain", true},
     {"damage", true},
+    {"burn_fraction", true},
 };
 
 /// Reads a snapshot and keeps what views show of it.

@@ -26,7 +26,7 @@ import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[0] = str(ROOT)
-from report.detonation import jet_speed, last_snapshot, particles_of  # noqa: E402
+from report.detonation import jet_speed, snapshot_at, particles_of  # noqa: E402
 
 JET_DENSITY = 8930.0  # kg/m^3
 TIP = 0.005  # of the liner's mass is faster than what counts as the tip
@@ -93,7 +93,7 @@ def main():
     arguments = parser.parse_args()
     v, x = jet_of(arguments.free, arguments.slowest)
     tau, depth = penetrate(v, x, arguments.face, arguments.target_density, arguments.resistance)
-    time = last_snapshot(arguments.free)[1] + tau
+    time = snapshot_at(arguments.free)[1] + tau
     found = [depths(run) for run in arguments.runs]
     print("| time, us | v at the floor, km/s | depth by the law, mm | " + "".join(f"{run.name}, mm | " for run in arguments.runs))
     print("| --- " * (3 + len(found)) + "|")

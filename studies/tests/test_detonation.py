@@ -60,6 +60,24 @@ class Measures(unittest.TestCase):
         write_run(self.folder, places, {"mass": np.ones(100), "velocity": velocity})
         self.assertAlmostEqual(detonation.jet_gap(self.folder, "metal", 0.01), 2.0 / 75.0)  # 41 came to 42, and 40 to 41
 
+    def test_jet_fraction_counts_what_turns_between_two_snapshots(self):
+        # Of ten particles that fall with 100 m/s three are slug and one is jet at 1 us; at 2 us six and two.
+        (self.folder / "run.toml").write_text('[[body]]\nname = "strip"\nvelocity = ["10 m/s", "-100 m/s", "0 m/s"]\n')
+        files = []
+        for time, slug, jet in ((1e-6, 3, 1), (2e-6, 6, 2)):
+            velocity = np.array([[5.0, 0, 0]] * slug + [[90.0, -1, 0]] * jet + [[10.0, -100, 0]] * (10 - slug - jet))
+            files.append({"name": f"{jet}.hdf", "time": time})
+            with h5py.File(self.folder / f"{jet}.hdf", "w") as file:
+                data = file.create_group("VTKHDF")
+                data["Points"] = np.zeros((10, 3))
+                data["PointData/body"] = np.zeros(10, dtype=int)
+                data["PointData/mass"] = np.ones(10)
+                data["PointData/velocity"] = velocity
+        (self.folder / "made.particles.hdf.series").write_text(json.dumps({"files": files}))
+        self.assertAlmostEqual(detonation.jet_fraction(self.folder, "strip", 1e-6, 50.0), 1.0 / 4.0)
+        self.assertTrue(math.isnan(detonation.jet_fraction(self.folder, "strip", 2e-6, 50.0)))  # nothing turns after the last
+        self.assertTrue(math.isnan(detonation.jet_fraction(self.folder, "strip", 0.5e-6, 50.0)))  # no snapshot so early
+
     def test_arrival_speed_is_the_slope_over_tracers(self):
         names = [f"front_{i}" for i in range(4)]
         rows = ["time [s]," + ",".join(f"{n}.x [m],{n}.pressure [Pa]" for n in names)]

@@ -76,6 +76,7 @@ def mistakes_are_named():
                          ({"value": "1e mm", "tolerance": "1 mm"}, "1e mm"),
                          ({"value": 1, "tolerance": 1, "kind": "near"}, "near"), ({"valeu": 1}, "valeu"),
                          ({"kind": "record", "unit": "stone"}, "stone"),
+                         ({"value": 1, "tolerance": 1, "measure": "jet_fraction.strip", "speed": "1 m/s"}, "time"),
                          ({"value": 1, "tolerance": 1, "class": "rumour"}, "rumour"),
                          ({"value": 1, "tolerance": 1, "class": "record"}, "record")):
         try:
