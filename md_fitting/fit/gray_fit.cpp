@@ -129,7 +129,7 @@ BootstrapResult bootstrap_gray(std::span<const md::PointRecord> points, const So
   const auto constants = [&](std::span<const md::PointRecord> drawn) {
     Observations data = observe(drawn, settings, {}, store_name);
     remove_superheated(data, fit.constants.gray, store_name);
-    const SolidConstants found = refit_solid(data, fit, settings);
+    const SolidConstants found = refit_solid(data, fit);
     Eigen::VectorXd values(static_cast<Index>(fit.model.free.size()));
     for (std::size_t k = 0; k < fit.model.free.size(); ++k)
       values[static_cast<Index>(k)] = at(found, fit.model.free[k]);
