@@ -339,7 +339,8 @@ TEST(LibraryTillotson, HugoniotsAndContinuity) {
     if (material.eos->model() != "tillotson") continue;
     SCOPED_TRACE(entry.file.stem().string());
     const EquationOfState& eos = *material.eos;
-    EXPECT_FALSE(melting_point(eos, 0.0)) << "a model without melting";
+    for (const double pressure : {0.0, 50e9})
+      EXPECT_FALSE(melting_point(eos, pressure)) << "a model without melting";
     const std::string constants = eos.constants();
     const auto value = [&](const std::string& name) {
       std::smatch found;
