@@ -109,9 +109,11 @@ def run_of(case: Case, run: Run) -> RunOfCase | None:
 
 
 def departures(case: Case, each: RunOfCase, run: Run) -> list[str]:
-    """Returns the keys that runs of a case set and that have other values in a run than in the one it is compared with."""
+    """Returns the keys that have other values in a run than in the one it is compared with: those that runs of the case set,
+    and the materials of all bodies."""
     table = table_of(each)
     keys = dict.fromkeys(key for other in case.runs for key in keys_of(other.set))
+    keys.update(dict.fromkeys(f"body.{number}.material" for number in range(len(table.get("body", [])))))
     return [key for key in keys if value_at(table, key.split(".")) is not None and not holds_in(run, key, table)]
 
 

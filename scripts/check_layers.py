@@ -49,8 +49,9 @@ MAY_USE = {
     "src/view": ["src/core/base", "src/grid", "src/io", "src/analysis"],
     # The page of running simulations and its server.
     "src/monitor": ["src/core/base", "src/core/process", "src/io", "src/analysis", "src/view", "src/run"],
-    # Writes cases from the decks of other codes, as text; looks heat capacities up in the material library.
-    "src/decks": ["src/core/base", "src/core/input", "src/material"],
+    # Writes cases from the decks of other codes, as text, and cards for these codes; looks heat capacities up in the material
+    # library.
+    "src/decks": ["src/core/base", "src/core/input", "eos", "src/material"],
     "md_fitting/plan": ["src/core/base", "src/core/input"],
     "md_fitting/lammps": ["src/core/base", "md_fitting/data_set"],
     "md_fitting/protocols": ["src/core/base", "eos", "md_fitting/data_set", "md_fitting/plan", "md_fitting/lammps"],
@@ -105,7 +106,7 @@ WORDS_ALLOWED = {
     "python/eos/module.cpp": "keys of material files",
     "src/case": "keys and words of case files",
     "src/core": "reads and checks words",
-    "src/decks": "grammars of other codes' decks",
+    "src/decks": "grammars and cards of other codes' decks",
     "eos/experiments/measured_table.cpp": "heads and empty cells of tables of measurements",
     "md_fitting/fit/bootstrap.cpp": "names of results in the store",
     "md_fitting/fit/constant_list.cpp": "the unit 1",

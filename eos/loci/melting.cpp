@@ -43,6 +43,7 @@ std::optional<MeltingPoint> melting_point(const EquationOfState& eos, double pre
     }
     last_mixed = s;
   }
+  if (melting.melted_fraction <= melting.vaporised_fraction) return std::nullopt;  // it evaporates
   const auto edge = [&](State below, State above, auto beyond) {
     for (int i = 0; i < 60 && above.temperature - below.temperature > 1e-9 * above.temperature; ++i) {
       density = below.density;

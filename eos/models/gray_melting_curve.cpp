@@ -18,6 +18,9 @@ namespace {
 constexpr int intervals = 512;
 /// Least extent of a curve relative to the melting temperature.
 constexpr double least_reach = 1.05;
+/// Most change of the slope dP/dT within an interval, relative to it. Where solid and liquid approach the same
+/// volume the slope grows without bound, and a table across that end would hold any pressure.
+constexpr double most_bending = 1.0;
 
 /// Common tangent at one temperature, with its derivatives along the curve.
 struct Node {
@@ -134,7 +137,10 @@ GrayMeltingCurve::GrayMeltingCurve(const GrayFreeEnergy& f) {
         T0));
   }
   const Node first = march(f, *start, 0.98, [&](const Node& n) { return n.Vl > f.join_volume(); });
-  Node last = march(f, *start, 1.02, [&](const Node& n) { return n.Vs < f.least_volume(); });
+  Node last = march(f, *start, 1.02, [&](const Node& n) {
+    const double step = (n.T - first.T) / intervals;
+    return n.Vs < f.least_volume() || !(std::abs(n.P2) * step < most_bending * std::abs(n.P1));
+  });
   // Where the common tangent is lost before the solid's compression limit, the curve ends.
   std::vector<Node> curve;
   for (;;) {

@@ -114,7 +114,7 @@ struct Fit {
   std::optional<double> isochoric_melting_temperature;
   std::vector<Residual> residuals;
   std::vector<IsochoreGruneisen> isochores;
-  std::vector<WindowResult> windows;  ///< the fit's own window comes first
+  std::vector<WindowResult> windows;  ///< that of chi^2 and residuals comes first
   NucleiComparison nuclei;
   std::vector<ModelCheck> checks;
   std::vector<std::string> remarks;

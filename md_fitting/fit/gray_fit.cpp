@@ -90,10 +90,10 @@ void append(GrayFit& fit, const VapourFit& vapour) {
     number_of(fit.gray, vapour.names[k]) = vapour.values[static_cast<Index>(k)];
     fit.fitted_names.push_back(vapour.names[k]);
   }
-  fit.chi_squared_parts.push_back(
-      {.quantity = "saturated densities",
-       .chi_squared = vapour.chi_squared,
-       .data = vapour.degrees_of_freedom + static_cast<int>(vapour.names.size())});
+  fit.chi_squared_parts.push_back({.quantity = "saturated densities",
+                                   .chi_squared = vapour.chi_squared / (vapour.inflation * vapour.inflation),
+                                   .data = vapour.degrees_of_freedom + static_cast<int>(vapour.names.size()),
+                                   .inflation = vapour.inflation});
   if (!vapour.remark.empty()) fit.remarks.push_back(vapour.remark);
 }
 
@@ -105,7 +105,7 @@ void add_vapour(GrayFit& fit, const Observations& data) {
     return;
   }
   try {
-    append(fit, fit_vapour(fit.gray, data.saturation, fit.settings.model_errors,
+    append(fit, fit_vapour(fit.gray, data.saturation, fit.settings.model_errors, fit.settings.inflation,
                            {fit.fitted_names, fit.covariance, fit.statistical_covariance}));
   } catch (const StateError& error) {
     fit.remarks.push_back(
@@ -129,7 +129,7 @@ BootstrapResult bootstrap_gray(std::span<const md::PointRecord> points, const So
   const auto constants = [&](std::span<const md::PointRecord> drawn) {
     Observations data = observe(drawn, settings, {}, store_name);
     remove_superheated(data, fit.constants.gray, store_name);
-    const SolidConstants found = refit_solid(data, fit, settings);
+    const SolidConstants found = refit_solid(data, fit);
     Eigen::VectorXd values(static_cast<Index>(fit.model.free.size()));
     for (std::size_t k = 0; k < fit.model.free.size(); ++k)
       values[static_cast<Index>(k)] = at(found, fit.model.free[k]);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "md_fitting/fit/scaled_fit.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -102,36 +104,43 @@ ScaledFit fit_scaled(const Observations& data, const SolidModel& model, const Fi
   throw StateError("the amplitudes of the model errors do not settle");
 }
 
-std::vector<WindowFit> fit_windows(const Observations& data, const SolidModel& model,
-                                   const FitSettings& settings, const ScaledFit& own) {
+WindowFits fit_windows(const Observations& data, const SolidModel& model, const FitSettings& settings,
+                       const SolidConstants& start) {
   constexpr std::array<std::pair<double, double>, 6> others = {
       {{0.0, 1000.0}, {0.0, 1500.0}, {0.0, 2000.0}, {0.0, 3000.0}, {300.0, 1500.0}, {1000.0, 3000.0}}};
-  std::vector<WindowFit> windows;
+  const bool averaged = settings.windows == WindowChoice::averaged;
+  WindowFits windows;
   std::vector<std::pair<double, double>> taken;  // first and last particle velocity
-  const auto states_of = [&](const FitSettings& window) {
-    return SolidProblem(data, window, model, own.constants).window();
+  const auto add = [&](const FitSettings& window) {
+    const std::vector<HugoniotState> states = SolidProblem(data, window, model, start).window();
+    if (states.size() < least_states_of_window) return;
+    const std::pair ends(states.front().particle_velocity, states.back().particle_velocity);
+    if (std::ranges::find(taken, ends) != taken.end()) return;
+    taken.push_back(ends);
+    const double least = window.least_particle_velocity, most = window.most_particle_velocity;
+    const int count = static_cast<int>(states.size());
+    const SolidConstants& near = windows.settled.empty() ? start : windows.settled.front().fit.constants;
+    try {
+      windows.settled.push_back({least, most, count, 0.0, fit_scaled(data, model, window, near)});
+    } catch (const StateError& error) {
+      windows.left_out.push_back({least, most, count, error.what()});
+    }
   };
-  const auto add = [&](const FitSettings& window, const std::vector<HugoniotState>& states,
-                       const ScaledFit& fit) {
-    taken.emplace_back(states.front().particle_velocity, states.back().particle_velocity);
-    windows.push_back({window.least_particle_velocity, window.most_particle_velocity,
-                       static_cast<int>(states.size()), 0.0, fit});
-  };
-  add(settings, states_of(settings), own);
+  add(settings);
+  if (!averaged && windows.settled.empty()) throw StateError(windows.left_out.front().reason);
   for (const auto& [least, most] : others) {
     FitSettings window = settings;
     window.least_particle_velocity = least;
     window.most_particle_velocity = most;
-    const std::vector<HugoniotState> states = states_of(window);
-    if (states.size() < least_states_of_window) continue;
-    const std::pair ends(states.front().particle_velocity, states.back().particle_velocity);
-    if (std::ranges::find(taken, ends) != taken.end()) continue;
-    add(window, states, fit_scaled(data, model, window, own.constants));
+    add(window);
   }
-  const bool averaged = settings.windows == WindowChoice::averaged;
-  for (WindowFit& window : windows)
-    window.weight = averaged ? 1.0 / static_cast<double>(windows.size()) : 0.0;
-  if (!averaged) windows.front().weight = 1.0;
+  if (windows.settled.empty()) {
+    throw StateError(fmt::format("the fit settles in none of {} windows of particle velocities: {}",
+                                 windows.left_out.size(), windows.left_out.front().reason));
+  }
+  for (WindowFit& window : windows.settled)
+    window.weight = averaged ? 1.0 / static_cast<double>(windows.settled.size()) : 0.0;
+  if (!averaged) windows.settled.front().weight = 1.0;
   return windows;
 }
 

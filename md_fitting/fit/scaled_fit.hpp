@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "md_fitting/fit/observations.hpp"
@@ -43,10 +44,24 @@ struct WindowFit {
   ScaledFit fit;
 };
 
+/// Window whose fit does not settle, and why.
+struct UnsettledWindow {
+  double least = 0.0, most = 0.0;  ///< m/s
+  int states = 0;
+  std::string reason;
+};
+
+struct WindowFits {
+  std::vector<WindowFit> settled;  ///< never empty; the window of the settings comes first if it settles
+  std::vector<UnsettledWindow> left_out;
+};
+
 /// Fits the window of the settings and those of the list {0-1, 0-1.5, 0-2, 0-3, 0.3-1.5, 1-3 km/s} that hold three
-/// states or more; windows of the same states count once. Equal weights, with WindowChoice::single all to the first.
-std::vector<WindowFit> fit_windows(const Observations& data, const SolidModel& model,
-                                   const FitSettings& settings, const ScaledFit& own);
+/// states or more; windows of the same states count once. Equal weights, with WindowChoice::single all to the
+/// window of the settings. A window whose fit does not settle is left out.
+/// @throws StateError if no window settles, or with WindowChoice::single that of the settings does not
+WindowFits fit_windows(const Observations& data, const SolidModel& model, const FitSettings& settings,
+                       const SolidConstants& start);
 
 /// Mean over windows with their weights w: constants sum w p, covariances sum w (C + (p - mean)(p - mean)^T), the
 /// part of the noise without the second term.

@@ -237,33 +237,42 @@ SolidFit fit_solid(Observations data, const SolidModel& model, const SolidConsta
         isochoric_melting_temperature(data, limit).value_or(limit.melting_temperature);
   }
   fit.report.superheated_states = remove_superheated(data, limit, store_name);
-  const ScaledFit own = fit_scaled(data, model, settings, start);
-
-  const SolidProblem problem(data, settings, model, own.constants, own.scale);
+  Fit& report = fit.report;
+  report.settings = settings;
+  ScaledFit own, result;
+  if (model.hugoniot) {
+    const WindowFits windows = fit_windows(data, model, settings, start);
+    const WindowFit& first = windows.settled.front();
+    report.settings.least_particle_velocity = first.least;
+    report.settings.most_particle_velocity = first.most;
+    own = first.fit;
+    result = mean_of(windows.settled, model);
+    for (const WindowFit& window : windows.settled) {
+      const GrayConstants& gray = window.fit.constants.gray;
+      report.windows.push_back({window.least, window.most, window.states, window.weight,
+                                gray.hugoniot_intercept, gray.hugoniot_slope});
+    }
+    for (const UnsettledWindow& window : windows.left_out) {
+      report.remarks.push_back(
+          fmt::format("particle velocities of {:.2f} ... {:.2f} km/s ({} states) left out: {}",
+                      1e-3 * window.least, 1e-3 * window.most, window.states, window.reason));
+    }
+  } else {
+    result = own = fit_scaled(data, model, settings, start);
+  }
+  const SolidProblem problem(data, report.settings, model, own.constants, own.scale);
   const LeastSquaresProblem weights = problem.least_squares();
   const LeastSquaresSolution solution = solve(weights);
   const Index count = problem.constants();
-  ScaledFit result = own;
-  if (model.hugoniot) {
-    const std::vector<WindowFit> windows = fit_windows(data, model, settings, own);
-    result = mean_of(windows, model);
-    for (const WindowFit& window : windows) {
-      const GrayConstants& gray = window.fit.constants.gray;
-      fit.report.windows.push_back({window.least, window.most, window.states, window.weight,
-                                    gray.hugoniot_intercept, gray.hugoniot_slope});
-    }
-  }
   fit.constants = result.constants;
   fit.scale = own.scale;
   fit.covariance = result.covariance;
   fit.statistical_covariance = result.statistical_covariance;
 
-  Fit& report = fit.report;
   report.element = data.element;
   report.potential = data.potential;
   report.molar_mass = data.molar_mass;
   report.nuclei = data.nuclei;
-  report.settings = settings;
   report.chi_squared = solution.chi_squared;
   report.degrees_of_freedom = solution.degrees_of_freedom;
   report.chi_squared_parts = chi_squared_parts(problem, solution, own.scale);
@@ -280,8 +289,8 @@ SolidFit fit_solid(Observations data, const SolidModel& model, const SolidConsta
   return fit;
 }
 
-SolidConstants refit_solid(const Observations& data, const SolidFit& fit, const FitSettings& settings) {
-  const SolidProblem problem(data, settings, fit.model, fit.constants, fit.scale);
+SolidConstants refit_solid(const Observations& data, const SolidFit& fit) {
+  const SolidProblem problem(data, fit.report.settings, fit.model, fit.constants, fit.scale);
   return problem.constants_at(solve(problem.least_squares()).parameters);
 }
 

@@ -36,7 +36,7 @@ SolidFit fit_solid(Observations data, const SolidModel& model, const SolidConsta
 
 /// Fits other data with the model and the weights of a fit, in the window of the settings, and returns the constants
 /// alone: for replicates.
-SolidConstants refit_solid(const Observations& data, const SolidFit& fit, const FitSettings& settings);
+SolidConstants refit_solid(const Observations& data, const SolidFit& fit);
 
 /// Leaves out superheated solid: above T_m(V) the crystal is metastable, and its energy does not follow the
 /// law.

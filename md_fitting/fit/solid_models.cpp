@@ -58,7 +58,7 @@ BootstrapResult replicates(std::span<const md::PointRecord> points, const SolidF
     Observations data = observe(drawn, settings, needs, store_name);
     remove_superheated(data, solid.constants.gray, store_name);
     SolidFit moved = solid;
-    moved.constants = refit_solid(data, solid, settings);
+    moved.constants = refit_solid(data, solid);
     return VectorXd(map.jacobian * (free_values(moved) - free_values(solid)));
   };
   constexpr std::uint64_t seed = 1;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -154,7 +155,8 @@ MatrixXd slopes_by(const VapourProblem& problem, const GrayConstants& constants,
 }
 
 VapourFit solve_vapour(const GrayConstants& constants, const std::vector<SaturationState>& data,
-                       const ModelErrors& errors, const FittedBefore& before, bool with_join) {
+                       const ModelErrors& errors, bool inflation, const FittedBefore& before,
+                       bool with_join) {
   const VapourProblem problem(constants, data, errors, with_join);
   const LeastSquaresProblem weights = problem.least_squares();
   const LeastSquaresSolution solution = solve(weights);
@@ -177,7 +179,9 @@ VapourFit solve_vapour(const GrayConstants& constants, const std::vector<Saturat
     return scale.asDiagonal() * own * scale.asDiagonal() +
            fit.sensitivity * solid * fit.sensitivity.transpose();
   };
-  fit.covariance = total(solution.covariance, before.covariance);
+  const double freedom = solution.degrees_of_freedom;
+  if (inflation && freedom > 0.0) fit.inflation = std::sqrt(std::max(1.0, solution.chi_squared / freedom));
+  fit.covariance = total(fit.inflation * fit.inflation * solution.covariance, before.covariance);
   fit.statistical_covariance = total(solution.statistical_covariance, before.statistical_covariance);
   fit.chi_squared = solution.chi_squared;
   fit.degrees_of_freedom = solution.degrees_of_freedom;
@@ -196,18 +200,24 @@ std::pair<double, double> saturated_densities(const GrayConstants& constants, do
 }
 
 VapourFit fit_vapour(const GrayConstants& constants, const std::vector<SaturationState>& data,
-                     const ModelErrors& errors, const FittedBefore& before) {
+                     const ModelErrors& errors, bool inflation, const FittedBefore& before) {
+  constexpr double width = join_bounds.upper - join_bounds.lower;
+  const double unknown = width / std::sqrt(12.0);  // standard deviation of any value between the bounds
   std::string remark;
   try {
-    VapourFit fit = solve_vapour(constants, data, errors, before, true);
+    VapourFit fit = solve_vapour(constants, data, errors, inflation, before, true);
     const double join = fit.values[1];
-    const double margin = beside_the_bounds * (join_bounds.upper - join_bounds.lower);
-    if (join > join_bounds.lower + margin && join < join_bounds.upper - margin) return fit;
-    remark = fmt::format("the saturated densities drive V_J/V0 to the bound {:.2f}", join);
+    const double error = std::sqrt(fit.covariance(1, 1));
+    const double margin = beside_the_bounds * width;
+    const bool inside = join > join_bounds.lower + margin && join < join_bounds.upper - margin;
+    if (inside && error < unknown) return fit;
+    remark =
+        inside ? fmt::format("the saturated densities leave V_J/V0 = {:.2f} uncertain by {:.2f}", join, error)
+               : fmt::format("the saturated densities drive V_J/V0 to the bound {:.2f}", join);
   } catch (const StateError& error) {
     remark = error.what();
   }
-  VapourFit fit = solve_vapour(constants, data, errors, before, false);
+  VapourFit fit = solve_vapour(constants, data, errors, inflation, before, false);
   fit.remark = fmt::format("V_J/V0 stays at {:.4g}: {}", constants.join_volume_ratio, remark);
   return fit;
 }

@@ -21,6 +21,8 @@ struct VapourFit {
   Eigen::MatrixXd sensitivity;             ///< d(value)/d(constant), of the constants fitted before
   double chi_squared = 0.0;
   int degrees_of_freedom = 0;
+  double inflation =
+      1.0;             ///< of the stated model errors: (chi^2/degrees of freedom)^(1/2) where that is above 1
   std::string remark;  ///< why V_J was left at its default; empty otherwise
 };
 
@@ -32,11 +34,13 @@ struct FittedBefore {
 
 /// Least squares over the saturated densities (docs/theory/fit.md, section 1). The solid's constants stay:
 /// the fluid of GRAY is too rough a model for its misfit to have a say in them.
+/// V_J keeps its value if the data drive it to a bound, or leave it as uncertain as its bounds do.
 /// @param constants  complete, with start values of both
+/// @param inflation  whether chi^2 may enlarge the errors
 /// @throws StateError if the model has no liquid and vapour in equilibrium at the temperatures of the data
 /// for any attraction, or the fit does not converge
 VapourFit fit_vapour(const eos::GrayConstants& constants, const std::vector<SaturationState>& data,
-                     const ModelErrors& errors, const FittedBefore& before);
+                     const ModelErrors& errors, bool inflation, const FittedBefore& before);
 
 /// Saturated densities of the model at a temperature, kg/m^3.
 /// @throws StateError, InputError if there are none

@@ -152,6 +152,17 @@ class Expectations(unittest.TestCase):
         self.assertFalse(expected.same(["0.3 m", "0.0005 m", "0.1 m"], ["300 mm", "0.5 mm"]))
         self.assertFalse(expected.same(["0.3 m", "0 m", "0 m"], ["300 mm"]))
 
+    def test_a_body_of_another_material_is_a_departure(self):
+        """No run of the case sets the material of this body."""
+        path = self.case.path.with_name("case.toml")
+        path.write_text(CASE + '[[body]]\nmaterial = "aluminium.toml"\n')
+        case = Case(self.case.path)
+        impactor = {"material": "materials/copper.toml", "velocity": ["0 m/s", "0 m/s", "1000 m/s"],
+                    "shape": {"sphere": {"center": ["0 m", "0 m", "0.004 m"], "radius": "0.001 m"}}}
+        for name, departed in (("aluminium", []), ("aluminium_zhakhovsky", ["body.1.material"])):
+            run = self.run_with(domain={"dimension": "3d"}, body=[impactor, {"material": f"materials/{name}.toml"}])
+            self.assertEqual(expected.departures(case, expected.run_of(case, run), run), departed)
+
     def test_verdicts(self):
         e = self.case.common[0]
         self.assertEqual([expected.verdict(e, v, band) for v, band in

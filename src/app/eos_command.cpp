@@ -16,6 +16,7 @@
 #include "eos/curves/samples.hpp"
 #include "eos/curves/tables.hpp"
 #include "src/app/eos_audit.hpp"
+#include "src/app/eos_card_command.hpp"
 #include "src/app/eos_figure.hpp"
 #include "src/app/eos_options.hpp"
 #include "src/app/eos_queries.hpp"
@@ -287,6 +288,7 @@ void add_eos_command(CLI::App& app) {
   add_audit(*command);
   add_plot(*command);
   add_eos_tabulate(*command);
+  add_eos_card(*command);
 }
 
 }  // namespace whipple::app

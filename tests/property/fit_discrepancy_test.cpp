@@ -14,6 +14,7 @@
 #include "md_fitting/fit/scaled_fit.hpp"
 #include "md_fitting/fit/solid_fit.hpp"
 #include "md_fitting/fit/structure_limit.hpp"
+#include "src/core/base/error.hpp"
 #include "src/core/base/normal_samples.hpp"
 #include "tests/property/fit_recovery.hpp"
 
@@ -223,6 +224,47 @@ TEST(FitWindows, ScatterOfTheWindowsIsPartOfTheErrors) {
   EXPECT_GT(between, 0.0);
   EXPECT_EQ(single.windows.front().weight, 1.0);
   EXPECT_NEAR(single.value("hugoniot_intercept"), single.windows.front().intercept, 1e-6 * intercept);
+}
+
+/// Multiplies Us, with up, of the strongest shock.
+void spoil_last_shock(std::vector<md::PointRecord>& points, double factor) {
+  const auto last = std::find_if(points.rbegin(), points.rend(),
+                                 [](const md::PointRecord& point) { return point.protocol == "hugoniot"; });
+  for (const char* name : {"shock_velocity", "particle_velocity"}) last->results.at(name).value *= factor;
+}
+
+// Windows that hold a state no line through the others comes near are left out, the fit's own among them.
+TEST(FitWindows, OneThatDoesNotSettleIsLeftOut) {
+  SyntheticStore store(true_constants(), small_noise(), 2);
+  std::erase_if(store.points, [](const md::PointRecord& point) { return point.protocol == "coexistence"; });
+  spoil_last_shock(store.points, 0.8);
+  FitSettings settings = one_window(ErrorStructure::correlated, true);
+  settings.windows = WindowChoice::averaged;
+  const GrayFit fit = fit_gray(store.points, settings, "synthetic");
+  ASSERT_EQ(fit.windows.size(), 1u);
+  EXPECT_EQ(fit.windows.front().most, 1000.0);
+  EXPECT_EQ(fit.windows.front().weight, 1.0);
+  EXPECT_EQ(fit.settings.least_particle_velocity, 0.0);  // residuals and chi^2 are those of the window left
+  EXPECT_EQ(part(fit, "shock velocity").data, 6);
+  EXPECT_NEAR(fit.value("hugoniot_slope"), true_constants().hugoniot_slope, 0.01);
+  ASSERT_EQ(fit.remarks.size(), 3u);
+  EXPECT_EQ(fit.remarks.front().rfind("particle velocities of 0.30 ... 2.50 km/s (7 states) left out: ", 0),
+            0u)
+      << fit.remarks.front();
+
+  settings.windows = WindowChoice::single;
+  EXPECT_THROW(fit_gray(store.points, settings, "synthetic"), StateError);
+  settings.windows = WindowChoice::averaged;
+  spoil_last_shock(store.points, 0.5 / 0.8);  // now among the weakest: in every window
+  try {
+    fit_gray(store.points, settings, "synthetic");
+    FAIL() << "no window settles";
+  } catch (const StateError& error) {
+    EXPECT_EQ(
+        std::string(error.what()).rfind("the fit settles in none of 3 windows of particle velocities: ", 0),
+        0u)
+        << error.what();
+  }
 }
 
 /// A fit of two constants with a covariance.

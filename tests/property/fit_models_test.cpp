@@ -405,6 +405,30 @@ TEST(FitModels, VapourIsRecovered) {
   EXPECT_GT(attraction + join, 0.02 * seeds);  // the errors are not vastly too large, either
 }
 
+// A vapour that the model does not have widens the error of a_y, and densities that say nothing of V_J leave it.
+TEST(FitModels, VapourThatDoesNotFitIsUncertain) {
+  const eos::GrayConstants truth = true_constants();
+  const auto fitted = [&](double factor, double error, bool inflation) {
+    std::vector<SaturationState> data;
+    for (const double temperature : {5200.0, 5600.0}) {
+      const auto [liquid, vapour] = saturated_densities(truth, temperature);
+      data.push_back({temperature, {liquid, error * liquid}, {factor * vapour, error * factor * vapour}});
+    }
+    const Eigen::MatrixXd small = Eigen::MatrixXd::Constant(1, 1, 1e-8);
+    return fit_vapour(truth, data, ModelErrors{}, inflation, {{"gruneisen"}, small, small});
+  };
+  const VapourFit good = fitted(1.0, 0.2, true);
+  EXPECT_EQ(good.names, std::vector<std::string>{"vapour_attraction"});
+  EXPECT_NE(good.remark.find("V_J/V0 stays at 1.3: the saturated densities leave V_J/V0"), std::string::npos)
+      << good.remark;
+  EXPECT_EQ(good.inflation, 1.0);
+  const VapourFit bad = fitted(0.1, 0.01, true), stated = fitted(0.1, 0.01, false);
+  EXPECT_EQ(stated.inflation, 1.0);
+  EXPECT_GT(bad.inflation, 1.5);
+  EXPECT_NEAR(bad.inflation * bad.inflation, bad.chi_squared / bad.degrees_of_freedom, 1e-9);
+  EXPECT_NEAR(bad.covariance(0, 0) / stated.covariance(0, 0), bad.inflation * bad.inflation, 1e-3);
+}
+
 TEST(FitModels, OneTemperatureOfSaturationIsTooFew) {
   const eos::GrayConstants truth = true_constants();
   SyntheticStore store(truth, Noise{}, 1);

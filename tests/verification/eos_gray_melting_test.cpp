@@ -158,6 +158,35 @@ TEST(EosGrayMelting, CompressionLimitIsTheDensestLiquidInEquilibrium) {
   EXPECT_THROW(static_cast<void>(gray.state(1.0001 * gray.maximum_density(), 1e8)), StateError);
 }
 
+// Where gamma falls steeply, solid and liquid reach the same volume below the solid's compression limit, and dP/dT
+// grows without bound: the curve ends before that.
+TEST(EosGrayMelting, CurveEndsWhereThePhasesMeet) {
+  GrayConstants c;
+  c.molar_mass = 58.693e-3;
+  c.reference_specific_volume = 0.11311e-3;
+  c.hugoniot_intercept = 4905;
+  c.hugoniot_slope = 1.196;
+  c.gruneisen = 2.785;
+  c.gruneisen_slope = 9.075;
+  c.anharmonic_heat_coefficient = 1.48e-3;
+  c.melting_temperature = 2330;
+  c.join_volume_ratio = 1.15;
+  c.vapour = VapourCondition::boiling;
+  c.boiling_temperature = 3186;
+  c.reference_temperature = 293;
+  c.melting = MeltingTransition::equilibrium;
+  const GrayEos eos(c);
+  const auto& end = eos.underlying().melting_curve()->hottest();
+  EXPECT_GT(end.solid_volume, 1.01 * eos.underlying().free_energy().least_volume());
+  for (double density = 8850; density < 1 / end.liquid_volume; density += 25) {
+    for (double energy = 0; energy < 4e6; energy += 5e4) {
+      const double p = eos.state(density, energy).pressure;
+      ASSERT_LT(p, 200e9) << density << " kg/m^3, " << energy << " J/kg";
+    }
+  }
+  EXPECT_THROW(static_cast<void>(Hugoniot(eos).at_particle_velocity(2123)), StateError);
+}
+
 TEST(EosGrayMelting, ConstantsWithoutATangentAreRefused) {
   GrayConstants c = copper(MeltingTransition::equilibrium);
   c.melting_gruneisen = 0.2;  // melting temperature falls with compression: the liquid would be the denser
