@@ -88,8 +88,7 @@ def energy_figure(run: Run) -> Figure | None:
     left.set_ylabel("energy (kJ)" + (", full problem" if run.multiplicity > 1 else ""))
     if drawn:
         legend_above(left)
-    errors = lines(right, history, [("energy_error", "energy, over the initial total"),
-                                    ("momentum_error", "momentum")])
+    errors = lines(right, history, [("energy_error", "energy"), ("momentum_error", "momentum")])
     right.set_ylabel("relative error")
     right.yaxis.set_major_formatter(lambda value, _: f"{value:.2g}")
     if errors:

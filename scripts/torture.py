@@ -179,7 +179,7 @@ def same_files(run, whole):
 
 
 def make_folder(folder):
-    """Makes the folder anew. Of what is there only a folder that an earlier call made is removed.
+    """Makes the folder again. Of what is there only a folder that an earlier call made is removed.
 
     @raises ValueError if it is any other"""
     if os.path.lexists(folder):

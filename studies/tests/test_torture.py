@@ -19,7 +19,7 @@ class Folder(unittest.TestCase):
     def tearDown(self):
         self.temporary.cleanup()
 
-    def test_a_new_folder_is_made_and_one_of_an_earlier_call_made_anew(self):
+    def test_a_new_folder_is_made_and_one_of_an_earlier_call_made_again(self):
         made = self.folder / "new"
         torture.make_folder(made)
         (made / "run_000").mkdir()
