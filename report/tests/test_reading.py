@@ -6,6 +6,7 @@ import tempfile
 import types
 import unittest
 
+import matplotlib.pyplot as plt
 import numpy as np
 
 from report import curves, sensitivity
@@ -38,6 +39,15 @@ class Histories(unittest.TestCase):
     def test_what_is_no_number_is_refused(self):
         with self.assertRaisesRegex(NotARun, "history.csv"):
             self.history("step\nzero\n")
+
+    def test_of_many_bodies_the_phases_of_the_largest_are_drawn(self):
+        bodies = [f"b{n}" for n in range(6)]
+        heads = [f"mass_{phase}.{body} [kg]" for body in bodies for phase in ("solid", "melting", "liquid", "vapour")]
+        masses = [f"{n + 1},{n + 1},0,0" for n in range(6)]
+        history = self.history("time [s]," + ",".join(heads) + "\n" + "\n".join(f"{t}," + ",".join(masses) for t in (0, 1)) + "\n")
+        figure = curves.phase_figure(types.SimpleNamespace(history=history, multiplicity=1))
+        self.assertEqual([ax.get_title(loc="left").split(":")[0] for ax in figure.axes], bodies[2:])
+        plt.close(figure)
 
     def test_bodies_of_the_phases_are_those_of_the_columns(self):
         phases = [f"mass_{phase}.{body} [kg]" for body in ("ball", "wall 2")
