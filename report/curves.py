@@ -12,6 +12,8 @@ from report.pictures import legend_below
 from report.run import Run
 from report.views import PHASES
 
+MOST_PANELS = 4  # side by side
+
 
 def new_figure(columns: int, height: float = 2.4) -> tuple[Figure, np.ndarray]:
     """Makes a figure of so many panels over time. `height` in inches."""
@@ -50,7 +52,8 @@ def only_phase(run: Run) -> str | None:
 
 
 def phase_figure(run: Run) -> Figure | None:
-    """Draws the mass of every phase over time as fractions of the mass, one panel per body; None of a single phase."""
+    """Draws the mass of every phase over time as fractions of the mass, one panel per body, of the four of the largest mass
+    at the start; None of a single phase."""
     history = run.history
     if only_phase(run):
         return None
@@ -62,7 +65,9 @@ def phase_figure(run: Run) -> Figure | None:
         groups = [("all bodies", [f"mass_{p}" for p in PHASES])]
         if not all(column in history for column in groups[0][1]):
             return None
-    figure, axes = new_figure(min(len(groups), 4))
+    largest = sorted(groups, key=lambda group: -sum(history[column][0] for column in group[1]))[:MOST_PANELS]
+    groups = [group for group in groups if group in largest]
+    figure, axes = new_figure(len(groups))
     for ax, (name, columns) in zip(axes, groups):
         masses = np.array([history[c] for c in columns])
         total = np.maximum(masses.sum(axis=0), 1e-300)
@@ -89,8 +94,7 @@ def energy_figure(run: Run) -> Figure | None:
     left.set_ylabel("energy (kJ)" + (", full problem" if run.multiplicity > 1 else ""))
     if drawn:
         legend_above(left)
-    errors = lines(right, history, [("energy_error", "energy, over the initial total"),
-                                    ("momentum_error", "momentum")])
+    errors = lines(right, history, [("energy_error", "energy"), ("momentum_error", "momentum")])
     right.set_ylabel("relative error")
     right.yaxis.set_major_formatter(lambda value, _: f"{value:.2g}")
     if errors:

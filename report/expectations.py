@@ -11,6 +11,13 @@ UNITS = {"": 1.0, "%": 0.01, "1": 1.0,
          "m/s": 1.0, "km/s": 1e3,
          "kg": 1.0, "g": 1e-3, "mg": 1e-6,
          "J": 1.0, "kJ": 1e3, "Pa": 1.0, "MPa": 1e6, "GPa": 1e9, "K": 1.0, "degree": math.pi / 180}
+# The kinds of these units: a length is no time.
+LENGTH, TIME, SPEED, NUMBER = "a length", "a time", "a speed", "a number"
+KIND_OF_UNIT = {"": NUMBER, "%": NUMBER, "1": NUMBER,
+                **dict.fromkeys(("m", "cm", "mm", "um"), LENGTH), **dict.fromkeys(("s", "ms", "us", "ns"), TIME),
+                **dict.fromkeys(("m/s", "km/s"), SPEED), **dict.fromkeys(("kg", "g", "mg"), "a mass"),
+                **dict.fromkeys(("J", "kJ"), "an energy"), **dict.fromkeys(("Pa", "MPa", "GPa"), "a pressure"),
+                "K": "a temperature", "degree": "an angle"}
 KINDS = ("within", "at_most", "at_least", "record")
 # What an expected value comes from. Identities are true by construction and counted apart from physics.
 CLASSES = ("experiment", "exact", "other code", "record", "identity")
@@ -21,8 +28,19 @@ class BadExpectation(Exception):
     """An expected.toml, or the files of a run, cannot be understood."""
 
 
-def quantity(text, where):
-    """Value in SI and the unit as written: "14 mm" -> (0.014, "mm")."""
+def quantity(text, where, kind=None):
+    """Value in SI and the unit as written: "14 mm" -> (0.014, "mm"). With a kind, units of others are refused but for 0."""
+    value, unit = parsed(text, where)
+    if not math.isfinite(value):
+        raise BadExpectation(f"{where}: {text!r} is not finite")
+    if kind is not None and value != 0.0 and KIND_OF_UNIT[unit] != kind:
+        units = ", ".join(name or "none" for name, of in KIND_OF_UNIT.items() if of == kind)
+        raise BadExpectation(f"{where}: {text!r} is {KIND_OF_UNIT[unit]}, expected {kind} (units: {units})")
+    return value, unit
+
+
+def parsed(text, where):
+    """Value in SI and the unit as written, whatever its kind."""
     if isinstance(text, (int, float)) and not isinstance(text, bool):
         return float(text), ""
     match = re.fullmatch(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S*)\s*", str(text))
@@ -75,9 +93,9 @@ class Expectation:
         if self.origin not in CLASSES or (self.origin == "record") != (self.kind == "record"):
             raise BadExpectation(f"{where}: {self.name}: class {self.origin!r} with kind {self.kind!r}, "
                                  f"expected one of {', '.join(CLASSES)}")
-        self.time, self.place, self.travel, self.speed = (quantity(table[key], where)[0] if key in table else None
-                                                          for key in ("time", "place", "travel", "speed"))
-        self.fraction = quantity(table["fraction"], where)[0] if "fraction" in table else None
+        self.time, self.place, self.travel, self.speed, self.fraction = (
+            quantity(table[key], f"{where}: {self.name}: {key}", kind)[0] if key in table else None
+            for key, kind in (("time", TIME), ("place", LENGTH), ("travel", LENGTH), ("speed", SPEED), ("fraction", NUMBER)))
         self.table = table.get("table")  # file beside expected.toml
         for key, kinds in self.OF_KIND.items():
             if (key in table) != self.measure.startswith(kinds):
@@ -92,13 +110,19 @@ class Expectation:
             return
         if "value" not in table:
             raise BadExpectation(f"{where}: {self.name}: value is missing")
-        self.value, self.unit = quantity(table["value"], where)
+        self.value, self.unit = quantity(table["value"], f"{where}: {self.name}: value")
         self.tolerance = 0.0
         if self.kind == "within":
             if "tolerance" not in table:
                 raise BadExpectation(f"{where}: {self.name}: tolerance is missing")
-            size, unit = quantity(table["tolerance"], where)
-            self.tolerance = size * abs(self.value) if unit == "%" and self.unit != "%" else size
+            place = f"{where}: {self.name}: tolerance"
+            size, unit = quantity(table["tolerance"], place)
+            relative = unit == "%" and self.unit != "%"
+            if size < 0.0:
+                raise BadExpectation(f"{place}: {table['tolerance']!r} is negative")
+            if not relative and (self.unit or self.value != 0.0):
+                quantity(table["tolerance"], place, KIND_OF_UNIT[self.unit])
+            self.tolerance = size * abs(self.value) if relative else size
 
     def holds(self, measured):
         """Whether a measured value meets the expectation; None if it is only recorded."""
@@ -151,7 +175,7 @@ class RunOfCase:
         """Cell size in metres."""
         if resolution not in self.cell_size:
             raise BadExpectation(f"run {self.name}: no cell size for {resolution!r}: {', '.join(self.cell_size)}")
-        return quantity(self.cell_size[resolution], f"run {self.name}")[0]
+        return quantity(self.cell_size[resolution], f"run {self.name}: cell_size", LENGTH)[0]
 
     def grids(self):
         """The resolutions of the grid study, coarse first: three of a headline, two of others; each cell size once."""

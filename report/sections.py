@@ -266,9 +266,11 @@ class Report:
         if phases is None:
             only = curves.only_phase(run)
             self.page.paragraph(f"All material is {only} at all times." if only else "The run wrote no masses of phases.")
-        self._add_figure("phases.png", "Mass of each phase over time, as fractions of the mass of the body.", phases)
+        self._add_figure("phases.png", "Mass of each phase over time, as fractions of the mass of the body; of more than four "
+                         "bodies those of the largest mass.", phases)
         self.page.heading("Energy and momentum")
-        self._add_figure("energy.png", "Energies, and the errors of their balance relative to the beginning.",
+        self._add_figure("energy.png", "Energies, and the errors of the balances over the energy and the momentum that the run "
+                         "exchanged.",
                          curves.energy_figure(run))
         self.page.heading("Time step and extreme states")
         self._add_figure("step.png", "Time step, largest pressure and temperature of any particle.",

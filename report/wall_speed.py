@@ -24,7 +24,8 @@ def path_of_wall(path, tracers, place):
     names = sorted({head.split(".")[0] for head in rows[0] if head.startswith(f"{tracers}_")}) if rows else []
     times, radii = [], []
     for row in rows:
-        places = sorted((float(row[f"{name}.x"]), float(row[f"{name}.y"])) for name in names)
+        places = sorted((x, y) for x, y in ((float(row[f"{name}.x"]), float(row[f"{name}.y"])) for name in names)
+                        if math.isfinite(x) and math.isfinite(y))  # tracers that have left the domain have no place
         radius = interpolate(place, [x for x, _ in places], [y for _, y in places])
         if math.isfinite(radius):
             times.append(float(row["time"]))

@@ -23,6 +23,7 @@ import sys
 import time
 
 OPTIONS = ["--threads", "1", "--quiet"]
+MARK = ".torture"  # lies in the folders that this script made
 ROUND_OFF = 1e-11  # of the largest value of a column
 
 
@@ -177,6 +178,18 @@ def same_files(run, whole):
                   or (run / name).read_bytes() != (whole / name).read_bytes())
 
 
+def make_folder(folder):
+    """Makes the folder again. Of what is there only a folder that an earlier call made is removed.
+
+    @raises ValueError if it is any other"""
+    if os.path.lexists(folder):
+        if folder.is_symlink() or not (folder / MARK).is_file():
+            raise ValueError(f"{folder}: exists, and was not made by this script: name a new folder")
+        shutil.rmtree(folder)
+    folder.mkdir(parents=True)
+    (folder / MARK).touch()
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("whipple")
@@ -190,8 +203,10 @@ def main():
     parser.add_argument("--writers", type=int, default=0)
     options = parser.parse_args()
     random.seed(options.seed)
-    shutil.rmtree(options.folder, ignore_errors=True)
-    options.folder.mkdir(parents=True)
+    try:
+        make_folder(options.folder)
+    except (ValueError, OSError) as error:
+        parser.error(str(error))
     whole = options.folder / "whole"
     begin = time.monotonic()
     subprocess.run([options.whipple, *command(["run", options.case, "-o", whole], options.ranks)], check=True)

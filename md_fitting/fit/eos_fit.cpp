@@ -25,7 +25,7 @@
 #include "src/core/base/error.hpp"
 #include "src/core/base/error_tier.hpp"
 #include "src/core/base/files.hpp"
-#include "src/core/base/units.hpp"
+#include "src/core/base/option_quantity.hpp"
 #include "src/core/base/words.hpp"
 #include "src/core/process/scripts.hpp"
 
@@ -60,19 +60,14 @@ struct Options {
   bool quiet = false;
 };
 
-double quantity(const std::string& option, const std::string& text, const char* unit) {
-  try {
-    return units::parse_quantity(text, unit);
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", option, error.what()));
-  }
-}
-
 FitSettings settings(const Options& options) {
   FitSettings settings;
-  settings.reference_temperature = quantity("--reference-temperature", options.reference_temperature, "K");
-  settings.least_particle_velocity = quantity("--up-range", options.up_range.at(0), "m/s");
-  settings.most_particle_velocity = quantity("--up-range", options.up_range.at(1), "m/s");
+  settings.reference_temperature =
+      option_quantity("--reference-temperature", options.reference_temperature, "K", range::positive());
+  settings.least_particle_velocity =
+      option_quantity("--up-range", options.up_range.at(0), "m/s", range::any());
+  settings.most_particle_velocity =
+      option_quantity("--up-range", options.up_range.at(1), "m/s", range::any());
   if (!(settings.least_particle_velocity >= 0.0 &&
         settings.most_particle_velocity > settings.least_particle_velocity)) {
     throw InputError(fmt::format("--up-range {} {}: expected two rising velocities, the first >= 0",
@@ -89,7 +84,7 @@ FitSettings settings(const Options& options) {
   if (!options.windows.empty()) settings.windows = value_of<WindowChoice>(options.windows).value();
   if (options.statistical_only) settings.model_errors = ModelErrors::none();
   if (!options.density.empty()) {
-    settings.density = quantity("--density", options.density, "kg/m^3");
+    settings.density = option_quantity("--density", options.density, "kg/m^3", range::positive());
     if (!(*settings.density > 0.0))
       throw InputError(fmt::format("--density {}: must be > 0", options.density));
   }

@@ -352,7 +352,7 @@ std::string material_text(const Fit& fit, const StoreOrigin& origin,
 
 void write_file(const std::filesystem::path& path, const std::string& text, bool force) {
   require_new_file(path, force);
-  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path());
+  if (path.has_parent_path()) make_folder(path.parent_path());
   write_text_atomically(path, text);
 }
 

@@ -6,6 +6,7 @@ import tempfile
 import types
 import unittest
 
+import matplotlib.pyplot as plt
 import numpy as np
 
 from report import curves, sensitivity
@@ -14,6 +15,7 @@ from report.errors import NotARun
 from report.history import History
 from report.page import Page
 from report.run import Run
+from report.wall_speed import wall_speed
 
 
 def geometry(**more):
@@ -37,6 +39,15 @@ class Histories(unittest.TestCase):
     def test_what_is_no_number_is_refused(self):
         with self.assertRaisesRegex(NotARun, "history.csv"):
             self.history("step\nzero\n")
+
+    def test_of_many_bodies_the_phases_of_the_largest_are_drawn(self):
+        bodies = [f"b{n}" for n in range(6)]
+        heads = [f"mass_{phase}.{body} [kg]" for body in bodies for phase in ("solid", "melting", "liquid", "vapour")]
+        masses = [f"{n + 1},{n + 1},0,0" for n in range(6)]
+        history = self.history("time [s]," + ",".join(heads) + "\n" + "\n".join(f"{t}," + ",".join(masses) for t in (0, 1)) + "\n")
+        figure = curves.phase_figure(types.SimpleNamespace(history=history, multiplicity=1))
+        self.assertEqual([ax.get_title(loc="left").split(":")[0] for ax in figure.axes], bodies[2:])
+        plt.close(figure)
 
     def test_bodies_of_the_phases_are_those_of_the_columns(self):
         phases = [f"mass_{phase}.{body} [kg]" for body in ("ball", "wall 2")
@@ -84,3 +95,17 @@ class Runs(unittest.TestCase):
             (path / "x.particles.hdf.series").write_text('{"files": [{"name": "x.hdf", "time": 0}]}')
             with self.assertRaisesRegex(NotARun, "analysis.h5.*whipple analyse"):
                 Run(folder)
+
+
+class WallSpeeds(unittest.TestCase):
+    def test_tracers_that_have_left_do_not_disturb_the_others(self):
+        names = ("w_1", "w_2", "w_3")
+        rows = ["time [s]," + ",".join(f"{name}.{axis} [m]" for name in names for axis in "xy")]
+        for step in range(8):
+            radius = 0.01 + 0.001 * step  # 1 km/s at all of them
+            gone = ("nan", "nan") if step > 1 else ("0.02", radius)
+            rows.append(",".join(map(str, (1e-6 * step, 0.04, radius, *gone, 0.0, radius))))
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "gauges.csv"
+            path.write_text("\n".join(rows) + "\n")
+            self.assertAlmostEqual(wall_speed(path, "w", 0.03, 0.004), 1000.0, delta=1e-6)

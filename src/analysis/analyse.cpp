@@ -343,8 +343,7 @@ void require_bodies(const Run& run, const Options& options) {
   if (!options.loads.empty()) asked.push_back(options.loads);
   for (const std::string& name : asked) {
     if (std::ranges::find(known, name) != known.end()) continue;
-    throw InputError(
-        fmt::format("error: the run has no body \"{}\" (bodies: {})", name, fmt::join(known, ", ")));
+    throw InputError(fmt::format("the run has no body \"{}\" (bodies: {})", name, fmt::join(known, ", ")));
   }
 }
 
@@ -434,7 +433,7 @@ void analyse(const Run& run, const Options& options, const fs::path& folder) {
   explain(values);
   explain_phases(run);
 
-  fs::create_directories(folder);
+  make_folder(folder);
   PartialFile partial(folder / "analysis.h5");
   hdf5::File file = hdf5::File::create(partial.path(), hdf5::File::Compatibility::compact);
   file.root.set_attribute("format", std::string_view("whipple-analysis"));
@@ -442,16 +441,15 @@ void analyse(const Run& run, const Options& options, const fs::path& folder) {
   file.root.set_attribute("unit_system", std::string_view("SI"));
   write_case(run, file.root);
   write_frame(run, start, file.root);
-  for (const Table& table : tables) {
-    write_hdf5(table, file.root);
-    write_csv(table, folder);
-  }
-  write_quantities(values, folder);
+  for (const Table& table : tables) write_hdf5(table, file.root);
   const hdf5::Group group = file.root.create_group("quantities");
   for (const Quantity& value : values) group.set_attribute(value.name, value.value);
   write_radiographs(run, frame, options, file.root);
   write_views(run, frame, options.views, file.root);
   file.close();
+  // Nothing is replaced before all of it is known.
+  for (const Table& table : tables) write_csv(table, folder);
+  write_quantities(values, folder);
   partial.publish();
 }
 

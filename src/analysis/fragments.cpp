@@ -69,8 +69,7 @@ struct CellList {
       upper = upper.cwiseMax(point);
     }
     if (((upper - lower).array() / size > 2.0e6).any()) {
-      throw InputError(
-          "error: the linking length of the fragments is too small for the extent of the material");
+      throw InputError("the linking length of the fragments is too small for the extent of the material");
     }
     std::vector<std::uint64_t> of_point(points.size());
     parallel::for_each(points.size(), [&](std::size_t i) {

@@ -26,8 +26,7 @@ void PeakDecay::add(const Snapshot& snapshot) {
   const std::vector<double>* pressure = snapshot.scalar("maximum_pressure");
   if (pressure == nullptr) pressure = snapshot.scalar("pressure");
   if (pressure == nullptr)
-    throw InputError(
-        "error: the peak pressure needs the field maximum_pressure, or pressure, in the snapshots");
+    throw InputError("the peak pressure needs the field maximum_pressure, or pressure, in the snapshots");
   for (std::size_t k = 0; k < id_.size(); ++k) {
     const auto found = std::ranges::lower_bound(snapshot.id, id_[k]);
     if (found == snapshot.id.end() || *found != id_[k]) continue;  // has left the domain

@@ -97,7 +97,7 @@ Radiograph take_radiograph(const Snapshot& snapshot, const Frame& frame, const P
   picture.columns = static_cast<std::size_t>(std::ceil(picture_width / options.pixel));
   picture.rows = static_cast<std::size_t>(std::ceil(picture_height / options.pixel));
   if (picture.columns * picture.rows > 100'000'000) {
-    throw InputError("error: the pixels of the radiograph are too small: more than 1e8 of them");
+    throw InputError("the pixels of the radiograph are too small: more than 1e8 of them");
   }
   picture.areal_density.assign(options.attenuation.size(),
                                std::vector<double>(picture.rows * picture.columns, 0.0));

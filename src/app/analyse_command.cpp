@@ -8,7 +8,9 @@
 
 #include "src/analysis/analyse.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
 #include "src/core/base/log.hpp"
+#include "src/core/base/option_quantity.hpp"
 #include "src/core/base/units.hpp"
 
 namespace whipple::app {
@@ -22,10 +24,7 @@ struct AnalyseOptions {
 
 /// A length > 0; 0 for an empty text.
 double length(const std::string& text, const char* option) {
-  if (text.empty()) return 0.0;
-  const double value = units::parse_quantity(text, "m");
-  if (!(value > 0.0)) throw InputError(fmt::format("{} is {}, expected a length > 0", option, text));
-  return value;
+  return text.empty() ? 0.0 : option_quantity(option, text, "m", range::positive());
 }
 
 }  // namespace
@@ -71,21 +70,21 @@ void run_analysis(const std::filesystem::path& run, const AnalysisWords& words,
   if (!words.axis.empty()) options.axis = words.axis[0] - 'x';
   options.link = length(words.link, "--link");
   options.pixel = length(words.pixel, "--pixel");
-  options.spot = units::parse_quantity(words.spot, "m");
-  if (!(options.spot >= 0.0)) throw InputError("--spot is negative");
+  options.spot = option_quantity("--spot", words.spot, "m", range::non_negative());
   options.diameter_at = length(words.diameter_at, "--diameter-at");
   options.peak_decay = words.peak_decay;
   options.radiographs = words.radiographs;
   options.views = words.views;
-  if (!words.witness.empty()) options.witness = units::parse_quantity(words.witness, "m");
+  if (!words.witness.empty())
+    options.witness = option_quantity("--witness", words.witness, "m", range::any());
   for (const std::string& word : words.attenuation) {
     const std::size_t equal = word.find('=');
     if (equal == std::string::npos || equal == 0) {
       throw InputError(fmt::format("--attenuation is \"{}\", expected BODY='0.2 cm^2/g'", word));
     }
-    const double value = units::parse_quantity(word.substr(equal + 1), "m^2/kg");
-    if (!(value >= 0.0)) throw InputError(fmt::format("--attenuation of \"{}\" is negative", word));
-    options.attenuation[word.substr(0, equal)] = value;
+    const std::string body = word.substr(0, equal);
+    options.attenuation[body] =
+        option_quantity("--attenuation " + body, word.substr(equal + 1), "m^2/kg", range::non_negative());
   }
   const analysis::Run read = analysis::read_run(run);
   const bool is_body =
@@ -99,6 +98,7 @@ void run_analysis(const std::filesystem::path& run, const AnalysisWords& words,
       throw InputError(fmt::format("--loads is \"{}\", expected a body of the run or a length", words.loads));
     }
   }
+  require_no_file(output);
   analysis::analyse(read, options, output);
 }
 

@@ -130,8 +130,8 @@ std::vector<Measurement> read_measurements(const fs::path& file) {
     std::vector<Measurement> all;
     for (const nlohmann::json& m : json.at("measurements")) all.push_back(bench::from_json(m));
     return all;
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("{}: not written by whipple bench --json: {}", file.string(), error.what()));
+  } catch (const nlohmann::json::exception&) {
+    throw InputError(fmt::format("{}: error: was not written by whipple bench --json", file.string()));
   }
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "src/app/build_info.hpp"
+#include "src/core/base/error.hpp"
 #include "src/core/base/text_table.hpp"
 #include "src/core/input/document.hpp"
 #include "src/material/material_file.hpp"
@@ -36,13 +37,15 @@ void add_sources(Lines& lines, input::Table table, const std::string& name) {
   }
 }
 
-void print_sources(const std::string& name) {
+std::string sources_of(const std::string& name) {
   const std::filesystem::path file = find_material(name);
   input::Document document = input::Document::from_file(file);
   Lines lines;
   add_sources(lines, document.root(), "material");
   document.finish_partly_read();
-  fmt::print("\n{}\n{}", file.string(), text_table(lines, "l"));
+  if (lines.empty())
+    throw InputError(fmt::format("{}: error: names no source: is no material", file.string()));
+  return fmt::format("\n{}\n{}", file.string(), text_table(lines, "l"));
 }
 
 /// The words of CITATION.cff.
@@ -68,8 +71,10 @@ void add_cite_command(CLI::App& app) {
   command->add_option("materials", *names, "Material files, or names of the library");
   command->footer("Example:\n  whipple cite copper aluminium");
   command->callback([names] {
+    std::string sources;
+    for (const std::string& name : *names) sources += sources_of(name);
     print_program();
-    for (const std::string& name : *names) print_sources(name);
+    fmt::print("{}", sources);
   });
 }
 

@@ -2,11 +2,24 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <string>
+
+#include "src/core/base/words.hpp"
 
 namespace whipple::app {
 
 /// Adds --quiet and --verbose to a command and to all its subcommands that do not pass their arguments on.
 void add_verbosity(CLI::App& command);
+
+/// Adds an option whose value is a word of an enumeration.
+template <class Enum>
+CLI::Option* add_word_option(CLI::App& command, const std::string& names, Enum& value,
+                             const std::string& meaning) {
+  return command
+      .add_option_function<std::string>(
+          names, [&value](const std::string& word) { value = value_of<Enum>(word).value(); }, meaning)
+      ->check(CLI::IsMember(word_list<Enum>()));
+}
 
 /// Parses the command line and runs the subcommand that it names.
 /// @returns the exit code; a command ends with a code of its own by throwing CLI::RuntimeError(code)

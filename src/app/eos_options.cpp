@@ -13,7 +13,7 @@
 #include "src/core/base/csv.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
-#include "src/core/base/parameter_table.hpp"
+#include "src/core/base/option_quantity.hpp"
 #include "src/core/base/text.hpp"
 #include "src/core/base/units.hpp"
 
@@ -56,16 +56,7 @@ bool is_in(const std::string& text, const char* unit) {
 
 std::optional<double> quantity(const char* option, const std::string& text, const char* unit) {
   if (text.empty()) return std::nullopt;
-  double value = 0;
-  try {
-    value = units::parse_quantity(text, unit);
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", option, error.what()));
-  }
-  const Range range = admissible(unit);
-  if (!range.contains(value))
-    throw InputError(fmt::format("{}: is {}, but must be {} {}", option, text, range.text(), unit));
-  return value;
+  return option_quantity(option, text, unit, admissible(unit));
 }
 
 eos::curves::StateQuery state_query(const EosOptions& o) {
@@ -120,22 +111,30 @@ std::vector<eos::curves::StateQuery> state_queries(const EosOptions& o) {
   std::vector<eos::curves::StateQuery> queries;
   int number = 0;
   for (std::string line; std::getline(file, line);) {
-    ++number;
+    if (++number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // byte order mark
     if (line.find_first_not_of(" \t\r") == std::string::npos || line.front() == '#') continue;
     try {
       const std::vector<std::string> cells = csv_cells(line);
       if (columns.empty()) {
-        for (const std::string& cell : cells) columns.push_back(column_of(cell));
+        for (const std::string& cell : cells) {
+          const StatedColumn column = column_of(cell);
+          if (std::ranges::find(columns, column.column, &StatedColumn::column) != columns.end())
+            throw InputError(fmt::format("a second column \"{}\"", column.column->name));
+          columns.push_back(column);
+        }
         continue;
       }
       if (cells.size() != columns.size())
         throw InputError(fmt::format("{} cells for {} columns", cells.size(), columns.size()));
       eos::curves::StateQuery& query = queries.emplace_back();
+      int given = 0;
       for (std::size_t i = 0; i < cells.size(); ++i) {
         const StateColumn& column = *columns[i].column;
-        if (!cells[i].empty())
-          query.*column.value = quantity(column.name, cells[i] + " " + columns[i].unit, column.unit);
+        if (cells[i].empty()) continue;
+        query.*column.value = quantity(column.name, cells[i] + " " + columns[i].unit, column.unit);
+        ++given;
       }
+      if (given != 2) throw InputError(fmt::format("{} quantities, but a state is named by two", given));
     } catch (const InputError& error) {
       throw InputError(fmt::format("{}:{}: {}", o.states, number, error.what()));
     }

@@ -3,16 +3,17 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "src/analysis/run.hpp"
+#include "src/app/command_line.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
 #include "src/core/base/log.hpp"
 #include "src/io/run_directory.hpp"
 #include "src/io/snapshot_table.hpp"
@@ -23,6 +24,11 @@ namespace {
 namespace fs = std::filesystem;
 
 enum class Format { vtu, csv };
+constexpr auto words(Format /*unused*/) {
+  return std::array{Word<Format>{Format::vtu, "vtu"}, Word<Format>{Format::csv, "csv"}};
+}
+
+using Snapshots = std::vector<std::pair<fs::path, double>>;  // files with their times
 
 struct ExportOptions {
   std::string run, output;
@@ -40,11 +46,9 @@ std::string index_text(const std::vector<std::pair<std::string, double>>& files)
 }
 
 /// Exports the files of one kind. Returns their number.
-std::size_t export_series(const std::vector<std::pair<fs::path, double>>& snapshots,
-                          const ExportOptions& options) {
+std::size_t export_series(const Snapshots& snapshots, const ExportOptions& options) {
   std::vector<std::pair<std::string, double>> written;
   for (const auto& [file, time] : snapshots) {
-    if (!fs::exists(file)) continue;
     const io::SnapshotTable table = io::read_snapshot_table(file, time, options.fields);
     const bool vtu = options.format == Format::vtu;
     const std::string name = file.stem().string() + (vtu ? ".vtu" : ".csv");
@@ -65,16 +69,21 @@ void run_export(const ExportOptions& options) {
   if (fs::exists(options.output) && !(fs::is_directory(options.output) && fs::is_empty(options.output))) {
     throw InputError(fmt::format("{}: error: exists and is not an empty folder", options.output));
   }
-  std::vector<std::pair<fs::path, double>> particles, elements;
+  Snapshots particles, elements;
   for (const analysis::SnapshotEntry& entry : run.snapshots) {
     if (options.last && &entry != &run.snapshots.back()) continue;
-    particles.emplace_back(entry.file, entry.time);
-    if (const fs::path beside = analysis::elements_file(entry); !beside.empty())
+    if (fs::exists(entry.file)) particles.emplace_back(entry.file, entry.time);
+    if (const fs::path beside = analysis::elements_file(entry); fs::exists(beside))
       elements.emplace_back(beside, entry.time);
   }
-  fs::create_directories(options.output);
+  for (const Snapshots* series : {&particles, &elements}) {  // wrong fields are refused before a file is made
+    if (!series->empty())
+      static_cast<void>(
+          io::read_snapshot_table(series->front().first, series->front().second, options.fields));
+  }
+  make_folder(options.output);
   const std::size_t count = export_series(particles, options) + export_series(elements, options);
-  log::info("wrote {} files to {}", count, options.output);
+  log::info("wrote {} file{} to {}", count, count == 1 ? "" : "s", options.output);
 }
 
 }  // namespace
@@ -87,11 +96,7 @@ void add_export_command(CLI::App& app) {
   command->add_option("-o,--output", options->output, "A new or empty folder")
       ->required()
       ->type_name("FOLDER");
-  command->add_option("--format", options->format, "vtu or csv")
-      ->transform(
-          CLI::CheckedTransformer(std::map<std::string, Format>{{"vtu", Format::vtu}, {"csv", Format::csv}}))
-      ->default_str("vtu")
-      ->type_name("FORMAT");
+  add_word_option(*command, "--format", options->format, "Of the files")->default_str("vtu");
   command
       ->add_option("--fields", options->fields, "Fields in the files, e.g. velocity,pressure (default: all)")
       ->type_name("NAME,...")

@@ -14,8 +14,8 @@
 #include "src/case/case.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/log.hpp"
+#include "src/core/base/option_quantity.hpp"
 #include "src/core/base/text.hpp"
-#include "src/core/base/units.hpp"
 #include "src/decks/import.hpp"
 
 namespace whipple::app {
@@ -50,8 +50,7 @@ decks::ImportOptions import_options(const Arguments& arguments) {
     }
   }
   if (!arguments.cell_size.empty()) {
-    options.cell_size = units::parse_quantity(arguments.cell_size, "m");
-    if (!(options.cell_size > 0.0)) throw InputError("--cell-size must be > 0");
+    options.cell_size = option_quantity("--cell-size", arguments.cell_size, "m", range::positive());
   }
   return options;
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
 #include "src/core/process/paths.hpp"
 #include "src/core/process/process.hpp"
 #include "src/monitor/server.hpp"
@@ -31,13 +32,13 @@ struct MonitorOptions {
 };
 
 void monitor_runs(const MonitorOptions& options) {
-  if (!fs::is_directory(options.folder))
-    throw InputError(fmt::format("{}: there is no such folder", options.folder));
+  const fs::path cases = options.cases.empty() ? process::find_data("cases") : fs::path(options.cases);
+  require_folder(options.folder);
+  require_folder(cases);
   monitor::Folder folder(options.folder);
   monitor::Server server(options.port);
   const monitor::Access access{
       .host = server.host(), .token = monitor::random_token(), .read_only = options.read_only};
-  const fs::path cases = options.cases.empty() ? process::find_data("cases") : fs::path(options.cases);
   const auto start = [output = folder.output_of_started()](const std::vector<std::string>& arguments) {
     std::vector<std::string> program = {process::own_executable().string(), "run"};
     program.insert(program.end(), arguments.begin(), arguments.end());

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
 #include <system_error>
@@ -15,12 +15,15 @@
 
 #include "src/analysis/run.hpp"
 #include "src/app/build_info.hpp"
+#include "src/app/command_line.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
 #include "src/core/base/log.hpp"
+#include "src/core/base/option_quantity.hpp"
+#include "src/core/base/progress.hpp"
 #include "src/core/base/simd.hpp"
 #include "src/core/base/temporary_folder.hpp"
-#include "src/core/base/units.hpp"
+#include "src/core/base/words.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/process/mpirun.hpp"
 #include "src/core/process/paths.hpp"
@@ -32,6 +35,9 @@ namespace whipple::app {
 namespace {
 
 enum class Device { cpu, reference };
+constexpr auto words(Device /*unused*/) {
+  return std::array{Word<Device>{Device::cpu, "cpu"}, Word<Device>{Device::reference, "reference"}};
+}
 
 struct Arguments {
   std::string case_file;
@@ -53,7 +59,9 @@ run::RunOptions run_options(const Arguments& arguments) {
       .restart = !arguments.restart.empty(),
       .force = arguments.force,
       .threads = arguments.threads,
-      .wall_time = arguments.wall_time.empty() ? 0.0 : units::parse_quantity(arguments.wall_time, "s"),
+      .wall_time = arguments.wall_time.empty()
+                       ? 0.0
+                       : option_quantity("--wall-time", arguments.wall_time, "s", range::positive()),
       .replay = arguments.replay,
       .program = fmt::format("whipple {} ({})", build_info().version, build_info().revision),
       .overrides = {}};
@@ -123,7 +131,6 @@ int run_here(const Arguments& arguments) {
 
 /// Writes a page that shows the bodies of a case as a run starts with them: the first snapshot of a run of one tiny step.
 void write_preview(const Arguments& arguments, const std::string& page_file) {
-  require_new_file(page_file, arguments.force);
   const TemporaryFolder folder;
   run::RunOptions options = run_options(arguments);
   options.output_directory = folder.path() / "start";
@@ -131,6 +138,7 @@ void write_preview(const Arguments& arguments, const std::string& page_file) {
                            {{"time.end", "1e-15 s"}, {"output.snapshot_every", "0 s"}});
   const log::Level level = log::level();
   log::set_level(log::Level::quiet);  // the remarks have been printed
+  set_progress_visible(false);
   run::run_case(options, parallel::world());
   log::set_level(level);
   analysis::Run start = analysis::read_run(options.output_directory);
@@ -175,14 +183,11 @@ void add_run_command(CLI::App& app) {
           "--ranks", arguments->ranks,
           "Start this command on so many MPI ranks of this machine (elsewhere: mpirun whipple run …)")
       ->check(CLI::Range(1, 4096));
-  command
-      ->add_option(
-          "--device", arguments->device,
-          "cpu: kernels for the registers of the processor (default) | reference: plain loops over single "
-          "numbers, five times slower, to compare with")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, Device>{{"cpu", Device::cpu}, {"reference", Device::reference}}))
-      ->type_name("NAME");
+  add_word_option(
+      *command, "--device", arguments->device,
+      "cpu: kernels for the registers of the processor | reference: plain loops over single numbers, five "
+      "times slower, to compare with")
+      ->default_str("cpu");
   command
       ->add_option("--wall-time", arguments->wall_time,
                    "Write a checkpoint and end after this time, e.g. '2 hour'")
@@ -220,6 +225,7 @@ void add_check_command(CLI::App& app) {
       "  whipple check cases/copper_disk_on_aluminium/case.toml --preview disk.html");
   command->callback([arguments, preview] {
     if (arguments->case_file.empty()) throw InputError("expected a case file (CASE.toml)");
+    require_new_file(*preview, arguments->force);
     fmt::print("{}", run::check_case(run_options(*arguments), parallel::world()));
     if (!preview->empty()) write_preview(*arguments, *preview);
   });

@@ -35,7 +35,7 @@ void run_view(ViewOptions options) {
   options.page.most_bytes = 1e6 * options.megabytes;
   const analysis::Run run = analysis::read_run(options.run);
   const view::Page page = view::make_page(run, options.page, process::find_data("web/viewer"));
-  if (options.output.empty()) fs::create_directories(output.parent_path());
+  if (options.output.empty()) make_folder(output.parent_path());
   io::write_text_atomically(output, page.html);
   log::info("wrote {}: {} times, {}, {}", output.string(), page.times,
             page.one_of == 1 ? "all particles" : fmt::format("about one of {} particles", page.one_of),

@@ -269,8 +269,11 @@ class MaterialWriter {
       case Law::simplified_johnson_cook:
         johnson_cook(second, false);
         if (second.real(4) != 0.0 && second.real(4) < 1e16) failure_strain(second.real(4));
-        if (second.real(5) != 0.0 && second.real(5) < 1e16)
-          remark(Outcome::missing, material_, "greatest stress (SIGMAX, SIGSAT)");
+        for (const std::size_t greatest : {5U, 6U}) {
+          if (second.real(greatest) == 0.0 || second.real(greatest) >= 1e16) continue;
+          remark(Outcome::missing, material_,
+                 greatest == 5U ? "greatest stress SIGMAX" : "greatest stress SIGSAT");
+        }
         break;
       case Law::null:
         if (first.real(3) > 0.0) {

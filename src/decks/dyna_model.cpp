@@ -206,6 +206,10 @@ class ModelReader {
   }
 
   void contact(const Block& block) {
+    if (block.keyword.find("_MPP") != std::string::npos) {
+      remark(Outcome::missing, block, "the cards of the option MPP, which come before that of the friction");
+      return;
+    }
     std::size_t card = 1;  // behind the card that says which parts
     if (block.keyword.ends_with("_ID")) card = 2;
     const double friction = card < block.cards.size() ? Fields(deck_, block, block.cards[card]).real(0) : 0.0;
@@ -233,12 +237,17 @@ class ModelReader {
 
   /// A set of nodes, or all; on the second card the velocity.
   void start_of_set(const Block& block) {
-    const Id set = first(block).id(0);
+    const Fields card = first(block);
+    const Id set = card.id(0);
+    if (card.id(1) != 0 || card.id(2) != 0)
+      remark(Outcome::missing, block, "nodes that are exempt (NSIDEX), or those of a box (BOXID)");
     Start start{&block, Vector3::Zero(), {}, {}};
     if (set != 0) start.nodes = members(block, node_sets_, set);
     if (block.cards.size() < 2) fail(block, "has no card with a velocity");
     const Fields second(deck_, block, block.cards[1]);
     start.velocity = Vector3(second.real(0), second.real(1), second.real(2));
+    if (second.real(3) != 0.0 || second.real(4) != 0.0 || second.real(5) != 0.0)
+      remark(Outcome::missing, block, "angular velocity");
     model_.starts.push_back(std::move(start));
   }
 
@@ -264,11 +273,17 @@ class ModelReader {
 };
 
 ModelReader::Readers ModelReader::of_keywords() {
-  static constexpr std::array<std::pair<std::string_view, Reader>, 13> readers = {
+  static constexpr std::array<std::pair<std::string_view, Reader>, 19> readers = {
       {{"NODE", &ModelReader::nodes},
        {"ELEMENT_SOLID", &ModelReader::solids},
        {"ELEMENT_SPH", &ModelReader::points},
        {"PART", &ModelReader::part},
+       {"SET_NODE", &ModelReader::node_set},
+       {"SET_NODE_LIST", &ModelReader::node_set},
+       {"SET_NODE_LIST_GENERATE", &ModelReader::node_set},
+       {"SET_PART", &ModelReader::part_set},
+       {"SET_PART_LIST", &ModelReader::part_set},
+       {"SET_PART_LIST_GENERATE", &ModelReader::part_set},
        {"INITIAL_VELOCITY", &ModelReader::velocity},
        {"INITIAL_VELOCITY_NODE", &ModelReader::velocity_by_nodes},
        {"INITIAL_VELOCITY_GENERATION", &ModelReader::velocity_by_parts},
@@ -282,12 +297,10 @@ ModelReader::Readers ModelReader::of_keywords() {
 }
 
 ModelReader::Readers ModelReader::of_beginnings() {
-  static constexpr std::array<std::pair<std::string_view, Reader>, 7> readers = {
+  static constexpr std::array<std::pair<std::string_view, Reader>, 5> readers = {
       {{"MAT_ADD", nullptr},
        {"MAT_", &ModelReader::material},
        {"EOS_", &ModelReader::state},
-       {"SET_NODE", &ModelReader::node_set},
-       {"SET_PART", &ModelReader::part_set},
        {"CONTACT_", &ModelReader::contact},
        {"DATABASE_", &ModelReader::dropped}}};
   return readers;

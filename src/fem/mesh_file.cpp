@@ -77,8 +77,16 @@ const MeshData::Group& MeshFile::find(const std::string& name, int dimension, in
   if (found == data_.groups.end()) found = std::ranges::find_if(data_.groups, tagged);
   if (found == data_.groups.end()) found = std::ranges::find_if(data_.groups, is_called);
   if (found == data_.groups.end()) {
-    throw InputError(fmt::format("{}: no {} \"{}\"{} The mesh has: {}", data_.path.string(), data_.called,
-                                 name, did_you_mean(name, names), fmt::join(names, ", ")));
+    constexpr std::size_t most_listed = 20;
+    std::vector<std::string> listed = names;
+    if (names.size() > most_listed) {
+      listed.resize(most_listed);
+      listed.push_back(fmt::format("{} more", names.size() - most_listed));
+    }
+    const std::string nearest = did_you_mean(name, names);
+    throw InputError(fmt::format("{}: no {} \"{}\"{} The mesh has: {}.{}", data_.path.string(), data_.called,
+                                 name, nearest.empty() ? "." : nearest, fmt::join(listed, ", "),
+                                 data_.remark));
   }
   constexpr std::array dimensions = {"points", "curves", "surfaces", "volumes"};
   if (found->dimension != dimension) {

@@ -34,6 +34,8 @@ struct MeshData {
   std::vector<Vector3> nodes;             ///< m
   std::vector<Element> elements;
   std::vector<Group> groups;
+  std::string
+      remark;  ///< what a user who misses a group should know; a sentence with a blank before it, or nothing
 };
 
 /// Kinds of elements by the number that Gmsh gives them (Gmsh reference manual, "MSH file format").

@@ -104,7 +104,12 @@ void add_groups(const VtkGrid& grid, MeshData& data) {
       cells[array.values[cell]].push_back(static_cast<std::uint32_t>(cell));
     }
     const bool is_numbering = cells.size() > 1 && cells.size() == array.values.size();
-    if (cells.size() > most_groups || is_numbering) continue;
+    if (cells.size() > most_groups || is_numbering) {
+      data.remark += fmt::format(
+          " The array \"{}\" has {}: it numbers cells, and its values are no groups.", array.name,
+          is_numbering ? "another value in every cell" : fmt::format("more than {} values", most_groups));
+      continue;
+    }
     for (auto& [value, members] : cells)
       add_group(fmt::format("{} {}", array.name, value), std::move(members), data);
   }

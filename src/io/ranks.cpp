@@ -49,12 +49,10 @@ void Ranks::on_root(const std::function<void()>& work) const {
   if (is_root()) {
     try {
       work();
-    } catch (const InputError& error) {
-      outcome = std::string("i") + error.what();
     } catch (const std::bad_alloc&) {
       outcome = "m";
     } catch (const std::exception& error) {
-      outcome = std::string("d") + error.what();
+      outcome = std::string(exit_code(error) == ExitCode::input ? "i" : "d") + error.what();
     }
   }
   outcome = broadcast(outcome);

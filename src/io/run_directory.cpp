@@ -109,7 +109,7 @@ std::string read_text(const fs::path& path) {
 }
 
 std::shared_ptr<const FileLock> lock_run(const fs::path& path) {
-  if (!fs::is_directory(path)) throw InputError(fmt::format("{}: there is no such folder", path.string()));
+  require_folder(path);
   return std::make_shared<const FileLock>(
       path / lock_name, fmt::format("the run directory {}", path.string()), FileLock::IfHeld::refuse);
 }
@@ -163,7 +163,7 @@ RunDirectory RunDirectory::create(const fs::path& path, const std::string& name,
 }
 
 RunDirectory RunDirectory::open(const fs::path& path, const std::string& name) {
-  if (!fs::is_directory(path)) throw InputError(fmt::format("{}: there is no such folder", path.string()));
+  require_folder(path);
   if (!fs::is_regular_file(path / "run.toml")) {
     throw InputError(fmt::format("{}: is not the folder of a run: it contains no run.toml", path.string()));
   }

@@ -145,7 +145,7 @@ std::string Desk::file_of(const std::string& path, std::string& type) const {
 
 std::vector<std::string> Desk::cases() const {
   std::vector<std::string> names;
-  if (cases_.empty()) return names;
+  if (cases_.empty() || folder_.is_run()) return names;
   std::error_code missing;
   for (fs::directory_iterator entry(cases_, missing), last; entry != last; entry.increment(missing)) {
     if (fs::is_regular_file(entry->path() / "case.toml")) names.push_back(entry->path().filename().string());
@@ -229,8 +229,11 @@ Answer Desk::begin(const json& wish) {
   };
   if (run.empty() || run.size() > 100 || run.front() == '-' || !std::ranges::all_of(run, is_plain)) {
     throw InputError(
-        "the name of a run has letters, digits, _ and - only, and begins with none of these signs");
+        "the name of a run has letters, digits, _ and - only, at most 100, and does not begin with -");
   }
+  if (folder_.is_run())
+    throw InputError(fmt::format("{} is a run: a monitor of the folder above it can start others",
+                                 folder_.path().string()));
   const fs::path folder = folder_.path() / run;
   if (fs::exists(folder)) throw InputError(fmt::format("{} exists already", folder.string()));
   std::vector<std::string> arguments = {(cases_ / name / "case.toml").string(), "-o", folder.string()};

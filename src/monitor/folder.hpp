@@ -31,6 +31,8 @@ class Folder {
   explicit Folder(std::filesystem::path path) : path_(std::move(path)) {}
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// Returns whether the folder is itself a run directory.
+  [[nodiscard]] bool is_run() const { return std::filesystem::exists(path_ / "run.toml"); }
   /// Returns the run directory with a name of `runs`. @throws InputError if there is none of this name
   [[nodiscard]] std::filesystem::path run(const std::string& name) const;
 

@@ -2,6 +2,7 @@
 #include "src/monitor/table.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <limits>
@@ -24,6 +25,8 @@ double number_of(const std::string& cell) {
 void GrowingTable::clear() {
   read_ = 0;
   first_line_.clear();
+  last_line_.clear();
+  last_begins_ = 0;
   unfinished_.clear();
   heads_.clear();
   columns_.clear();
@@ -48,9 +51,12 @@ void GrowingTable::look() {
   std::ifstream in(file_, std::ios::binary);
   if (!in) return clear();
   if (!first_line_.empty()) {
-    std::string line;
-    std::getline(in, line);
-    if (size < read_ || line != first_line_) clear();
+    // A run that resumed from an earlier state, or started again, may have written more than was read before.
+    std::string first, last;
+    std::getline(in, first);
+    in.seekg(static_cast<std::streamoff>(last_begins_));
+    std::getline(in, last);
+    if (size < read_ || first != first_line_ || last != last_line_) clear();
   }
   if (size == read_) return;
   in.clear();
@@ -58,11 +64,14 @@ void GrowingTable::look() {
   std::string more(static_cast<std::size_t>(size - read_), '\0');
   in.read(more.data(), static_cast<std::streamsize>(more.size()));
   more.resize(static_cast<std::size_t>(std::max<std::streamsize>(in.gcount(), 0)));
+  const std::uintmax_t unfinished_begins = read_ - unfinished_.size();
   read_ += more.size();
   unfinished_ += more;
   std::size_t begin = 0;
   for (std::size_t end = 0; (end = unfinished_.find('\n', begin)) != std::string::npos; begin = end + 1) {
-    add(unfinished_.substr(begin, end - begin));
+    last_line_ = unfinished_.substr(begin, end - begin);
+    last_begins_ = unfinished_begins + begin;
+    add(last_line_);
   }
   unfinished_.erase(0, begin);
 }
@@ -78,10 +87,10 @@ std::vector<std::size_t> GrowingTable::rows_to_draw(std::size_t column, std::siz
   }
   for (std::size_t part = 0; part < parts; ++part) {
     const std::size_t first = part * values.size() / parts, last = (part + 1) * values.size() / parts - 1;
-    std::size_t smallest = first, largest = first;
+    std::size_t smallest = first, largest = first;  // what is no number is neither
     for (std::size_t row = first; row <= last; ++row) {
-      if (values[row] < values[smallest]) smallest = row;
-      if (values[row] > values[largest]) largest = row;
+      if (values[row] < values[smallest] || std::isnan(values[smallest])) smallest = row;
+      if (values[row] > values[largest] || std::isnan(values[largest])) largest = row;
     }
     std::vector<std::size_t> of_this = {first, smallest, largest, last};
     std::ranges::sort(of_this);

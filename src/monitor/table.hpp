@@ -32,9 +32,10 @@ class GrowingTable {
   void add(const std::string& line);
 
   std::filesystem::path file_;
-  std::uintmax_t read_ = 0;  // bytes
-  std::string first_line_;   // as read, to notice another table
-  std::string unfinished_;   // line
+  std::uintmax_t read_ = 0;             // bytes
+  std::string first_line_, last_line_;  // complete ones as read, to notice another table
+  std::uintmax_t last_begins_ = 0;      // bytes before the last line
+  std::string unfinished_;              // line
   std::vector<std::string> heads_;
   std::vector<std::vector<double>> columns_;
 };

@@ -59,8 +59,7 @@ RunStatus read_status(const std::filesystem::path& run) {
 
 std::vector<std::filesystem::path> find_runs(const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
-  if (!fs::is_directory(folder))
-    throw InputError(fmt::format("{}: there is no such folder", folder.string()));
+  require_folder(folder);
   const auto is_run = [](const fs::path& path) { return fs::exists(path / "status.json"); };
   if (is_run(folder)) return {folder};
   std::vector<fs::path> runs;

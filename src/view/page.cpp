@@ -187,9 +187,7 @@ std::size_t write_clouds(const analysis::Run& run, const std::vector<std::string
                          const fs::path& folder) {
   if (run.snapshots.empty())
     throw InputError(fmt::format("{}: error: has no snapshots", run.folder.string()));
-  std::error_code fault;
-  fs::create_directories(folder, fault);
-  if (fault) throw InputError(fmt::format("{}: error: {}", folder.string(), fault.message()));
+  make_folder(folder);
   for (const analysis::SnapshotEntry& entry : run.snapshots) {
     const std::string cloud = pack_cloud(run, analysis::read_snapshot(entry), {fields});
     io::write_text_atomically(folder / (entry.file.stem().string() + ".wpv.gz"), gzipped(cloud));

@@ -59,9 +59,9 @@ class CommandLine : public ::testing::Test {
 };
 
 TEST_F(CommandLine, EverySubcommandHasHelpWithAnExample) {
-  for (const char* command :
-       {"run", "check", "status", "steer", "import", "eos", "md", "fit", "compare", "analyse", "report",
-        "describe", "materials", "cite", "units", "bench", "version"}) {
+  for (const char* command : {"run", "check",    "edit",      "status",  "steer",  "export", "import",
+                              "md",  "fit",      "compare",   "analyse", "report", "view",   "monitor",
+                              "eos", "describe", "materials", "cite",    "units",  "bench",  "version"}) {
     const Result result = whipple(std::string(command) + " --help");
     EXPECT_EQ(result.code, 0) << command;
     EXPECT_THAT(result.out, HasSubstr("Example")) << command;
@@ -106,6 +106,58 @@ TEST_F(CommandLine, WrongArgumentsHaveExitCodeTwo) {
   EXPECT_EQ(whipple("version surplus").code, 2);
   EXPECT_EQ(whipple("units --to m").code, 2) << "nothing to convert";
   EXPECT_EQ(whipple("units '3 cakes'").code, 2) << "no unit";
+}
+
+/// The option and what it accepts, in the words of the manual.
+TEST_F(CommandLine, WrongWordsAndQuantitiesNameTheirOption) {
+  for (const auto& [arguments, said] : std::vector<std::pair<std::string, std::string>>{
+           {"export run -o out --format xml", "--format: xml not in {vtu,csv}"},
+           {"run case.toml --device gpu", "--device: gpu not in {cpu,reference}"},
+           {"run case.toml --device 1", "--device: 1 not in {cpu,reference}"},
+           {"run case.toml --wall-time 5", "--wall-time: is 5 without a unit"},
+           {"run case.toml --wall-time '-5 s'", "--wall-time: is -5 s, but must be > 0 s"},
+           {"analyse run --witness '5 s'", "--witness: unit 's' has the wrong dimension"},
+           {"analyse run --pixel '0 mm'", "--pixel: is 0 mm, but must be > 0 m"},
+           {"analyse run --spot '-1 mm'", "--spot: is -1 mm, but must be >= 0 m"},
+           {"analyse run --attenuation ball=1", "--attenuation ball: is 1 without a unit"},
+           {"fit x.md.h5 --reference-temperature '-3 K'",
+            "--reference-temperature: is -3 K, but must be > 0 K"},
+           {"fit x.md.h5 --density '-3 g/cc'", "--density: is -3 g/cc, but must be > 0 kg/m^3"},
+           {"monitor . --cases nowhere", "nowhere: error: there is no such folder"},
+           {"monitor .stdout", ".stdout: error: is not a folder"},
+           {"status .stdout", ".stdout: error: is not a folder"}}) {
+    const Result result = whipple(arguments);
+    EXPECT_EQ(result.code, 2) << arguments;
+    EXPECT_THAT(result.err, HasSubstr(said)) << arguments;
+    EXPECT_EQ(result.out, "") << arguments;
+  }
+}
+
+TEST_F(CommandLine, CiteRefusesWhatIsNoMaterialBeforeItPrints) {
+  write("case.toml", "title = \"no material\"\n[domain]\ncell_size = \"1 mm\"\n");
+  for (const char* name : {"case.toml", "nothing"}) {
+    const Result result = whipple(std::string("cite copper ") + name);
+    EXPECT_EQ(result.code, 2) << name;
+    EXPECT_EQ(result.out, "") << name;
+    EXPECT_THAT(result.err, HasSubstr(name));
+  }
+}
+
+TEST_F(CommandLine, AListOfStatesNamesItsFaultyLine) {
+  const auto refused = [&](const std::string& text) {
+    write("states.csv", text);
+    const Result result = whipple("eos state copper --states states.csv");
+    EXPECT_EQ(result.code, 2) << text;
+    return result.err;
+  };
+  EXPECT_THAT(refused("density [g/cm^3],temperature [K]\n9,300\n9,\n"),
+              HasSubstr("states.csv:3: 1 quantities, but a state is named by two"));
+  EXPECT_THAT(refused("density [g/cm^3],density [g/cm^3]\n9,9\n"),
+              HasSubstr("states.csv:1: a second column \"density\""));
+  write("states.csv",
+        "\xEF\xBB\xBF"
+        "density [g/cm^3],temperature [K]\r\n9,300\r\n");  // of a spreadsheet
+  EXPECT_EQ(whipple("eos state copper --states states.csv").code, 0);
 }
 
 TEST_F(CommandLine, BenchWritesItsFiguresAndComparesThem) {

@@ -8,6 +8,7 @@ Usage: app_export.py WHIPPLE CASE.toml
 import csv
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -125,6 +126,18 @@ def main():
             centres = vtk["Points"][:][vtk["Connectivity"][:].reshape(-1, 8)].astype(float).mean(axis=1)
             found = np.array([[float(row[f"{a} [m]"]) for a in "xyz"] for row in rows])
             require(np.allclose(found, centres, rtol=1e-6, atol=1e-12), "centres of the elements")
+
+        # What is refused leaves nothing behind.
+        for name, code in (("pressure,hardness", 2), ("", 2)):
+            whipple("export", run, "-o", folder / "refused", "--fields", name, code=code)
+            require(not (folder / "refused").exists(), f"a folder in spite of --fields {name!r}")
+        whipple("export", run, "-o", "/proc/nowhere", code=2)
+        shutil.copytree(run, folder / "without_elements")
+        for path in (folder / "without_elements").glob("*.elements.*"):
+            path.unlink()
+        whipple("export", folder / "without_elements", "-o", folder / "particles", "--last")
+        files = sorted(path.name for path in (folder / "particles").iterdir())
+        require(len(files) == 2 and all("particles" in name for name in files), f"{files}")
 
         # The elements as the mesh of a body of another run.
         first = folder / "vtu" / entries[0][1].replace("particles", "elements")

@@ -200,6 +200,10 @@ def main():
         require([run["name"] for run in monitor.get("/runs")["runs"]] == ["."], "a run directory itself")
         require(monitor.get("/run?run=.")["rows"] > 1, "its history")
         require(monitor.post("/steer", {"run": ".", "request": "pause", "value": ""})[0] == 403, "it only shows")
+    with Monitor(runs / "ball", "--cases", str(FOLDER / "cases")) as monitor:
+        require(monitor.get("/runs")["cases"] == [], "no cases to start inside of a run")
+        status, body = monitor.post("/start", {"case": "small_impact", "run": "inside", "set": []})
+        require(status == 400 and not (runs / "ball" / "inside").exists(), f"no run inside of a run: {status} {body}")
     taken = socket.create_server(("127.0.0.1", 0))
     refused = subprocess.run([WHIPPLE, "monitor", str(runs), "--port", str(taken.getsockname()[1])], capture_output=True, text=True)
     require(refused.returncode == 2 and "cannot be used" in refused.stderr, f"a port in use: {refused}")

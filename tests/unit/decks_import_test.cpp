@@ -338,6 +338,31 @@ TEST(DynaDeck, WhatIsNotReadIsMissingByNameAndNumber) {
   EXPECT_THAT(foam.report(), HasSubstr("part_2: this material law"));
 }
 
+/// What a card says beyond what is read is not left out in silence.
+TEST(DynaDeck, OptionsThatChangeTheMeaningOfCardsAreMissing) {
+  const auto report = [](const std::string& from, const std::string& to) {
+    return import_keywords(bar_deck(from, to)).report();
+  };
+  const std::string start =
+      "*INITIAL_VELOCITY_GENERATION\n         7         1       0.0       0.0       0.0    &speed\n";
+  EXPECT_THAT(report(start, "*INITIAL_VELOCITY\n0, 0, 3\n0.0, 0.0, -200.0\n"),
+              HasSubstr("those of a box (BOXID)"));
+  EXPECT_THAT(report(start, "*INITIAL_VELOCITY\n0, 9, 0\n0.0, 0.0, -200.0\n"), HasSubstr("exempt (NSIDEX)"));
+  EXPECT_THAT(report(start, "*INITIAL_VELOCITY\n0\n0.0, 0.0, -200.0, 0.0, 5.0\n"),
+              HasSubstr("angular velocity"));
+  EXPECT_THAT(report(start, "*INITIAL_VELOCITY\n0\n0.0, 0.0, -200.0\n"), HasSubstr("missing (0)"));
+  EXPECT_THAT(report("*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE\n",
+                     "*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE_MPP\n0, 200\n"),
+              HasSubstr("the cards of the option MPP"));
+  EXPECT_THAT(report("*CONTACT_", "*SET_NODE_ADD\n9\n1, 2\n*CONTACT_"),
+              HasSubstr("*SET_NODE_ADD  not read, 1 time"))
+      << "its members are sets";
+  EXPECT_THAT(
+      report("*MAT_PLASTIC_KINEMATIC\n2, 7.85e-6, 210.0, 0.3, 0.4, 1.0, 1.0\n",
+             "*MAT_SIMPLIFIED_JOHNSON_COOK\n2, 7.85e-6, 210.0, 0.3\n0.4, 0.5, 0.3, 0.01, 0, 0, 0.9, 1e-3\n"),
+      HasSubstr("greatest stress SIGSAT"));
+}
+
 TEST_F(ImportFolder, AnExplosiveOfAKeywordDeckIsLit) {
   const auto deck = [](const std::string& detonation) {
     std::string text = bar_deck("*MAT_PLASTIC_KINEMATIC\n2, 7.85e-6, 210.0, 0.3, 0.4, 1.0, 1.0\n",

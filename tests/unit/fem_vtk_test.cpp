@@ -69,6 +69,25 @@ TEST_F(Vtk, WithoutArraysOfIntegersAllCellsAreOneGroup) {
   EXPECT_THROW(file.hexahedra("all"), InputError) << "the line is no hexahedron";
 }
 
+/// An array that numbers the cells makes no groups; who asks for one of them is told.
+TEST_F(Vtk, NumbersOfCellsAreNoGroups) {
+  std::string text = text_of("boxes_ascii.vtu");
+  const std::size_t values = text.find("0 0 1 2");
+  ASSERT_NE(values, std::string::npos);
+  text.replace(values, 7, "0 3 1 2");
+  std::ofstream(folder_ / "numbered.vtu") << text;
+  const auto file = fem::MeshFile::read(folder_ / "numbered.vtu");
+  EXPECT_EQ(file.group_names(), std::vector<std::string>{"all"});
+  try {
+    static_cast<void>(file.hexahedra("body 3"));
+    FAIL() << "a group of one cell";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("no group \"body 3\". The mesh has: all. The array \"body\" has another "
+                          "value in every cell: it numbers cells"));
+  }
+}
+
 TEST_F(Vtk, VoxelsAreHexahedraWithAnotherOrder) {
   std::ofstream(folder_ / "voxel.vtk")
       << "# vtk DataFile Version 3.0\nvoxel\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 float\n"

@@ -61,6 +61,15 @@ TEST(TextEdit, ReplacesValuesAndNothingElse) {
             replaced(case_text, "\"symmetry\"", "\"no_slip\""));
 }
 
+/// What is no number differs from itself, but a text that holds it can be changed elsewhere.
+TEST(TextEdit, ChangesTextsThatHoldWhatIsNoNumber) {
+  const std::string text = "rate = nan\nlist = [1.0, nan, -inf]\nslope = 1.5\n[eos]\na = 1\n";
+  EXPECT_EQ(with_key(text, "slope", "2.5"), replaced(text, "1.5", "2.5"));
+  EXPECT_EQ(with_key(text, "rate", "3.5"), replaced(text, "rate = nan", "rate = 3.5"));
+  EXPECT_EQ(with_key(text, "slope", "nan"), replaced(text, "1.5", "nan"));
+  EXPECT_EQ(with_key(text, "eos.b", "2"), replaced(text, "a = 1\n", "a = 1\nb = 2\n"));
+}
+
 TEST(TextEdit, SaysWhatWasReplacedAndWhere) {
   const TextEdit edit = set_in_text(case_text, "case.toml", "domain.cell_size", "0.5 mm");
   EXPECT_EQ(edit.before, "\"1 mm\"");

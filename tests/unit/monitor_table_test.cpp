@@ -42,6 +42,37 @@ TEST(GrowingTable, ReadsWhatIsNewAndBeginsAgainWhenTheTableIsAnother) {
   EXPECT_EQ(table.rows(), 1U);
 }
 
+/// A run that started again between two looks has written more than was read before, below the same heads.
+TEST(GrowingTable, DoesNotMixTheRowsOfTwoRuns) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "history.csv";
+  GrowingTable table(file);
+  append(file, "step,time [s]\n1,0.5\n2,1.5\n");
+  table.look();
+  append(file, "3,2.5\n");
+  table.look();
+  EXPECT_EQ(table.column(1), (std::vector<double>{0.5, 1.5, 2.5}));
+  std::filesystem::remove(file);
+  append(file, "step,time [s]\n1,0.1\n2,0.2\n3,0.3\n4,0.4\n5,0.5\n");
+  table.look();
+  EXPECT_EQ(table.column(1), (std::vector<double>{0.1, 0.2, 0.3, 0.4, 0.5}));
+}
+
+TEST(GrowingTable, DrawsPeaksBesideWhatIsNoNumber) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "gauges.csv";
+  std::ofstream out(file);
+  out << "step,y\n";
+  for (int i = 0; i < 1000; ++i) out << i << ',' << (i % 100 < 3 ? "nan" : i % 100 == 50 ? "9" : "1") << '\n';
+  out.close();
+  GrowingTable table(file);
+  table.look();
+  const std::vector<std::size_t> rows =
+      table.rows_to_draw(1, 40);  // ten parts, each of which begins with nan
+  for (std::size_t peak = 50; peak < 1000; peak += 100)
+    EXPECT_TRUE(std::ranges::find(rows, peak) != rows.end()) << peak;
+}
+
 TEST(GrowingTable, DrawsFewRowsAndEveryPeak) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "history.csv";

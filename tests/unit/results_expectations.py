@@ -17,6 +17,7 @@ sys.path.insert(0, str(ROOT))
 from checks import require  # noqa: E402
 from report import measured, sensitivity  # noqa: E402
 from studies.validation import comparison, execution, page, provenance, variants  # noqa: E402
+from report.expectations import KIND_OF_UNIT  # noqa: E402
 from studies.validation.cases import UNITS, BadExpectation, Case, Expectation, apply  # noqa: E402
 
 
@@ -48,6 +49,10 @@ def units_are_those_of_the_program():
     kinds = {"m": "m", "cm": "m", "mm": "m", "um": "m", "s": "s", "ms": "s", "us": "s", "ns": "s", "m/s": "m/s",
              "km/s": "m/s", "kg": "kg", "g": "kg", "mg": "kg", "J": "J", "kJ": "J", "Pa": "Pa", "MPa": "Pa", "GPa": "Pa",
              "K": "K", "degree": "rad"}
+    require(set(KIND_OF_UNIT) == set(UNITS), f"units without a kind: {set(UNITS) ^ set(KIND_OF_UNIT)}")
+    for one in kinds:
+        for other in kinds:
+            require((kinds[one] == kinds[other]) == (KIND_OF_UNIT[one] == KIND_OF_UNIT[other]), f"{one} and {other}")
     require(set(UNITS) == {"", "1", "%", *kinds}, f"units without a kind: {set(UNITS) - set(kinds)}")
     for unit, si in kinds.items():
         done = subprocess.run([WHIPPLE, "units", f"1 {unit}", "--to", si], capture_output=True, text=True, check=True)
@@ -78,7 +83,16 @@ def mistakes_are_named():
                          ({"kind": "record", "unit": "stone"}, "stone"),
                          ({"value": 1, "tolerance": 1, "measure": "jet_fraction.strip", "speed": "1 m/s"}, "time"),
                          ({"value": 1, "tolerance": 1, "class": "rumour"}, "rumour"),
-                         ({"value": 1, "tolerance": 1, "class": "record"}, "record")):
+                         ({"value": 1, "tolerance": 1, "class": "record"}, "record"),
+                         ({"value": "14 mm", "tolerance": "1 us"}, "tolerance: '1 us' is a time, expected a length"),
+                         ({"value": "14 mm", "tolerance": 1}, "tolerance: 1 is a number, expected a length"),
+                         ({"value": 14, "tolerance": "1 mm"}, "tolerance: '1 mm' is a length, expected a number"),
+                         ({"value": "14 mm", "tolerance": "-1 mm"}, "negative"),
+                         ({"value": math.nan, "tolerance": 1}, "not finite"),
+                         ({"value": 1, "tolerance": 1, "time": "5 mm"}, "time: '5 mm' is a length, expected a time"),
+                         ({"value": 1, "tolerance": 1, "measure": "jet_speed.x", "fraction": "5 mm"}, "expected a number"),
+                         ({"value": 1, "tolerance": 1, "measure": "wall_speed.x", "place": "5 us", "travel": "1 mm"},
+                          "place: '5 us' is a time, expected a length")):
         try:
             expectation(**keys)
         except BadExpectation as error:

@@ -14,6 +14,7 @@ export class Cloud {
   constructor(run) {
     this.run = run;
     this.times = new Times();
+    this.own = this.times.sources;
     this.viewer = null;
     this.root = element('section', { id: 'viewer', 'aria-label': 'Snapshots in three dimensions' }, element('p', { class: 'note' }, 'No snapshot yet.'));
   }
@@ -24,14 +25,20 @@ export class Cloud {
 
   /** @param snapshots  times of all that there are, s */
   async follow(snapshots) {
-    const { sources } = this.times, before = sources.length;
+    const sources = this.own;
+    if (this.times.sources !== sources) return;  // files that a person has opened are shown
+    if (sources.some(({ time }, index) => time !== snapshots[index])) {  // another run of this name, or from an earlier state on
+      sources.length = 0;
+      this.times.held.clear();
+    }
+    const before = sources.length;
     for (let index = before; index < snapshots.length; ++index) {
       sources.push({ time: snapshots[index], bytes: () => askBytes('/cloud', { run: this.run, index, particles: MOST_PARTICLES }) });
     }
     if (sources.length === before || this.failed) return;
     const last = sources.length - 1;
     if (this.viewer) {
-      if (this.viewer.index === before - 1) await this.viewer.show(last); else this.viewer.changed();
+      if (this.viewer.index === before - 1 || before === 0) await this.viewer.show(last); else this.viewer.changed();
       return;
     }
     try {

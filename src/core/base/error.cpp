@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <new>
 #include <system_error>
 #include <utility>
@@ -38,6 +39,8 @@ InputError::InputError(std::vector<InputFault> faults)
 
 ExitCode exit_code(const std::exception& error) {
   if (dynamic_cast<const InputError*>(&error) != nullptr) return ExitCode::input;
+  // A path that the system refuses is no defect of the program.
+  if (dynamic_cast<const std::filesystem::filesystem_error*>(&error) != nullptr) return ExitCode::input;
   if (dynamic_cast<const StateError*>(&error) != nullptr) return ExitCode::state;
   if (dynamic_cast<const ResourceError*>(&error) != nullptr) return ExitCode::state;
   if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) return ExitCode::state;

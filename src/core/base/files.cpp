@@ -72,6 +72,27 @@ void require_new_figure(const fs::path& path, bool force) {
   require_new_file(path, force);
 }
 
+void require_folder(const fs::path& path) {
+  require_no_file(path);
+  std::error_code ignored;
+  if (!fs::exists(path, ignored))
+    throw InputError(fmt::format("{}: error: there is no such folder", path.string()));
+}
+
+void require_no_file(const fs::path& path) {
+  std::error_code ignored;
+  const fs::file_status status = fs::status(path, ignored);
+  if (fs::exists(status) && !fs::is_directory(status))
+    throw InputError(fmt::format("{}: error: is not a folder", path.string()));
+}
+
+void make_folder(const fs::path& path) {
+  require_no_file(path);
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) fail(path, "make the folder", error.value());
+}
+
 PartialFile::PartialFile(fs::path target) : target_(std::move(target)) {
   std::random_device random;
   int file = -1;

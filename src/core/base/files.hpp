@@ -22,6 +22,17 @@ void require_new_file(const std::filesystem::path& path, bool force);
 /// Checks that a figure can be written as `require_new_file` does, and that its ending is one of png, pdf, svg.
 void require_new_figure(const std::filesystem::path& path, bool force);
 
+/// @throws InputError naming it if there is no such folder
+void require_folder(const std::filesystem::path& path);
+
+/// A folder for results may be missing, but nothing else may have its name.
+/// @throws InputError naming it
+void require_no_file(const std::filesystem::path& path);
+
+/// Makes a folder and those above it; one that exists stays as it is.
+/// @throws InputError naming it and the reason of the system
+void make_folder(const std::filesystem::path& path);
+
 /// A file in the making. It lies beside its target under a name of its own, NAME.XXXXXXXX.partial, and takes
 /// the target's name when it is complete: readers see the old file or the new one. Neither links nor files
 /// of others are followed or overwritten, and what is given up is removed.

@@ -16,6 +16,7 @@ namespace whipple::run {
 namespace {
 
 constexpr double much_unresolved = 0.05;  // of the kinetic energy
+constexpr double nearly_at_rest = 0.05;   // of the kinetic energy at the start
 
 std::string profile_as_json(const Moment& moment, const solver::Profile& profile) {
   const solver::Simulation& simulation = moment.simulation;
@@ -45,10 +46,12 @@ void tell(const Moment& moment) {
     const double count = ledger.*(limiter.count);
     if (count > 0.0) log::info("{}: {:.0f} times", limiter.meaning, count);
   }
-  if (totals.unresolved_share() > much_unresolved) {
+  // Of bodies that have come to rest the remainder is no motion of fragments.
+  const bool at_rest = totals.kinetic_energy < nearly_at_rest * ledger.initial.kinetic_energy;
+  if (totals.unresolved_share() > much_unresolved && !at_rest) {
     log::info(
-        "{:.3g} % of the kinetic energy is motion that the cells do not resolve: finer cells would change "
-        "the result",
+        "motion that the cells do not resolve has {:.3g} % of the kinetic energy of the motion that they "
+        "resolve: finer cells would change the result",
         100.0 * totals.unresolved_share());
   }
 }
