@@ -6,6 +6,7 @@ dependencies and imports of Python; include cycles, comparisons with texts, and 
 Usage: check_layers.py [ROOT]      check the tree (default: the one that this script belongs to)
        check_layers.py --self-test  check that every rule finds its violation in a tree made for it
 """
+import os
 import pathlib
 import re
 import sys
@@ -269,6 +270,14 @@ def check_sizes(root):
     return faults
 
 
+def check_executable(root):
+    """A script that names its interpreter can be started by its name, as the documents do."""
+    return [f"{path.relative_to(root).as_posix()}: begins with #! and is not executable: chmod +x"
+            for folder in ("scripts", "studies", "report", "tests", "web") for ending in ("*.py", "*.sh")
+            for path in sorted((root / folder).rglob(ending))
+            if "node_modules" not in path.parts and path.read_bytes().startswith(b"#!") and not os.access(path, os.X_OK)]
+
+
 def check_table():
     """The table has an order: a module uses none that stands behind it."""
     order = {module: place for place, module in enumerate(MAY_USE)}
@@ -278,7 +287,7 @@ def check_table():
 
 def check(root):
     return check_table() + check_sources(root) + check_allowed_words(root) + check_cmake(root) + check_python(root) + \
-        check_sizes(root)
+        check_sizes(root) + check_executable(root)
 
 
 def self_test():
@@ -317,6 +326,7 @@ def self_test():
                                         "src/transfer may not link whipple_material"),
         "src/solver/long.cpp": ("\n" * 501, "src/solver/long.cpp: 501 lines, at most 500"),
         "src/solver/long.hpp": ("\n" * 251, "src/solver/long.hpp: 251 lines, at most 250"),
+        "studies/one/unstartable.py": ("#!/usr/bin/python3\n", "studies/one/unstartable.py: begins with #! and is not executable"),
         "report/knows_studies.py": ("from studies.validation import bands\n", "report may not import studies"),
     }
     good = {
