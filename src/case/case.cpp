@@ -10,7 +10,6 @@
 #include "src/case/build/bars.hpp"
 #include "src/case/build/placement.hpp"
 #include "src/case/shapes/mesh_shape.hpp"
-#include "src/case/snapshot_limit.hpp"
 #include "src/core/base/error.hpp"
 #include "src/io/output_fields.hpp"
 #include "src/material/material_file.hpp"
@@ -177,9 +176,6 @@ std::vector<InputFault> settle(Case& setup) {
   const std::size_t of_files = list.size();
   if (setup.bodies.empty()) faults.add("body", "no bodies: expected at least one [[body]]");
   input::check_content(setup, setup, faults);
-  if (const std::string fault = too_many_snapshots(setup.output.snapshot_every, setup.time.end);
-      !fault.empty())
-    faults.in("output").add("snapshot_every", fault);
   if (setup.domain.is_planar()) check_planar(setup, faults);
   check_explosives(setup, faults);
   // Only sound values can be placed.

@@ -11,7 +11,6 @@
 #include <thread>
 #include <vector>
 
-#include "src/case/snapshot_limit.hpp"
 #include "src/core/base/csv.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/log.hpp"
@@ -29,10 +28,7 @@ std::string obstacle(const Request& request, const Moment& moment) {
   if (request.act == Act::end && request.value > 0.0 && request.value < moment.time()) {
     return fmt::format("the run is at t = {} s already; without a value it ends now", moment.time());
   }
-  if (request.act != Act::snapshot_every && request.act != Act::end) return "";
-  const bool ends = request.act == Act::end;
-  return cases::too_many_snapshots(ends ? moment.schedule.snapshot_every : request.value,
-                                   (ends ? request.value : moment.schedule.end) - moment.time());
+  return "";
 }
 
 /// Returns the number that a request replaces, with its unit; empty if it replaces none.

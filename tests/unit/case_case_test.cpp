@@ -59,8 +59,6 @@ TEST(Case, RefusesCombinationsThatHaveNoMeaning) {
   expect_error(replaced(domain, "\"symmetry\" }", "\"mirror\" }") + sphere,
                {"Accepted: outflow, symmetry, no_slip, separating"});
   expect_error(domain, {"no bodies"});
-  expect_error(domain + sphere + "[output]\nsnapshot_every = \"1e-18 s\"\n",
-               {"case.toml:", "snapshots, but a run has at most 1e+06"});
   expect_error(domain + replaced(sphere, "\"sphere\"", "\"../sphere\""),
                {"'name' is \"../sphere\"", "letters, digits"});
 }
