@@ -6,10 +6,8 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <optional>
 #include <span>
-#include <type_traits>
 #include <vector>
 
 #include "src/core/base/error.hpp"
@@ -129,26 +127,6 @@ std::vector<std::string> with_new_key(const std::string& text, std::span<toml::n
   return texts;
 }
 
-/// Returns whether two values are the same. What is no number is the same as what is no number, other than by ==.
-bool same(const toml::node& a, const toml::node& b) {
-  if (a.type() != b.type()) return false;
-  if (const toml::table* table = a.as_table()) {
-    return std::ranges::equal(*table, *b.as_table(), [](const auto& x, const auto& y) {
-      return x.first == y.first && same(x.second, y.second);
-    });
-  }
-  if (const toml::array* array = a.as_array()) {
-    return std::ranges::equal(*array, *b.as_array(), [](const auto& x, const auto& y) { return same(x, y); });
-  }
-  if (const auto* number = a.as_floating_point(); number != nullptr && std::isnan(number->get()))
-    return std::isnan(b.as_floating_point()->get());
-  return a.visit([&](const auto& value) {
-    using Value = std::remove_cvref_t<decltype(value)>;
-    if constexpr (toml::is_value<Value>) return value == *b.as<Value>();
-    return false;
-  });
-}
-
 }  // namespace
 
 TextEdit set_in_text(const std::string& text, const std::filesystem::path& file, std::string_view key,
@@ -177,7 +155,7 @@ TextEdit set_in_text(const std::string& text, const std::filesystem::path& file,
   }
   for (std::string& candidate : texts) {
     try {
-      if (!same(parse_toml(candidate, file), expected)) continue;
+      if (parse_toml(candidate, file) != expected) continue;
     } catch (const InputError&) {
       continue;
     }
