@@ -126,20 +126,26 @@ class Fitted:
         return f"{value:.{decimals}f} ± {self.errors[key]:.{decimals}f} ({self.noise[key]:.{max(decimals, 3)}f})"
 
 
+def deviation_of(report, experiment, material):
+    """The rms of a material against an experiment with its unit, in the table of `whipple compare`; None if it is not there."""
+    row = re.compile(rf"^{re.escape(experiment)} .*\s{re.escape(material)}\s.*$", re.MULTILINE).search(report)
+    if not row:
+        return None
+    words = row[0].split()
+    unit_at = next(i for i, word in enumerate(words) if word in ("%", "GPa"))
+    return f"{words[unit_at - 3]} {' '.join(words[unit_at:])}"
+
+
 def compare(fits, experiments, binaries):
     """rms of each material against each experiment, with its unit."""
     good = [fit for fit in fits if not fit.fault]
     if not experiments or not good:
         return
     out = call([binaries / "whipple", "compare", *[fit.material for fit in good], "--with", *experiments]).stdout
-    for line in out.splitlines():
-        for fit in good:
-            for experiment in experiments:
-                if line.startswith(experiment) and re.search(rf"\s{re.escape(fit.material.stem)}\s", line):
-                    words = line.split()
-                    unit_at = next(i for i, word in enumerate(words) if word in ("%", "GPa"))
-                    rms = words[unit_at - 3]
-                    fit.deviations[experiment] = f"{rms} {' '.join(words[unit_at:])}"
+    for fit in good:
+        for experiment in experiments:
+            if text := deviation_of(out, experiment, fit.material.stem):
+                fit.deviations[experiment] = text
 
 
 def distance(fit, row):

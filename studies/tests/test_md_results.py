@@ -37,3 +37,10 @@ class Tables(unittest.TestCase):
         self.assertEqual(study.largest_factor({"inflation_shock_velocity": 4.44, "inflation_heat_of_fusion": 1.0,
                                                "model_error_volume": 9.0}), "4.4 (shock velocity)")
         self.assertEqual(study.largest_factor({"inflation_shock_velocity": 1.0}), "1")
+
+    def test_deviations_are_those_of_the_table_and_not_of_its_notes(self):
+        report = ("experiment             kind      material   points  range                   rms    mean  largest  unit\n"
+                  "cu_hugoniot_marsh1980  Hugoniot  copper_u3     144  up 0.21 ... 4.16 km/s  4.85   -4.46    -9.48  % of Us\n"
+                  "cu_hugoniot_marsh1980: lines 7-26 initially denser than copper_u3 by more than 1 %, compared as of its density\n")
+        self.assertEqual(study.deviation_of(report, "cu_hugoniot_marsh1980", "copper_u3"), "4.85 % of Us")
+        self.assertIsNone(study.deviation_of(report, "cu_hugoniot_marsh1980", "copper_u6"))
