@@ -198,7 +198,7 @@ TEST_P(ExactImpact, HeatsAndReleases) { expect_impact(GetParam(), false); }
 TEST_P(ExactImpactFine, HeatsAndReleases) { expect_impact(GetParam(), true); }
 
 // Mass-weighted, against the release of the same equation of state. Copper is short of it by what its plateau
-// lacks of entropy, 1.2 % (docs/generated/exact_suite.md): 0.054 with cells of 0.05 mm.
+// lacks of entropy, 1.2 % (docs/generated/exact_suite.md): 0.05 with cells of 0.05 and 0.025 mm.
 class ExactMelting : public testing::TestWithParam<PlanarImpact> {};
 TEST_P(ExactMelting, MeltsTheShareThatTheReleaseMelts) {
   const Result result = run(GetParam(), 0.1e-3);

@@ -90,9 +90,14 @@ void write_table(const std::string& path, const std::string& only) {
               runs);
   };
   for (const PlanarImpact& impact : planar_impacts()) add_impact(impact, {0.4e-3, 0.2e-3, 0.1e-3});
-  // The melted fraction is the figure that converges last.
-  for (const PlanarImpact& impact : melting_impacts())
-    add_impact(impact, {0.4e-3, 0.2e-3, 0.1e-3, 0.05e-3, 0.025e-3});
+  // Heat of the cells that particles cross shows in the melted fraction first: the same impact in a frame in which
+  // nothing moves behind the shocks crosses few.
+  std::vector<PlanarImpact> melting = melting_impacts();
+  PlanarImpact at_rest = melting.at(1);
+  at_rest.name += ", centre of mass at rest";
+  at_rest.frame = 0.5 * at_rest.speed;
+  melting.push_back(at_rest);
+  for (const PlanarImpact& impact : melting) add_impact(impact, {0.4e-3, 0.2e-3, 0.1e-3, 0.05e-3, 0.025e-3});
   suite.add("Elastic-plastic piston",
             "Precursor and plastic shock in aluminium, relative to the state at the wall.",
             {[] { return elastic_plastic_piston(50); }, [] { return elastic_plastic_piston(100); },
