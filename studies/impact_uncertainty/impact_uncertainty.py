@@ -3,11 +3,12 @@
 """How far do the errors of a fitted equation of state reach into an impact? Draws materials of disk and plate by tier of
 the errors (noise, fit, potentials), evaluates the release thresholds of each tier, runs an ensemble of axisymmetric
 copper-on-aluminium impacts, and splits the bands on melted mass, front and hole into statistics, model, potential,
-lattice and grid. With --thresholds: shock pressures of melting and vaporisation. With --defaults: every default of the fitted materials changed by itself, and what the cloud makes of it.
-Writes the tables of README.md.
+lattice and grid (part "bands"); shock pressures of melting and vaporisation ("thresholds"); every default of the fitted
+materials changed by itself, and what the cloud makes of it ("defaults"). Writes the tables of README.md.
 
-Usage: studies/impact_uncertainty/impact_uncertainty.py [--stores run/md] [--members 12] [--cell "0.4 mm"] [--thresholds | --defaults]
-                                                        [--bin build/release/bin] [-o run/impact_uncertainty]
+Usage: studies/impact_uncertainty/impact_uncertainty.py [--stores run/md] [--members 12] [--cell "0.4 mm"]
+                                                        [--parts bands thresholds defaults] [--bin build/release/bin]
+                                                        [-o run/impact_uncertainty]
 
 Stores: those of studies/fit_calibration (cases/md/*_short.toml).
 """
@@ -265,24 +266,25 @@ def write(section, text):
     print(text)
 
 
+PARTS = ("bands", "thresholds", "defaults")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build/release/bin")
     parser.add_argument("--stores", type=pathlib.Path, default=ROOT / "run/md")
     parser.add_argument("--members", type=int, default=12)
     parser.add_argument("--cell", default="0.4 mm")
-    parser.add_argument("--thresholds", action="store_true", help="the release thresholds of each tier instead")
     parser.add_argument("--threshold-samples", type=int, default=100)
-    parser.add_argument("--defaults", action="store_true", help="the one-at-a-time table of the defaults instead")
+    parser.add_argument("--parts", nargs="+", choices=PARTS, default=PARTS,
+                        help="bands of the impact; release thresholds of each tier; defaults, one at a time (default: all)")
     parser.add_argument("-o", "--output", type=pathlib.Path, default=ROOT / "run/impact_uncertainty")
     options = parser.parse_args()
     ensemble = Ensemble(options)
-    if options.defaults:
-        write("defaults", defaults_section(options, ensemble))
-    elif options.thresholds:
-        write("thresholds", thresholds_section(options))
-    else:
-        write("bands", uncertainty_section(options, ensemble))
+    sections = {"bands": lambda: uncertainty_section(options, ensemble), "thresholds": lambda: thresholds_section(options),
+                "defaults": lambda: defaults_section(options, ensemble)}
+    for part in options.parts:
+        write(part, sections[part]())
 
 
 if __name__ == "__main__":
