@@ -37,9 +37,11 @@ if(WHIPPLE_PYTHON)
   add_test(NAME report COMMAND ${WHIPPLE_PYTHON} -m unittest discover -s report/tests -t .
            WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
   set_tests_properties(report PROPERTIES LABELS fast TIMEOUT 120)
-  add_test(NAME io_report COMMAND ${WHIPPLE_PYTHON} ${PROJECT_SOURCE_DIR}/report/tests/synthetic_cloud.py
-           ${CMAKE_CURRENT_BINARY_DIR}/synthetic_cloud_1 $<TARGET_FILE:whipple>)
-  set_tests_properties(io_report PROPERTIES LABELS fast TIMEOUT 300 COST 40 FIXTURES_REQUIRED synthetic_cloud_1)
+  foreach(part whole several)
+    add_test(NAME io_report.${part} COMMAND ${WHIPPLE_PYTHON} ${PROJECT_SOURCE_DIR}/report/tests/synthetic_cloud.py
+             ${CMAKE_CURRENT_BINARY_DIR}/synthetic_cloud_1 $<TARGET_FILE:whipple> ${part})
+    set_tests_properties(io_report.${part} PROPERTIES LABELS fast TIMEOUT 300 COST 40 FIXTURES_REQUIRED synthetic_cloud_1)
+  endforeach()
 endif()
 
 # What ParaView makes of the series; where it is installed (scripts/install_deps.sh --paraview).
