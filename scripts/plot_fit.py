@@ -129,6 +129,7 @@ PANELS = {
     "liquid_density": plot_against("liquid_density", 1e3, "g/cm$^3$", "saturated melt", 1.0, "temperature (K)"),
     "vapour_density": plot_against("vapour_density", 1e3, "g/cm$^3$", "saturated vapour", 1.0, "temperature (K)"),
 }
+MOST_COLUMNS = 3  # of panels: more cannot be read at the width of a page
 
 
 def main():
@@ -138,10 +139,16 @@ def main():
         data = json.load(file)
     plt.rcParams.update({"font.size": 9, "axes.spines.top": False, "axes.spines.right": False})
     panels = [draw for quantity, draw in PANELS.items() if rows(data, quantity) is not None]
-    figure, axes = plt.subplots(2, len(panels), figsize=(4.2 * len(panels), 5.2), sharex="col", height_ratios=(3, 1),
-                                layout="constrained")
-    for column, draw in enumerate(panels):
-        draw(data, axes[0, column], axes[1, column])
+    columns = min(len(panels), MOST_COLUMNS)
+    lines = -(-len(panels) // columns)
+    figure = plt.figure(figsize=(4.2 * columns, 5.2 * lines), layout="constrained")
+    grid = figure.add_gridspec(2 * lines, columns, height_ratios=(3, 1) * lines)
+    for i, draw in enumerate(panels):
+        line, column = divmod(i, columns)
+        top = figure.add_subplot(grid[2 * line, column])
+        bottom = figure.add_subplot(grid[2 * line + 1, column], sharex=top)
+        top.tick_params(labelbottom=False)
+        draw(data, top, bottom)
     figure.suptitle(f"{data['model']} fitted to {data['title']}")
     save_figure(figure, sys.argv[2], dpi=200)
 
