@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from report import style, units
 from report.curves import legend_above, new_figure
 from report.expectations import UNITS, BadExpectation, Expectation
+from report.history import History
 
 
 def read(path: pathlib.Path) -> tuple[np.ndarray, np.ndarray, str]:
@@ -66,16 +67,11 @@ def error(times: np.ndarray, values: np.ndarray, measured_times: np.ndarray, mea
 
 def of_gauge(path: pathlib.Path, column: str) -> tuple[np.ndarray, np.ndarray]:
     """Reads times and a column ("NAME.QUANTITY") of gauges.csv; empty without them."""
-    if not path.is_file():
+    history = History(path)
+    if column not in history or "time" not in history:
         return np.empty(0), np.empty(0)
-    with path.open(newline="") as stream:
-        rows = list(csv.DictReader(stream))
-    heads = {head.split(" [")[0]: head for head in (rows[0] if rows else [])}
-    if column not in heads or "time" not in heads:
-        return np.empty(0), np.empty(0)
-    table = np.array([[float(row[heads[name]] or math.nan) for name in ("time", column)] for row in rows])
-    table = table[np.isfinite(table[:, 1])]
-    return table[:, 0], table[:, 1]
+    there = np.isfinite(history[column])
+    return history["time"][there], history[column][there]
 
 
 def measure(path: pathlib.Path, column: str, table: pathlib.Path) -> float:

@@ -20,7 +20,7 @@ import numpy as np
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[0] = str(ROOT)
 from studies.commands import call  # noqa: E402
-from studies.validation.cases import BadExpectation  # noqa: E402
+from studies.validation.cases import BadExpectation, Measures  # noqa: E402
 from studies.validation.execution import select  # noqa: E402
 from studies.validation.variants import PLACE, placed  # noqa: E402
 
@@ -52,11 +52,9 @@ def run_member(whipple, run, resolution, folder, assignments):
 
 def numbers(folder):
     """Reads the measures of a member by name, and masses and numbers N(>=m) of its debris fragments."""
-    with (folder / "report" / "quantities.csv").open(newline="") as stream:
-        single = {row["quantity"]: float(row["value"]) for row in csv.DictReader(stream)}
     with (folder / "report" / "fragment_distribution.csv").open(newline="") as stream:
         rows = list(csv.DictReader(stream))
-    return single, np.array([[float(row["mass [kg]"]), float(row["number [1]"])] for row in rows]).reshape(-1, 2)
+    return Measures(folder).single, np.array([[float(row["mass [kg]"]), float(row["number [1]"])] for row in rows]).reshape(-1, 2)
 
 
 def number_above(distribution, mass):

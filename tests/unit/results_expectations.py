@@ -76,6 +76,17 @@ def comparisons():
     require(within.origin == "exact" and expectation(kind="record").origin == "record", "classes")
 
 
+def is_refused(path, text, reason):
+    """A case of this text is refused for this reason."""
+    path.write_text(text)
+    try:
+        Case(path)
+    except BadExpectation as error:
+        require(reason in str(error), f"{reason!r} is not in {error}")
+    else:
+        require(False, f"passed: {text}")
+
+
 def mistakes_are_named():
     for keys, reason in (({"value": "14 furlong", "tolerance": "1 mm"}, "14 furlong"), ({"value": "14 mm"}, "tolerance"),
                          ({"value": "1e mm", "tolerance": "1 mm"}, "1e mm"),
@@ -103,13 +114,7 @@ def mistakes_are_named():
         path = pathlib.Path(name) / "expected.toml"
         for text, reason in (('cell_size = { norml = "1 mm" }', "norml"),
                              ('cell_size = { normal = "1 mm" }\nset_at.fien = []', "fien")):
-            path.write_text(f'{text}\n[[run]]\nname = "only"\n')
-            try:
-                Case(path)
-            except BadExpectation as error:
-                require(reason in str(error), f"{reason!r} is not in {error}")
-            else:
-                require(False, f"{text} passed")
+            is_refused(path, f'{text}\n[[run]]\nname = "only"\n', reason)
 
 
 EXPECTED = """
@@ -204,13 +209,7 @@ cell_size = { coarse = "4 mm", normal = "2 mm" }
     for text, reason in ((own.replace('like = "only"', 'like = "longest"'), "longest"),
                          (own.replace('decided_by = "only"', 'decided_by = "nobody"'), "nobody"),
                          (own.replace('name = "longest"', 'name = "longer"'), "two runs are named 'longer'")):
-        path.write_text(EXPECTED + text)
-        try:
-            Case(path)
-        except BadExpectation as error:
-            require(reason in str(error), f"{reason!r} is not in {error}")
-        else:
-            require(False, f"passed: {text}")
+        is_refused(path, EXPECTED + text, reason)
 
 
 def variants_are_complete(case):
