@@ -23,6 +23,10 @@ ParameterTable<OutputControl> OutputControl::parameters() {
                "energy "
                "(musl, usl, usf) have no limit by default")
               .optional("0.01"),
+          real("maximum_speed_factor", &OutputControl::maximum_speed_factor, "", range::positive(),
+               "the run stops if a particle or node is faster than so many times the speed that the bodies bring along "
+               "and can reach by the energy that they can set free")
+              .optional(),
           text_list("fields", &OutputControl::fields, io::output_field_names(), "quantities in the snapshots")
               .optional()};
 }

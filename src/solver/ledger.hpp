@@ -135,6 +135,7 @@ struct Ledger {
   double limited_bulking = 0.0;  ///< steps of particles of crushed brittle material at its greatest bulking
   double held_time_steps = 0.0;  ///< steps longer than `time.compression_limit` asked for
 
+  double releasable_energy = 0.0;  ///< J, that the materials can set free in all: above their zero, and chemical
   double largest_kinetic_energy =
       0.0;                        ///< J, with affine and hourglass energies, at the ends of the steps so far
   double largest_heating = 0.0;   ///< J, the same of the change of internal energy
@@ -192,6 +193,7 @@ void for_each_number(L& ledger, Function&& f) {
   f("limited_void_steps", ledger.limited_void_steps);
   f("limited_bulking", ledger.limited_bulking);
   f("held_time_steps", ledger.held_time_steps);
+  f("releasable_energy", ledger.releasable_energy);
   f("largest_kinetic_energy", ledger.largest_kinetic_energy);
   f("largest_heating", ledger.largest_heating);
   f("largest_momentum", ledger.largest_momentum);
