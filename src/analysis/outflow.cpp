@@ -50,6 +50,7 @@ OutflowHistory::OutflowHistory(const Run& run) {
     double all = 0.0;
     for (const auto& [m, x, y, z] : of_body) {
       row.bodies.push_back({number(cells, m), {number(cells, x), number(cells, y), number(cells, z)}});
+      row.bodies.back().momentum -= row.bodies.back().mass * run.frame_velocity;
       all += row.bodies.back().mass;
     }
     if (all > lost) rows_.push_back(std::move(row));

@@ -28,8 +28,12 @@ struct OutputControl {
     return of_exact_energy;
   }
 
+  /// Snapshots of a run beyond which their interval is taken for a mistake: steps would be cut to it, and the disk full.
+  static constexpr double most_snapshots = 1e6;
+
   static std::vector<std::string> default_fields();
   static ParameterTable<OutputControl> parameters();
+  void check(const Case& setup, const Faults& faults) const;
 };
 
 }  // namespace whipple::cases

@@ -94,6 +94,22 @@ TEST(Plausibility, SpeedsAreThoseInTheFrameOfTheCentreOfMass) {
   EXPECT_EQ(error_of_step(setup, faster(1.0)), "");
 }
 
+TEST(Plausibility, ATimeStepThatCollapsesEndsTheRun) {
+  using Overrides = std::vector<std::pair<std::string, std::string>>;
+  for (const auto& [overrides, bound] : {std::pair<Overrides, std::string>{{{"time.courant", "1e-12"}}, "sound speed"},
+                                         {{{"time.first_step", "1e-300"}}, "first step"},
+                                         {{{"time.acceleration_limit", "1e-300"}}, "maximum acceleration"}}) {
+    const cases::Case setup = read(flying("[\"100 m/s\", 0, 0]", "initial = { pressure = \"1 GPa\" }\n"), overrides);
+    solver::Simulation simulation(setup, parallel::world());
+    const auto two_steps = [&] {
+      for (int step = 0; step < 2; ++step) simulation.advance(setup.time.end);
+    };
+    EXPECT_THAT(two_steps, testing::ThrowsMessage<StateError>(testing::AllOf(
+                               testing::HasSubstr("the time step has collapsed to"), testing::HasSubstr(bound),
+                               testing::HasSubstr("body \"block\", particle"))));
+  }
+}
+
 TEST(Plausibility, NegativeHourglassEnergyEndsTheRun) {
   const cases::Case setup =
       read(flying("[\"100 m/s\", 0, 0]", "discretization = { method = \"finite_elements\" }\n"));

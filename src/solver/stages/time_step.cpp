@@ -18,6 +18,9 @@ namespace {
 /// Keeps accuracy of a few particles of thin material from reducing the time step below this part of the stable one.
 constexpr double least_share_for_accuracy = 0.125;
 
+/// A step below this part of the longest one so far is none that a run ends with.
+constexpr double least_share_of_longest = 1e-9;
+
 }  // namespace
 
 double grid_time_step(const State& state, ParticleCarrier& particles) {
@@ -39,6 +42,7 @@ void TimeStep::limit(double bound, TimeStepBound by) {
 double TimeStep::accurate() {
   const cases::TimeControl& control = state_.setup.time;
   step_ = grid_time_step(state_, particles_);  // NaN stays, and is reported
+  cell_step_ = step_ / control.courant;
   by_ = TimeStepBound::sound_speed;
   limit(diffusive_bound(), TimeStepBound::diffusion);
   limit(element_bound(), TimeStepBound::elements);
@@ -73,6 +77,7 @@ void TimeStep::begin(double until) {
       limit(std::max(state_.run.first_touch - state_.run.time, first_step), TimeStepBound::first_touch);
     }
     require_positive();
+    require_progress();
     if (!compression_is_followed_ && parallel::rank(state_.communicator) == 0) {
       state_.booked.held_time_steps += 1.0;
     }
@@ -100,6 +105,31 @@ void TimeStep::require_positive() const {
         p, state_.run.time, fmt::format("{}; sound speed {} m/s", reason, particles.sound_speed[p])));
   }
   throw StateError(fmt::format("step {}, t = {} s: {}", state_.run.step, state_.run.time, reason));
+}
+
+/// Ends a run whose steps have become so short that it would never end.
+void TimeStep::require_progress() {
+  RunState& run = state_.run;
+  run.largest_step = std::max(run.largest_step, std::isfinite(cell_step_) ? cell_step_ : accurate_step_);
+  if (run.time + step_ > run.time && step_ >= least_share_of_longest * run.largest_step) return;
+  const std::string reason = fmt::format(
+      "the time step has collapsed to {:.3g} s, the longest that a cell allowed was {:.3g} s; its bound: {}", step_,
+      run.largest_step, word_of(by_));
+  const Particles& particles = state_.particles;
+  std::size_t fastest = particles.size();
+  double speed = 0.0;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const double of_particle = particles.sound_speed[p] + particles.velocity[p].cwiseAbs().maxCoeff();
+    if (of_particle > speed) {
+      speed = of_particle;
+      fastest = p;
+    }
+  }
+  if (fastest == particles.size()) {
+    throw StateError(fmt::format("step {}, t = {} s: {}", run.step + 1, run.time, reason));
+  }
+  throw StateError(state_.describe_particle(
+      fastest, run.time, fmt::format("{}; the fastest: {:.6g} m/s with its sound speed", reason, speed)));
 }
 
 double TimeStep::element_bound() const {
