@@ -61,34 +61,37 @@ void read_material_traits(const fs::path& file, BodyInput& body) {
   }
 }
 
-/// Returns the area (m^2) across the relative velocity of the bodies, in two dimensions the width (m), of a body.
-double face_of(const Shape::Bounds& bounds, int axis, bool planar) {
-  const Vector3 edge = bounds.upper - bounds.lower;
-  double area = 1.0;
-  for (int a = 0; a < (planar ? 2 : 3); ++a) area *= a == axis ? 1.0 : edge[a];
-  return area;
+/// Returns the mean section (m^2) of a body across a direction: its volume over its length along it; in two dimensions that
+/// of the rectangle around it (m).
+double section_of(const Shape& shape, const Vector3& direction, bool planar) {
+  const Shape::Bounds bounds = shape.bounds();
+  Vector3 edge = bounds.upper - bounds.lower;
+  if (planar) edge[2] = 0.0;
+  const double length = edge.dot(direction.cwiseAbs());
+  return (planar ? edge[0] * edge[1] : shape.volume()) / length;
 }
 
-/// Returns the velocity (m/s) of the target: of the bodies that move alike and are the widest across the flight; among
-/// equally wide ones the slowest, the longest along it, the last. Zero where walls, or bodies without a shape of their own,
-/// leave no choice.
+/// Returns the velocity (m/s) of the target: of the bodies that move alike and have the largest section across the flight;
+/// among equal ones the slowest, the longest along it, the last. Zero where walls, or bodies without a shape of their
+/// own, leave no choice.
 Vector3 velocity_of_target(const std::vector<cases::Body>& bodies, const Run& run) {
   const auto has_shape = [](const cases::Body& body) { return body.shape != nullptr; };
   if (bodies.size() < 2 || !std::ranges::all_of(bodies, has_shape)) return Vector3::Zero();
-  Vector3 least = bodies[0].velocity, greatest = least;
-  for (const cases::Body& body : bodies) {
-    least = least.cwiseMin(body.velocity);
-    greatest = greatest.cwiseMax(body.velocity);
+  Vector3 flight = Vector3::Zero();
+  for (const cases::Body& a : bodies) {
+    for (const cases::Body& b : bodies) {
+      if ((a.velocity - b.velocity).norm() > flight.norm()) flight = a.velocity - b.velocity;
+    }
   }
-  int axis = 0;
-  if (run.dimension != grid::Dimension::axisymmetric) (greatest - least).maxCoeff(&axis);
+  if (flight.isZero(0.0)) return Vector3::Zero();
+  const Vector3 direction = flight.normalized();
   const bool planar = run.dimension != grid::Dimension::space;
-  // The widest first; a millionth is the round-off of what a case says twice.
   const auto rank = [&](const cases::Body& body) {
-    const Shape::Bounds bounds = body.shape->bounds();
+    // A millionth is the round-off of what a case says twice.
     const auto rounded = [](double x) { return x > 0.0 ? std::round(1e6 * std::log(x)) : -1e300; };
-    return std::tuple(rounded(face_of(bounds, axis, planar)), -rounded(body.velocity.norm()),
-                      rounded(bounds.upper[axis] - bounds.lower[axis]));
+    const Shape::Bounds bounds = body.shape->bounds();
+    return std::tuple(rounded(section_of(*body.shape, direction, planar)), -rounded(body.velocity.norm()),
+                      rounded((bounds.upper - bounds.lower).dot(direction.cwiseAbs())));
   };
   const cases::Body* target = &bodies.front();
   for (const cases::Body& body : bodies) {
