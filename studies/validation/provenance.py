@@ -19,8 +19,9 @@ CODE = (".cpp", ".hpp", ".inl", ".h")
 # What a run of a case and its measures are computed by. Files, pages, imports and the command line are not: they write down
 # and show what these compute.
 SOURCES = ("src/core/base", "src/core/input", "src/core/parallel", "src/particles", "src/grid", "src/transfer", "src/material",
-           "src/fem", "src/afemp", "src/contact", "src/case", "src/solver", "src/run", "src/analysis", "eos")
-NO_SOURCES = ("src/run/observers", "eos/curves", "eos/experiments", "eos/files", "eos/materials", "eos/data")
+           "src/fem", "src/afemp", "src/contact", "src/case", "src/solver", "src/run/runner.cpp", "src/analysis", "eos")
+NO_SOURCES = ("src/core/base/files.cpp", "src/core/base/files.hpp", "src/fem/abaqus.cpp", "src/fem/gmsh.cpp",
+              "src/fem/vtk_mesh.cpp", "eos/curves", "eos/experiments", "eos/files", "eos/materials", "eos/data")
 # A comment, or a literal in which none begins.
 COMMENT = re.compile(r"""//[^\n]*|/\*.*?\*/|("(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])')""", re.DOTALL)
 LIBRARY = ROOT / "eos" / "materials"
@@ -43,9 +44,10 @@ def code_of(text):
 @functools.cache
 def digest_of_sources(root=ROOT):
     """Of all C++ that computes runs and their measures, as it stands in the working tree."""
-    left_out = [root / folder for folder in NO_SOURCES]
-    files = sorted(path for folder in SOURCES for path in (root / folder).rglob("*")
-                   if path.suffix in CODE and not any(path.is_relative_to(folder) for folder in left_out))
+    left_out = [root / name for name in NO_SOURCES]
+    places = [root / name for name in SOURCES]
+    files = sorted(path for place in places for path in (place, *place.rglob("*"))
+                   if path.suffix in CODE and path.is_file() and not any(path.is_relative_to(name) for name in left_out))
     return digest_of(*(part for path in files
                        for part in (str(path.relative_to(root)), code_of(path.read_text(encoding="utf-8")))))
 
@@ -104,8 +106,8 @@ def program(whipple):
     done = subprocess.run([whipple, "version"], capture_output=True, text=True)
     lines = [re.sub(r"\s+", " ", line) for line in done.stdout.splitlines()]
     match = re.search(r"revision ([0-9a-f]+)", lines[0] if lines else "")
-    code = [f":(glob){folder}/**/*{suffix}" for folder in SOURCES for suffix in CODE]
-    code += [f":(exclude){folder}" for folder in NO_SOURCES]
+    code = [name if name.endswith(CODE) else f":(glob){name}/**/*{suffix}" for name in SOURCES for suffix in CODE]
+    code += [f":(exclude){name}" for name in NO_SOURCES]
     same = bool(match) and subprocess.run(["git", "diff", "--quiet", match[1], "--", *code], cwd=ROOT,
                                           stderr=subprocess.DEVNULL).returncode == 0
     dirty = bool(match) and "+" in lines[0]
