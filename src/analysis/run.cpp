@@ -63,8 +63,8 @@ void read_material_traits(const fs::path& file, BodyInput& body) {
 
 /// Returns the mean section (m^2) of a body across a direction: its volume over its length along it; in two dimensions that
 /// of the rectangle around it (m).
-double section_of(const Shape& shape, const Vector3& direction, bool planar) {
-  const Shape::Bounds bounds = shape.bounds();
+double section_of(const cases::Shape& shape, const Vector3& direction, bool planar) {
+  const cases::Shape::Bounds bounds = shape.bounds();
   Vector3 edge = bounds.upper - bounds.lower;
   if (planar) edge[2] = 0.0;
   const double length = edge.dot(direction.cwiseAbs());
@@ -89,7 +89,7 @@ Vector3 velocity_of_target(const std::vector<cases::Body>& bodies, const Run& ru
   const auto rank = [&](const cases::Body& body) {
     // A millionth is the round-off of what a case says twice.
     const auto rounded = [](double x) { return x > 0.0 ? std::round(1e6 * std::log(x)) : -1e300; };
-    const Shape::Bounds bounds = body.shape->bounds();
+    const cases::Shape::Bounds bounds = body.shape->bounds();
     return std::tuple(rounded(section_of(*body.shape, direction, planar)), -rounded(body.velocity.norm()),
                       rounded((bounds.upper - bounds.lower).dot(direction.cwiseAbs())));
   };
