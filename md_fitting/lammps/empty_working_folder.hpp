@@ -14,7 +14,8 @@ namespace whipple::md {
 class EmptyWorkingFolder {
  public:
   EmptyWorkingFolder() : former_(std::filesystem::current_path()) {
-    if (const char* potentials = std::getenv("LAMMPS_POTENTIALS"); potentials != nullptr && *potentials != '\0') {
+    if (const char* potentials = std::getenv("LAMMPS_POTENTIALS");
+        potentials != nullptr && *potentials != '\0') {
       setenv("LAMMPS_POTENTIALS", std::filesystem::absolute(potentials).c_str(), 1);
     }
     std::filesystem::current_path(folder_.path());

@@ -26,14 +26,69 @@ constexpr std::array<std::string_view, 3> read_styles = {"eam", "eam/alloy", "ea
 
 /// Styles whose coefficients are numbers and tables. Others are refused: some run what a file says (python, mliap), load
 /// shared objects (kim: such models are named by `potential`), or mean something else than atoms.
-constexpr auto data_styles = std::to_array<std::string_view>(
-    {"adp", "agni", "airebo", "airebo/morse", "atm", "beck", "bop", "born", "buck", "comb", "comb3", "dispersion/d3",
-     "edip", "edip/multi", "eim", "extep", "gauss", "gw", "gw/zbl", "harmonic/cut", "hybrid", "hybrid/overlay",
-     "hybrid/scaled", "lcbop", "lj/cubic", "lj/cut", "lj/expand", "lj/mdf", "lj/smooth", "lj/smooth/linear", "lj96/cut",
-     "lebedeva/z", "local/density", "meam", "meam/c", "meam/spline", "meam/sw/spline", "mie/cut", "momb", "morse",
-     "morse/smooth/linear", "nb3b/harmonic", "nm/cut", "pace", "polymorphic", "rebo", "snap", "soft", "sw", "sw/mod",
-     "table", "tersoff", "tersoff/mod", "tersoff/mod/c", "tersoff/table", "tersoff/zbl", "threebody/table", "ufm",
-     "vashishta", "vashishta/table", "yukawa", "zbl", "zero"});
+constexpr auto data_styles = std::to_array<std::string_view>({"adp",
+                                                              "agni",
+                                                              "airebo",
+                                                              "airebo/morse",
+                                                              "atm",
+                                                              "beck",
+                                                              "bop",
+                                                              "born",
+                                                              "buck",
+                                                              "comb",
+                                                              "comb3",
+                                                              "dispersion/d3",
+                                                              "edip",
+                                                              "edip/multi",
+                                                              "eim",
+                                                              "extep",
+                                                              "gauss",
+                                                              "gw",
+                                                              "gw/zbl",
+                                                              "harmonic/cut",
+                                                              "hybrid",
+                                                              "hybrid/overlay",
+                                                              "hybrid/scaled",
+                                                              "lcbop",
+                                                              "lj/cubic",
+                                                              "lj/cut",
+                                                              "lj/expand",
+                                                              "lj/mdf",
+                                                              "lj/smooth",
+                                                              "lj/smooth/linear",
+                                                              "lj96/cut",
+                                                              "lebedeva/z",
+                                                              "local/density",
+                                                              "meam",
+                                                              "meam/c",
+                                                              "meam/spline",
+                                                              "meam/sw/spline",
+                                                              "mie/cut",
+                                                              "momb",
+                                                              "morse",
+                                                              "morse/smooth/linear",
+                                                              "nb3b/harmonic",
+                                                              "nm/cut",
+                                                              "pace",
+                                                              "polymorphic",
+                                                              "rebo",
+                                                              "snap",
+                                                              "soft",
+                                                              "sw",
+                                                              "sw/mod",
+                                                              "table",
+                                                              "tersoff",
+                                                              "tersoff/mod",
+                                                              "tersoff/mod/c",
+                                                              "tersoff/table",
+                                                              "tersoff/zbl",
+                                                              "threebody/table",
+                                                              "ufm",
+                                                              "vashishta",
+                                                              "vashishta/table",
+                                                              "yukawa",
+                                                              "zbl",
+                                                              "zero"});
 
 /// Returns a style without the ending that chooses an accelerated version of it.
 std::string_view without_accelerator(std::string_view style) {
@@ -85,10 +140,11 @@ void require_data(const std::vector<std::string>& words, const Lammps& lammps) {
     const bool known = std::ranges::find(data_styles, style) != data_styles.end() ||
                        std::ranges::find(read_styles, style) != read_styles.end();
     if (known || !lammps.has_style("pair", word)) continue;
-    throw InputError(fmt::format(
-        "the pair style '{}' is refused: it may run code or load more than tables; accepted here: {}, and in hybrid "
-        "styles {}",
-        word, fmt::join(data_styles, ", "), fmt::join(read_styles, ", ")));
+    throw InputError(
+        fmt::format("the pair style '{}' is refused: it may run code or load more than tables; accepted "
+                    "here: {}, and in hybrid "
+                    "styles {}",
+                    word, fmt::join(data_styles, ", "), fmt::join(read_styles, ", ")));
   }
 }
 

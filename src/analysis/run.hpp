@@ -28,8 +28,8 @@ struct BodyInput {
 
 struct SnapshotEntry {
   std::filesystem::path file;
-  double time = 0.0;           ///< s
-  std::size_t bodies = 65536;  ///< of the run: particles of others are refused
+  double time = 0.0;                         ///< s
+  std::size_t bodies = 65536;                ///< of the run: particles of others are refused
   Vector3 frame_velocity = Vector3::Zero();  ///< m/s, taken off all velocities, and its way off all positions
   /// The domain and as much again around it, m: points beyond are those of a damaged file.
   Vector3 lower = Vector3::Constant(-1e300), upper = Vector3::Constant(1e300);

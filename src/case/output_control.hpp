@@ -18,7 +18,8 @@ struct OutputControl {
   std::int64_t history_every = 1;                                         ///< steps
   std::int64_t gauges_every = 1;                                          ///< steps
   double maximum_energy_error = std::numeric_limits<double>::infinity();  ///< infinite: that of the scheme
-  double maximum_speed_factor = 10.0;  ///< of the speed that bodies bring along and can reach by what they set free
+  double maximum_speed_factor =
+      10.0;  ///< of the speed that bodies bring along and can reach by what they set free
   std::vector<std::string> fields = default_fields();
 
   /// Returns the error at which a run with a scheme stops. Schemes that do not conserve energy have no limit of their own.

@@ -107,7 +107,8 @@ void Runner::follow(const Request& request) {
   if (request.act == Act::pause || request.act == Act::resume) paused_ = request.act == Act::pause;
   if (const double least = schedule_.end / cases::OutputControl::most_snapshots;
       request.act == Act::snapshot_every && request.value > 0.0 && request.value < least) {
-    log::warning("snapshots every {:.3g} s are refused: at least {:.3g} s, a millionth of the run", request.value, least);
+    log::warning("snapshots every {:.3g} s are refused: at least {:.3g} s, a millionth of the run",
+                 request.value, least);
     return;
   }
   double Schedule::* const number = entry_of(request.act).changes;

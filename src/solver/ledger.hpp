@@ -135,7 +135,8 @@ struct Ledger {
   double limited_bulking = 0.0;  ///< steps of particles of crushed brittle material at its greatest bulking
   double held_time_steps = 0.0;  ///< steps longer than `time.compression_limit` asked for
 
-  double releasable_energy = 0.0;  ///< J, that the materials can set free in all: above their zero, and chemical
+  double releasable_energy =
+      0.0;  ///< J, that the materials can set free in all: above their zero, and chemical
   double largest_kinetic_energy =
       0.0;                        ///< J, with affine and hourglass energies, at the ends of the steps so far
   double largest_heating = 0.0;   ///< J, the same of the change of internal energy

@@ -24,12 +24,13 @@ upper = [0.02, 0.01, 0.01]
 cell_size = "1 mm"
 [[body]]
 name = "block"
-material = ")" + aluminium("plausible_aluminium", "300 MPa") +
-         "\"\nvelocity = " + velocity + "\n" + more +
+material = ")" +
+         aluminium("plausible_aluminium", "300 MPa") + "\"\nvelocity = " + velocity + "\n" + more +
          "shape = { box = { lower = [-2e-3, -1e-3, -1e-3], upper = [2e-3, 1e-3, 1e-3] } }\n";
 }
 
-cases::Case read(const std::string& text, const std::vector<std::pair<std::string, std::string>>& overrides = {}) {
+cases::Case read(const std::string& text,
+                 const std::vector<std::pair<std::string, std::string>>& overrides = {}) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "case.toml";
   io::write_text_atomically(file, text);
@@ -66,10 +67,12 @@ std::function<void(Particles&)> faster(double factor) {
 TEST(Plausibility, MotionThatNothingCanHaveMadeEndsTheRun) {
   const cases::Case setup = read(flying("[\"100 m/s\", 0, 0]"));
   EXPECT_EQ(error_of_step(setup, faster(1.0)), "");
-  EXPECT_EQ(error_of_step(setup, faster(1.01)), "");  // 2 % of the energy, and the error that the sum may have
-  EXPECT_THAT(error_of_step(setup, faster(1.05)),
-              testing::AllOf(testing::HasSubstr("step 1, t = "), testing::HasSubstr("the energy of motion is 0.24"),
-                             testing::HasSubstr("more than the 0.22")));
+  EXPECT_EQ(error_of_step(setup, faster(1.01)),
+            "");  // 2 % of the energy, and the error that the sum may have
+  EXPECT_THAT(
+      error_of_step(setup, faster(1.05)),
+      testing::AllOf(testing::HasSubstr("step 1, t = "), testing::HasSubstr("the energy of motion is 0.24"),
+                     testing::HasSubstr("more than the 0.22")));
 }
 
 TEST(Plausibility, OneParticleThatIsFarTooFastEndsTheRun) {
@@ -80,9 +83,9 @@ TEST(Plausibility, OneParticleThatIsFarTooFastEndsTheRun) {
   // The energy of one in 128 at 20 times the speed is seen, too: here the limit of the energy is far away.
   const cases::Case setup = read(flying("[\"100 m/s\", 0, 0]"), {{"domain.boundary.x_upper", "separating"},
                                                                  {"output.maximum_energy_error", "1e9"}});
-  EXPECT_THAT(error_of_step(setup, one),
-              testing::AllOf(testing::HasSubstr("is impossible"), testing::HasSubstr("of body \"block\" at ("),
-                             testing::HasSubstr("output.maximum_speed_factor")));
+  EXPECT_THAT(error_of_step(setup, one), testing::AllOf(testing::HasSubstr("is impossible"),
+                                                        testing::HasSubstr("of body \"block\" at ("),
+                                                        testing::HasSubstr("output.maximum_speed_factor")));
   const cases::Case tolerant = read(flying("[\"100 m/s\", 0, 0]"), {{"domain.boundary.x_upper", "separating"},
                                                                     {"output.maximum_energy_error", "1e9"},
                                                                     {"output.maximum_speed_factor", "30"}});
@@ -96,17 +99,19 @@ TEST(Plausibility, SpeedsAreThoseInTheFrameOfTheCentreOfMass) {
 
 TEST(Plausibility, ATimeStepThatCollapsesEndsTheRun) {
   using Overrides = std::vector<std::pair<std::string, std::string>>;
-  for (const auto& [overrides, bound] : {std::pair<Overrides, std::string>{{{"time.courant", "1e-12"}}, "sound speed"},
-                                         {{{"time.first_step", "1e-300"}}, "first step"},
-                                         {{{"time.acceleration_limit", "1e-300"}}, "maximum acceleration"}}) {
-    const cases::Case setup = read(flying("[\"100 m/s\", 0, 0]", "initial = { pressure = \"1 GPa\" }\n"), overrides);
+  for (const auto& [overrides, bound] :
+       {std::pair<Overrides, std::string>{{{"time.courant", "1e-12"}}, "sound speed"},
+        {{{"time.first_step", "1e-300"}}, "first step"},
+        {{{"time.acceleration_limit", "1e-300"}}, "maximum acceleration"}}) {
+    const cases::Case setup =
+        read(flying("[\"100 m/s\", 0, 0]", "initial = { pressure = \"1 GPa\" }\n"), overrides);
     solver::Simulation simulation(setup, parallel::world());
     const auto two_steps = [&] {
       for (int step = 0; step < 2; ++step) simulation.advance(setup.time.end);
     };
     EXPECT_THAT(two_steps, testing::ThrowsMessage<StateError>(testing::AllOf(
-                               testing::HasSubstr("the time step has collapsed to"), testing::HasSubstr(bound),
-                               testing::HasSubstr("body \"block\", particle"))));
+                               testing::HasSubstr("the time step has collapsed to"),
+                               testing::HasSubstr(bound), testing::HasSubstr("body \"block\", particle"))));
   }
 }
 
@@ -119,7 +124,8 @@ TEST(Plausibility, NegativeHourglassEnergyEndsTheRun) {
     mesh.elements.hourglass_energy[0] -= energy;
     mesh.points.specific_internal_energy[0] += energy / mesh.points.mass[0];
   };
-  EXPECT_THAT(error_of_step(setup, [](Particles&) {}, negative),
+  EXPECT_THAT(error_of_step(
+                  setup, [](Particles&) {}, negative),
               testing::HasSubstr("the hourglass energy is -0.001 J, less than 0"));
 }
 
@@ -128,7 +134,8 @@ TEST(Plausibility, GasIsFreeToExpandAndPressureToRelease) {
       "plausible_gas",
       "name = \"gas\"\nsource = \"verification\"\n[eos]\nmodel = \"ideal_gas\"\nsource = \"verification\"\n"
       "reference_density = \"10 kg/m^3\"\nheat_capacity_ratio = 1.4\nheat_capacity = \"718 J/(kg K)\"\n");
-  const std::string text = flying("[0, 0, 0]", "initial = { pressure = \"1 MPa\", density = \"10 kg/m^3\" }\n");
+  const std::string text =
+      flying("[0, 0, 0]", "initial = { pressure = \"1 MPa\", density = \"10 kg/m^3\" }\n");
   const std::size_t at = text.find("material = ");
   const cases::Case setup =
       read(text.substr(0, at) + "material = \"" + gas + "\"" + text.substr(text.find('\n', at)));

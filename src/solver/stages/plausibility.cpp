@@ -44,19 +44,20 @@ void Plausibility::require_parts() const {
   const double error = state_.setup.output.energy_error_limit(state_.setup.time.scheme);
   if (!std::isfinite(error)) return;  // a scheme without exact energy
   const Ledger& ledger = state_.run.ledger;
-  const double supply =
-      moving(ledger.initial) + std::abs(ledger.external_work) + ledger.releasable_energy;
+  const double supply = moving(ledger.initial) + std::abs(ledger.external_work) + ledger.releasable_energy;
   const auto fail = [&](const char* what, double value, const std::string& bound) {
     throw StateError(fmt::format(
-        "step {}, t = {} s: the {} is {:.6g} J, {}: the parts of the energy are impossible, although its sum is exact "
+        "step {}, t = {} s: the {} is {:.6g} J, {}: the parts of the energy are impossible, although its sum "
+        "is exact "
         "to {:.1e}",
         state_.run.step, state_.run.time, what, value, bound, ledger.energy_error(state_.totals)));
   };
   const double now = moving(state_.totals) + moving(ledger.outflow);
   if (now > supply * (1.0 + tolerance + error)) {
     fail("energy of motion", now,
-         fmt::format("more than the {:.6g} J of the start, of external work and of what the materials can set free",
-                     supply));
+         fmt::format(
+             "more than the {:.6g} J of the start, of external work and of what the materials can set free",
+             supply));
   }
   const double scale = std::max(supply, ledger.largest_kinetic_energy);
   if (state_.totals.hourglass_energy < -round_off * scale) {
@@ -108,15 +109,17 @@ void Plausibility::require_speeds() const {
   for (const Carrier* carrier : carriers_) {
     carrier->for_each_point([&](const Point& point) {
       if (who.empty() && (point.velocity - of_frame).norm() >= of_all) {
-        who = fmt::format(", of body \"{}\" at ({:.6g}, {:.6g}, {:.6g}) m", state_.setup.bodies[point.body].name,
-                          point.position[0], point.position[1], point.position[2]);
+        who = fmt::format(", of body \"{}\" at ({:.6g}, {:.6g}, {:.6g}) m",
+                          state_.setup.bodies[point.body].name, point.position[0], point.position[1],
+                          point.position[2]);
       }
     });
   }
-  throw StateError(fmt::format(
-      "step {}, t = {} s: a speed of {:.6g} m/s{} is impossible: more than {} times what the bodies bring along and can "
-      "set free (output.maximum_speed_factor)",
-      state_.run.step, state_.run.time, of_all, who, state_.setup.output.maximum_speed_factor));
+  throw StateError(
+      fmt::format("step {}, t = {} s: a speed of {:.6g} m/s{} is impossible: more than {} times what the "
+                  "bodies bring along and can "
+                  "set free (output.maximum_speed_factor)",
+                  state_.run.step, state_.run.time, of_all, who, state_.setup.output.maximum_speed_factor));
 }
 
 }  // namespace whipple::solver

@@ -113,8 +113,8 @@ void TimeStep::require_progress() {
   run.largest_step = std::max(run.largest_step, std::isfinite(cell_step_) ? cell_step_ : accurate_step_);
   if (run.time + step_ > run.time && step_ >= least_share_of_longest * run.largest_step) return;
   const std::string reason = fmt::format(
-      "the time step has collapsed to {:.3g} s, the longest that a cell allowed was {:.3g} s; its bound: {}", step_,
-      run.largest_step, word_of(by_));
+      "the time step has collapsed to {:.3g} s, the longest that a cell allowed was {:.3g} s; its bound: {}",
+      step_, run.largest_step, word_of(by_));
   const Particles& particles = state_.particles;
   std::size_t fastest = particles.size();
   double speed = 0.0;

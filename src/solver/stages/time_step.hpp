@@ -41,7 +41,8 @@ class TimeStep {
   ParticleCarrier& particles_;
   double step_ = 0.0;                       // s, the least of the bounds so far
   TimeStepBound by_ = TimeStepBound::none;  // that it is
-  double cell_step_ = 0.0;  // s, in which nothing crosses more than a cell; infinite if nothing moves with the grid
+  double cell_step_ =
+      0.0;  // s, in which nothing crosses more than a cell; infinite if nothing moves with the grid
   double accurate_step_ = 0.0;
   bool compression_is_followed_ = true;  // by that step, as `time.compression_limit` asks
 };
