@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <fstream>
 #include <iterator>
 #include <sstream>
 #include <string_view>
@@ -143,8 +142,7 @@ PairInteractions pair_interactions(const PairStyle& pair, const std::string& nam
                         word, potential_folder().string()));
       }
       if (!path.empty()) {
-        std::ifstream file(path, std::ios::binary);
-        content += sha256(std::string(std::istreambuf_iterator<char>(file), {})) + "\n";
+        content += sha256_of_file(path) + "\n";
       }
       full += path.empty() ? " " + word : fmt::format(" \"{}\"", readable_path(path));
       shown += " " + (path.empty() ? word : path.filename().string());

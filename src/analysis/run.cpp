@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -133,8 +132,7 @@ std::vector<SnapshotEntry> read_index(const fs::path& folder) {
   }
   std::vector<SnapshotEntry> entries;
   try {
-    std::ifstream stream(regular_file(found.front()));
-    const nlohmann::json index = nlohmann::json::parse(stream);
+    const nlohmann::json index = nlohmann::json::parse(read_text(found.front()));
     for (const nlohmann::json& file : index.at("files")) {
       entries.push_back({folder / file.at("name").get<std::string>(), file.at("time").get<double>()});
     }
