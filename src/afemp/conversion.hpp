@@ -9,6 +9,7 @@
 
 #include "src/fem/mesh.hpp"
 #include "src/fem/step.hpp"
+#include "src/particles/arrangement.hpp"
 #include "src/particles/particles.hpp"
 
 /// Adaptive finite element material point method: elements that deform too much become particles
@@ -38,12 +39,13 @@ struct ConversionBalance {
 };
 
 /// Takes the chosen elements out of the mesh and appends eight particles for each: at the natural coordinates
-/// (+-0.5)^3, with the state of the element (of the Gauss point in their octant), ids 8 times that of the
+/// (+-0.5)^3, or in layers beside them, with the state of the element (of the Gauss point in their octant), ids 8 times that of the
 /// element and following, and velocities by (3.2) to (3.6). Mass, momentum and energy stay to round-off;
 /// angular momentum too unless the affine field is capped; the heat is not negative. Nodes that lost an
 /// element lie on the surface from now on; nodes without elements vanish.
 /// @param affine_inertia of the particles' affine field per mass, m^2 (`transfer::affine_inertia`); 0: none
 ConversionBalance convert_elements(fem::Mesh& mesh, std::span<const std::uint8_t> chosen,
-                                   double affine_inertia, Particles& particles);
+                                   double affine_inertia, Particles& particles,
+                                   Arrangement arrangement = Arrangement::regular);
 
 }  // namespace whipple::afemp

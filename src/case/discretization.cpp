@@ -20,6 +20,11 @@ ParameterTable<Discretization> Discretization::parameters() {
           .optional(),
       integer("per_cell", &D::per_cell, range::between(1, 1000), "particles per full cell: 1, 8, 27 or 64")
           .optional(),
+      choice("lattice", &D::lattice,
+             "places of the particles in a cell at the start: at the middles of equal parts of it | eight "
+             "(in the "
+             "plane four) in as many layers along every axis, for solids that cross many cells")
+          .optional(),
       boolean("partial_volumes", &D::partial_volumes,
               "particles at curved or oblique surfaces have the part of their volume that is inside the body")
           .optional("true"),
@@ -129,6 +134,20 @@ void check_elements(const Discretization& control, const Case& setup, const Faul
   }
 }
 
+/// The mass of a ring belongs to its radius, which balances a uniform pressure: it has no place beside it.
+void check_layers(const Discretization& control, const Case& setup, const Faults& faults) {
+  if (setup.geometry.is_axisymmetric()) {
+    faults.add("lattice",
+               "lattice = \"layered\" works in three dimensions and in the plane, not for the rings of "
+               "an axisymmetric domain");
+  }
+  if (!control.has_particles() && !control.converts()) {
+    faults.add("lattice", fmt::format("'lattice' belongs to bodies of particles and of elements that become "
+                                      "particles; method = \"{}\" has none",
+                                      word_of(control.method)));
+  }
+}
+
 }  // namespace
 
 void Discretization::check(const Case& setup, const Faults& faults) const {
@@ -136,6 +155,7 @@ void Discretization::check(const Case& setup, const Faults& faults) const {
   if (std::abs(edge - std::round(edge)) > 1e-9) {
     faults.add("per_cell", fmt::format("'per_cell' is {}, expected a cube: 1, 8, 27, 64", per_cell));
   }
+  if (lattice == Arrangement::layered) check_layers(*this, setup, faults);
   if (has_elements() || is_bars()) {
     check_elements(*this, setup, faults);
   } else if (!mesh.empty()) {

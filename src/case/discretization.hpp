@@ -11,6 +11,7 @@
 #include "src/core/base/tensor.hpp"
 #include "src/fem/mesh.hpp"
 #include "src/fem/step.hpp"
+#include "src/particles/arrangement.hpp"
 
 namespace whipple::cases {
 
@@ -33,6 +34,7 @@ struct Discretization {
   Representation method = Representation::particles;
   // of particles
   std::int64_t per_cell = 8;
+  Arrangement lattice = Arrangement::regular;
   bool partial_volumes = false;
   bool partial_volumes_given = false;  ///< in the case file; else `choose_volumes` decides
   // of elements

@@ -95,6 +95,8 @@ struct State {
   } rates;
   Profile profile;
 
+  /// Returns the shape functions of forces, velocities and their gradients.
+  [[nodiscard]] transfer::ShapeFunctions functions() const { return {shape, setup.transfer.slope_smoothing}; }
   /// Returns the inertia per mass (m^2) of affine fields by this shape function; 0 if it cannot carry them.
   [[nodiscard]] double affine_inertia() const;
   /// Returns the inertia per mass (m^2) of the affine fields that particles of this case carry; 0 without such fields.

@@ -4,8 +4,10 @@
 // today, not how good it should be; docs/generated/exact_suite.md has all figures.
 #include <cctype>
 
+#include "tests/verification/exact/advected_block.hpp"
 #include "tests/verification/exact/expect.hpp"
 #include "tests/verification/exact/planar_impact.hpp"
+#include "tests/verification/exact/runs.hpp"
 
 namespace whipple::verification::exact {
 namespace {
@@ -209,6 +211,26 @@ TEST_P(ExactMelting, MeltsTheShareThatTheReleaseMelts) {
     std::printf("%s, %s: %.4f (exact %.4f)\n", GetParam().name.c_str(), body, share->value, share->exact);
     EXPECT_NEAR(share->value, share->exact, copper ? 0.08 : 0.04) << body;
   }
+}
+
+// What crosses cells must not heat: less than the law of the nodal force of these slopes (docs/theory/dissipation.md, 11),
+// which the derivatives of the functions exceed.
+TEST(AdvectedBlock, IsHeatedByTheCellsThatItCrossesAsItsSlopesAllow) {
+  const AdvectedBlock block{.name = "block",
+                            .material = "cases/release_melting/cadmium_spall.toml",
+                            .compression = 0.25,
+                            .way = 1e-3};
+  const Result smooth = run(block, 0.1e-3);
+  print("block", smooth);
+  options_of_all_cases() = "[transfer]\nslope_smoothing = 0\n";
+  const Result rough = run(block, 0.1e-3);
+  options_of_all_cases() = "";
+  print("block, derivatives", rough);
+  const std::string heat = "heat per cell crossed, J/kg", law = "law with gamma 1, J/kg";
+  EXPECT_LT(std::abs(smooth.at(heat)), smooth.at(law));
+  EXPECT_GT(rough.at(heat), 2.0 * smooth.at(law));
+  EXPECT_LT(rough.at(heat), rough.at(law));
+  EXPECT_LT(std::abs(smooth.at("change of the density")), 0.2 * std::abs(rough.at("change of the density")));
 }
 
 /// Letters and digits of the name.

@@ -41,8 +41,8 @@ void Hexahedra::convert(ParticleCarrier& particles, double grid_step) {
       }
     }
     if (count == 0.0) continue;
-    const afemp::ConversionBalance balance =
-        afemp::convert_elements(mesh, distorted, state_.particle_affine_inertia(), state_.particles);
+    const afemp::ConversionBalance balance = afemp::convert_elements(
+        mesh, distorted, state_.particle_affine_inertia(), state_.particles, body.discretization.lattice);
     converted += count;
     state_.booked.converted_mass += balance.mass;
     state_.booked.conversion_heat += balance.kinetic_heat;

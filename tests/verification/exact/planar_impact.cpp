@@ -18,8 +18,17 @@
 namespace whipple::verification::exact {
 namespace {
 
-/// The material without its strength: what is left has an exact solution. It parts at the tension of soft
-/// aluminium and makes no heat by that (voids that grow do): else released material would swing in tension.
+/// Sums over one body.
+struct BodyFigures {
+  Mean energy, exact_energy, half_cell, first_cell, plateau, entropy, shock_pressure, shock_density,
+      shock_energy;
+  Mean first_release, plateau_first_release;
+  Mean melted;
+  double hottest = 0, not_solid = 0, mass = 0, largest_pressure = 0;
+};
+
+}  // namespace
+
 std::string hydrodynamic(const std::string& material) {
   static std::map<std::string, std::string> written;
   const auto [known, is_new] = written.try_emplace(material);
@@ -38,17 +47,6 @@ std::string hydrodynamic(const std::string& material) {
       "\"0.9 GPa\"\n";
   return known->second = write_material("hydrodynamic_" + file.stem().string(), text);
 }
-
-/// Sums over one body.
-struct BodyFigures {
-  Mean energy, exact_energy, half_cell, first_cell, plateau, entropy, shock_pressure, shock_density,
-      shock_energy;
-  Mean first_release, plateau_first_release;
-  Mean melted;
-  double hottest = 0, not_solid = 0, mass = 0, largest_pressure = 0;
-};
-
-}  // namespace
 
 std::vector<PlanarImpact> planar_impacts() {
   const std::string lead = "cases/lead_sphere_on_plate_gray/lead_linear.toml";
