@@ -22,6 +22,7 @@
 namespace whipple::fem {
 
 inline constexpr double root8 = 2.8284271247461900976;  ///< norm of a mode's corner values
+inline constexpr double negligible_cut = 0.01;          ///< of hourglass forces, not counted as a limit
 
 /// Quantities that are the same for all groups of elements.
 struct DeformationStep {

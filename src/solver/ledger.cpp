@@ -135,6 +135,11 @@ void Ledger::add(const Ledger& step) {
   friction_impulse += step.friction_impulse;
   converted_mass += step.converted_mass;
   conversion_heat += step.conversion_heat;
+  removed_mass += step.removed_mass;
+  hourglass_work += step.hourglass_work;
+  hourglass_overdrawn += step.hourglass_overdrawn;
+  limited_hourglass += step.limited_hourglass;
+  elements_beyond_range += step.elements_beyond_range;
   clamped_to_cold_curve += step.clamped_to_cold_curve;
   held_at_pressure_floor += step.held_at_pressure_floor;
   limited_volume_changes += step.limited_volume_changes;
