@@ -18,7 +18,7 @@
 /// constant to round-off whatever the stresses are. No function allocates per element or throws.
 namespace whipple::fem {
 
-/// Resistance of the four modes of a one-point element that its mean gradient does not see (eq. 3.3, 3.4).
+/// Resistance of the four modes of a one-point element that its mean gradient does not see (eq. 3.3 to 3.9).
 struct HourglassControl {
   enum class Kind : std::uint8_t {
     viscous,    ///< resists the rate; what it takes becomes heat at once
@@ -106,7 +106,7 @@ struct DeformationReport {
 using BlockUpdate = std::function<void(std::size_t begin, std::size_t end)>;
 
 /// Velocity gradients, work and hourglass forces of the step that takes the nodes from their present
-/// positions to x + dt motion.end (eq. 2.5 to 2.8, 3.1 to 3.6, 4.1 to 4.4); `points.length` becomes that of
+/// positions to x + dt motion.end (eq. 2.5 to 2.8, 3.1 to 3.9, 4.1 to 4.4); `points.length` becomes that of
 /// the end of the step. The volume that `update_material` makes of a gradient is exactly that of the element.
 /// With `update`, block by block while all of it is in the cache, also the new stresses and their forces at
 /// the end of the step: the next `internal_forces` only sums them. Until then nothing but `move_nodes` may

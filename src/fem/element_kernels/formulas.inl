@@ -127,9 +127,8 @@ struct Tally {
     hourglass_work[group.lane / width] += first_lanes(hourglass_work_done, group.count);
   }
   /// @param overdrawn_energy  J, that hourglass forces gave beyond what was stored
-  /// @param kept              part of the forces that the stored energy allows
-  WHIPPLE_INLINE void add_limits(const Group& group, Vector overdrawn_energy, Vector kept) {
-    const Vector none{}, cut = kept < in_all(1.0 - negligible_cut) ? in_all(1.0) : none;
+  /// @param cut               1 where the forces were limited to what the stored energy allows
+  WHIPPLE_INLINE void add_limits(const Group& group, Vector overdrawn_energy, Vector cut) {
     overdrawn[group.lane / width] += first_lanes(overdrawn_energy, group.count);
     limited[group.lane / width] += first_lanes(cut, group.count);
   }
@@ -155,7 +154,7 @@ struct Tally {
   }
 };
 
-/// Returns the factor by which the plastic strain since the last step reduces the hourglass forces (eq. 3.7),
+/// Returns the factor by which the plastic strain since the last step reduces the hourglass forces (eq. 3.9),
 /// and marks it as applied.
 /// @param modulus  rho c^2
 WHIPPLE_INLINE inline Vector return_factor(const Group& group, Elements& elements, const GaussPoints& points,
