@@ -43,9 +43,10 @@ struct ElementRange {
 enum class RangeFault : std::uint8_t { none, jacobian, time_step, hourglass, speed };
 constexpr std::array<Word<RangeFault>, 5> words(RangeFault) {
   return {{{RangeFault::none, "is in its valid range"},
-           {RangeFault::jacobian, "is distorted: the Jacobian at a corner is below its share of the mean"},
-           {RangeFault::time_step, "has become so thin that its stable time step is below its share of the grid's"},
-           {RangeFault::hourglass, "has more hourglass energy than its share of the internal energy"},
+           {RangeFault::jacobian, "is distorted: the Jacobian at a corner is below its fraction of the mean"},
+           {RangeFault::time_step,
+            "has become so thin that its stable time step is below its fraction of the grid's"},
+           {RangeFault::hourglass, "has more hourglass energy than its fraction of the internal energy"},
            {RangeFault::speed, "has a node faster than its largest valid speed"}}};
 }
 

@@ -75,9 +75,10 @@ ParameterTable<Conversion> Conversion::parameters() {
 ParameterTable<ElementRange> ElementRange::parameters() {
   using R = ElementRange;
   return {
-      choice("beyond", &R::beyond,
-             "an element that leaves its valid range becomes particles | is deleted, counted as outflow | stops "
-             "the run")
+      choice(
+          "beyond", &R::beyond,
+          "an element that leaves its valid range becomes particles | is deleted, counted as outflow | stops "
+          "the run")
           .optional(),
       real("jacobian", &R::jacobian, "", range::between(0.0, 1.0),
            "smallest valid ratio of the Jacobian at a corner to the mean one")

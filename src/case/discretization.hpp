@@ -78,9 +78,8 @@ enum class BeyondRange : std::uint8_t {
   stop,       ///< the run ends with its number
 };
 constexpr std::array<Word<BeyondRange>, 3> words(BeyondRange) {
-  return {{{BeyondRange::particles, "particles"},
-           {BeyondRange::remove, "remove"},
-           {BeyondRange::stop, "stop"}}};
+  return {
+      {{BeyondRange::particles, "particles"}, {BeyondRange::remove, "remove"}, {BeyondRange::stop, "stop"}}};
 }
 
 /// `element_range` of a body with elements: where an element is an approximation no longer.

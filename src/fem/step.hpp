@@ -92,11 +92,11 @@ struct VelocityGradients {
 /// Effects of the deformation of a step on the elements.
 struct DeformationReport {
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-  double work = 0.0;  ///< J, of the stresses, into internal energy
+  double work = 0.0;                 ///< J, of the stresses, into internal energy
   double hourglass_work = 0.0;       ///< J, against the hourglass forces, into hourglass energy and heat
   double hourglass_overdrawn = 0.0;  ///< J, of it that the forces gave back beyond what was stored, from heat
   double limited_hourglass = 0.0;    ///< elements whose forces were cut to what the stored energy allows
-  std::size_t inverted = 0;  ///< elements without positive volume (or Jacobian at a Gauss point)
+  std::size_t inverted = 0;          ///< elements without positive volume (or Jacobian at a Gauss point)
   std::size_t first_inverted = none;
   DeformationReport& operator+=(const DeformationReport& other);
 };

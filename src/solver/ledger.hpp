@@ -242,16 +242,4 @@ void sum_over_ranks(MPI_Comm communicator, Parts&... parts) {
   (for_each_number(parts, [&](const std::string&, double& x) { x = *next++; }), ...);
 }
 
-/// Masses by phase and other figures for the history.
-struct PhaseMasses {
-  std::array<double, 4> mass{};  ///< kg: solid, melting, liquid, vapour
-  double failed = 0.0;           ///< kg
-  PhaseMasses& operator+=(const PhaseMasses& other);
-};
-/// Sums the masses (kg) by phase over the material points [first, first + count); bitwise independent of the
-/// number of threads.
-PhaseMasses phase_masses(const MaterialPoints& points, std::size_t first, std::size_t count);
-/// Collective.
-void sum_over_ranks(MPI_Comm communicator, std::vector<PhaseMasses>& by_body);
-
 }  // namespace whipple::solver

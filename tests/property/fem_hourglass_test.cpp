@@ -74,7 +74,8 @@ TEST(Hourglass, NeverGivesMoreThanItTookInRandomMotion) {
 /// sound speed falls to a tenth: what comes back when it is let go is no more than what went in.
 TEST(Hourglass, StretchedAndSoftenedElementsReturnWhatWasStored) {
   for (const bool softens : {false, true}) {
-    Body body(Solid{}.material(), fem::make_box(Vector3::Constant(-0.5e-3), Vector3::Constant(0.5e-3), {1, 1, 1}),
+    Body body(Solid{}.material(),
+              fem::make_box(Vector3::Constant(-0.5e-3), Vector3::Constant(0.5e-3), {1, 1, 1}),
               Quadrature::one_point);
     body.hourglass = stiffness;
     const auto bend = [](const Vector3& x) {
@@ -97,7 +98,8 @@ TEST(Hourglass, StretchedAndSoftenedElementsReturnWhatWasStored) {
     if (softens) {
       body.mesh.points.sound_speed[0] *= 0.1;
     } else {
-      lead_through(1000, [&](const Vector3& x) { return Vector3(std::log(4.0) / (1000.0 * dt) * x[0], 0, 0); });
+      lead_through(1000,
+                   [&](const Vector3& x) { return Vector3(std::log(4.0) / (1000.0 * dt) * x[0], 0, 0); });
     }
     lead_through(200, [&](const Vector3& x) { return Vector3(-bend(x)); });
     EXPECT_GE(led.report.hourglass_work, -1e-3 * loaded) << softens;

@@ -86,8 +86,9 @@ TEST(ElementsBeyondTheirRange, BecomeParticlesAreDeletedOrStopTheRun) {
   testing::internal::CaptureStderr();
   Simulation remove(rod_on_plate(beyond("remove")), parallel::world());
   run_to(remove, 4e-6);
-  EXPECT_THAT(testing::internal::GetCapturedStderr(),
-              testing::AllOf(testing::HasSubstr("body \"rod\", element "), testing::HasSubstr("it is deleted")));
+  EXPECT_THAT(
+      testing::internal::GetCapturedStderr(),
+      testing::AllOf(testing::HasSubstr("body \"rod\", element "), testing::HasSubstr("it is deleted")));
   const solver::Ledger& deleted = remove.state().ledger;
   EXPECT_GT(deleted.elements_beyond_range, 0.0);
   EXPECT_EQ(remove.particle_count(), 0U);
@@ -108,7 +109,8 @@ TEST(ElementsBeyondTheirRange, BecomeParticlesAreDeletedOrStopTheRun) {
 
 TEST(ElementsBeyondTheirRange, AreFoundBySpeedAndByHourglassEnergy) {
   for (const std::string bound : {"speed = \"1100 m/s\"", "hourglass_share = 1e-6"}) {
-    Simulation simulation(rod_on_plate("element_range = { beyond = \"stop\", " + bound + " }"), parallel::world());
+    Simulation simulation(rod_on_plate("element_range = { beyond = \"stop\", " + bound + " }"),
+                          parallel::world());
     EXPECT_THROW(run_to(simulation, 4e-6), StateError) << bound;
   }
 }

@@ -99,7 +99,8 @@ struct OnePoint {
       const Vector most = (2.0 / (root8 * dt)) * resistance * stored;
       const Vector kept = most < force_squared ? root(most / force_squared) : in_all(1.0);
       for (std::size_t m = 0; m < 4; ++m) q[m] = kept * q[m] + advance[m];
-      const Vector round_off = (negligible_energy * 2.0 / (root8 * dt)) * resistance * mass * sound_speed * sound_speed;
+      const Vector round_off =
+          (negligible_energy * 2.0 / (root8 * dt)) * resistance * mass * sound_speed * sound_speed;
       tally.add_limits(group, maximum(-booked, Vector{}),
                        (1.0 - negligible_cut) * force_squared > most + round_off ? in_all(1.0) : Vector{});
     }

@@ -53,8 +53,8 @@ void Hexahedra::convert(ParticleCarrier& particles, double grid_step) {
     std::vector<std::string> told;
     for (std::size_t e = 0; e < faults.size(); ++e) {
       if (beyond[e] == 0) continue;
-      told.push_back(describe(mesh, e * fem::points_per_element(mesh.quadrature),
-                              std::string(word_of(faults[e]))));
+      told.push_back(
+          describe(mesh, e * fem::points_per_element(mesh.quadrature), std::string(word_of(faults[e]))));
     }
     switch (body.element_range.beyond) {
       case cases::BeyondRange::particles:

@@ -147,13 +147,13 @@ std::string Hexahedra::deform(std::size_t m, bool heated, SqueezedPoints& squeez
   const std::string of_material = book(state_, sum, material, of_point);
   squeezed.add(mesh.body, sum, of_point);
   if (report.inverted == 0) return of_material;
-  return describe(
-      mesh, report.first_inverted * rows,
-      body.discretization.converts()
-          ? "is inverted: raise conversion.jacobian or conversion.time_step_ratio, or lower "
-            "conversion.plastic_strain, so that it becomes particles earlier"
-          : "is inverted: raise element_range.jacobian or element_range.time_step_ratio, so that it leaves its "
-            "valid range earlier");
+  return describe(mesh, report.first_inverted * rows,
+                  body.discretization.converts()
+                      ? "is inverted: raise conversion.jacobian or conversion.time_step_ratio, or lower "
+                        "conversion.plastic_strain, so that it becomes particles earlier"
+                      : "is inverted: raise element_range.jacobian or element_range.time_step_ratio, so that "
+                        "it leaves its "
+                        "valid range earlier");
 }
 
 /// Elements that lie outside of the domain as a whole are gone, and their contributions to the nodes.
