@@ -11,6 +11,7 @@
 
 #include "src/fem/bars.hpp"
 #include "src/fem/mesh.hpp"
+#include "src/solver/phase_masses.hpp"
 #include "src/solver/state.hpp"
 
 namespace whipple::solver {

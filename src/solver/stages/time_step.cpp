@@ -140,22 +140,24 @@ double TimeStep::element_bound() const {
 
 /// Explicit diffusion of momentum and of heat is stable below dx^2 / (9 a), a the diffusivity, whatever the
 /// particles: the squares of the gradients of quadratic B-splines over their values add up to 18/dx^2 at most
-/// (docs/theory/conduction.md, eq. 5).
+/// (docs/theory/conduction.md, eq. 6).
 double TimeStep::diffusive_bound() const {
   const double dx = state_.setup.domain.cell_size;
   const Particles& particles = state_.particles;
   double diffusivity = 0.0;
   for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
     const Material& material = *state_.setup.materials[b];
-    double per_volume = material.strength->viscosity();
-    if (state_.setup.heat.conduction && material.conductivity > 0.0) {
-      per_volume = std::max(per_volume, material.conductivity / material.reference.heat_capacity);
-    }
-    if (!(per_volume > 0.0)) continue;
+    const double viscosity = material.strength->viscosity();
+    const double conduction = state_.setup.heat.conduction && material.conductivity > 0.0
+                                  ? material.conductivity / material.reference.heat_capacity
+                                  : 0.0;
+    if (!(std::max(viscosity, conduction) > 0.0)) continue;
     const cases::BodySummary& body = state_.bodies[b];
     diffusivity = std::max(diffusivity, parallel::maximum(body.count, 0.0, [&](std::size_t i) {
                              const std::size_t p = body.first + i;
-                             return per_volume * particles.volume[p] / particles.mass[p];
+                             const double with_voids = particles.volume[p] + particles.void_volume[p];
+                             return std::max(viscosity * particles.volume[p], conduction * with_voids) /
+                                    particles.mass[p];
                            }));
   }
   diffusivity = parallel::maximum(state_.communicator, diffusivity);
