@@ -83,7 +83,18 @@ whipple_test(test_exact STARTS_MPI
   SOURCES verification/exact_solutions_test.cpp verification/exact_gas_test.cpp verification/exact_impact_test.cpp
           verification/exact_solid_test.cpp
   DEPENDS whipple_exact LABELS fast)
-# Finer resolutions are long; all of them have the label exact.
+# Finer resolutions are long.
+whipple_test(test_expansion STARTS_MPI SOURCES verification/solver_expansion_test.cpp DEPENDS whipple_solver LABELS fast)
+set(expansion_labels ${CMAKE_CURRENT_BINARY_DIR}/test_expansion_labels.cmake)
+file(WRITE ${expansion_labels} [=[
+foreach(test IN LISTS test_expansion_TESTS)
+  if(test MATCHES "Fine")
+    set_tests_properties("${test}" PROPERTIES LABELS long)
+  endif()
+endforeach()
+]=])
+set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${expansion_labels})
+# All of those with exact solutions have the label exact.
 set(exact_labels ${CMAKE_CURRENT_BINARY_DIR}/test_exact_labels.cmake)
 file(WRITE ${exact_labels} [=[
 foreach(test IN LISTS test_exact_TESTS)

@@ -143,6 +143,8 @@ void Ledger::add(const Ledger& step) {
   held_at_pressure_floor += step.held_at_pressure_floor;
   limited_volume_changes += step.limited_volume_changes;
   limited_domains += step.limited_domains;
+  held_pressures += step.held_pressures;
+  refused_divisions += step.refused_divisions;
   limited_densities += step.limited_densities;
   limited_compressions += step.limited_compressions;
   limited_void_steps += step.limited_void_steps;

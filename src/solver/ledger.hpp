@@ -133,6 +133,9 @@ struct Ledger {
   double held_at_pressure_floor = 0.0;  ///< evaluations at the least pressure of a modifier `floor`
   double limited_volume_changes = 0.0;  ///< steps of particles whose volume change was limited
   double limited_domains = 0.0;  ///< steps of particles whose domain was larger than its shape function takes
+  double held_pressures =
+      0.0;  ///< steps of fluid particles whose pressure did not act along directions in which they have parted
+  double refused_divisions = 0.0;  ///< divisions of particles beyond `splitting.maximum_particles`
   double limited_densities = 0.0;  ///< steps of particles at their least density
   double limited_compressions =
       0.0;                          ///< steps of particles at the greatest density of their equation of state
@@ -199,6 +202,8 @@ void for_each_number(L& ledger, Function&& f) {
   f("held_at_pressure_floor", ledger.held_at_pressure_floor);
   f("limited_volume_changes", ledger.limited_volume_changes);
   f("limited_domains", ledger.limited_domains);
+  f("held_pressures", ledger.held_pressures);
+  f("refused_divisions", ledger.refused_divisions);
   f("limited_densities", ledger.limited_densities);
   f("limited_compressions", ledger.limited_compressions);
   f("limited_void_steps", ledger.limited_void_steps);
@@ -230,6 +235,10 @@ inline constexpr auto limiters = std::to_array<Limiter>({
     {"limited_hourglass", &Ledger::limited_hourglass,
      "hourglass forces of an element limited to its stored energy"},
     {"elements_beyond_range", &Ledger::elements_beyond_range, "element left its valid range"},
+    {"held_pressures", &Ledger::held_pressures,
+     "pressure held back in a fluid particle that has parted from its neighbours"},
+    {"refused_divisions", &Ledger::refused_divisions,
+     "division of a particle refused at splitting.maximum_particles"},
     {"held_time_steps", &Ledger::held_time_steps,
      "time step kept longer than the volumetric strain-rate limit"},
 });
