@@ -304,10 +304,11 @@ Quantities final_values(const Table& series, const Quantities& last, const Run& 
   }
   const Frame& frame = start.frame;
   const double speed = frame.impact_speed > 0.0 ? frame.impact_speed : nan;
-  append(row, {measured("target_velocity", frame.axial(run.frame_velocity)), measured("impact_speed", speed),
-               measured("impact_angle", speed > 0.0 ? frame.impact_angle : nan),
-               measured("front_speed_over_impact_speed", of("front_speed")->value / speed),
-               measured("radial_speed_over_impact_speed", of("radial_speed")->value / speed)});
+  append(row,
+         {measured("target_velocity", frame.axial(run.frame_velocity) + 0.0), measured("impact_speed", speed),
+          measured("impact_angle", speed > 0.0 ? frame.impact_angle : nan),
+          measured("front_speed_over_impact_speed", of("front_speed")->value / speed),
+          measured("radial_speed_over_impact_speed", of("radial_speed")->value / speed)});
   const BodyInput& projectile = run.bodies[frame.projectile];
   row.push_back(measured("projectile_size", projectile.velocity.isZero(0.0) ? nan : projectile.size));
   for (const BodyInput& body : run.bodies) {
