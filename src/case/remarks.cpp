@@ -190,9 +190,10 @@ void remark_on_splitting(const Case& setup, std::vector<std::string>& remarks) {
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     const Material& material = *setup.materials[b];
     if (fluidity(material) != Fluidity::always && !material.burns()) continue;
-    remarks.push_back(fmt::format("'{}' is gas or becomes it, and splitting is off: where it expands freely, its "
-                                  "particles part and its heat is lost to unresolved motion",
-                                  setup.bodies[b].name));
+    remarks.push_back(
+        fmt::format("'{}' is gas or becomes it, and splitting is off: where it expands freely, its "
+                    "particles part and its heat is lost to unresolved motion",
+                    setup.bodies[b].name));
   }
 }
 

@@ -51,9 +51,11 @@ std::string of_splitting(const solver::Simulation& simulation) {
   const char* const divided = splitting.of == cases::Divided::all ? "what stretches"
                               : forecast.fluid_from_start         ? "fluid that expands freely"
                                                                   : "what melts or boils and stretches";
-  return fmt::format("splitting: {:.0f} to {:.3g} particles, {} to {}: {} is divided up to {:.0f} times\n", now,
-                     forecast.most_particles, format_bytes(bytes),
-                     format_bytes(bytes / now * forecast.most_particles), divided, forecast.generations);
+  return fmt::format(
+      "splitting: {:.0f} to {:.3g} particles, {} to {}: {} is divided up to {:.0f} times "
+      "(the time is that of {:.0f})\n",
+      now, forecast.most_particles, format_bytes(bytes), format_bytes(bytes / now * forecast.most_particles),
+      divided, forecast.generations, now);
 }
 
 }  // namespace
@@ -84,9 +86,10 @@ std::string check_case(const RunOptions& options, MPI_Comm communicator) {
   }
   for (const std::string& remark : setup.contact_fields.remarks) text += remark + "\n";
   for (const std::string& remark : cases::remarks(setup)) text += "warning: " + remark + "\n";
+  const std::size_t particles = simulation.particle_count();  // those of later steps are more
   const std::string splitting = of_splitting(simulation);
   const Forecast cost = forecast(simulation);
-  text += fmt::format("particles: {}, active blocks: {}, memory: {} now\n", simulation.particle_count(),
+  text += fmt::format("particles: {}, active blocks: {}, memory: {} now\n", particles,
                       simulation.grid().slots(), format_bytes(static_cast<double>(simulation.bytes())));
   text += splitting;
   text += fmt::format("steps: {:.0f} to {:.0f} to t = {:.6g} us\n", cost.least_steps, cost.most_steps,

@@ -149,6 +149,10 @@ Forecast forecast(solver::Simulation& s) {
   result.least_steps = std::max(std::ceil(least), snapshots);
   result.most_steps = steps_between_snapshots(most, snapshots);
   result.moving_share = moving_share(s);
+  const auto carriers = [&s] {
+    return std::max(static_cast<double>(s.particle_count() + s.element_count()), 1.0);
+  };
+  const double at_start = carriers();
   s.advance(end);  // allocates the blocks
   using Clock = std::chrono::steady_clock;
   double quickest = std::numeric_limits<double>::infinity(), spent = 0.0;
@@ -158,14 +162,13 @@ Forecast forecast(solver::Simulation& s) {
     const auto begin = Clock::now();
     s.advance(end);
     const double taken = std::chrono::duration<double>(Clock::now() - begin).count();
-    quickest = std::min(quickest, taken);  // what others do on the machine only adds
+    quickest = std::min(quickest, taken / carriers());  // what others do on the machine only adds
     spent = parallel::maximum(s.communicator(), spent + taken);
   }
   if (!std::isfinite(quickest)) quickest = 0.0;
   quickest = parallel::maximum(s.communicator(), quickest);
-  const auto carriers = static_cast<double>(s.particle_count() + s.element_count());
-  result.nanoseconds = 1e9 * quickest / std::max(carriers, 1.0);
-  const double of_step = quickest * result.moving_share;
+  result.nanoseconds = 1e9 * quickest;
+  const double of_step = quickest * at_start * result.moving_share;
   result.least_time = cheapest * usual_steps / fewest_steps * result.least_steps * of_step;
   result.most_time = dearest * usual_steps / most_steps * result.most_steps * of_step + beside_steps;
   return result;

@@ -168,7 +168,8 @@ cases::Case expanding_gas(bool section) {
               : "lower = [\"0 mm\", \"0 mm\", \"0 mm\"]\nupper = [\"24 mm\", \"24 mm\", \"24 mm\"]\n";
   const std::string boundary = section ? "" : ", y_lower = \"symmetry\", z_lower = \"symmetry\"";
   return cases::read_case_text("[domain]\n" + of_dimension +
-                                   "cell_size = \"1 mm\"\nboundary = { x_lower = \"symmetry\"" + boundary + " }\n" +
+                                   "cell_size = \"1 mm\"\nboundary = { x_lower = \"symmetry\"" + boundary +
+                                   " }\n" +
                                    R"([time]
 end = "20 us"
 [splitting]

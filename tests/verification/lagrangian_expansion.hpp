@@ -23,8 +23,8 @@ struct ExpansionState {
 /// Expands a uniform slab from a wall, or a sphere, of thickness or radius `size` (m), at rest at the start, to a time
 /// (s). Staggered in space and time, energy by the trapezoidal rule in the pressure; nothing is compressed, so that
 /// there is no artificial viscosity. With 100 zones energies are exact to 0.1 %.
-inline ExpansionState expand_in_zones(const eos::EquationOfState& eos, Expansion kind, double size, double density,
-                                      double energy, double end, std::size_t zones = 100) {
+inline ExpansionState expand_in_zones(const eos::EquationOfState& eos, Expansion kind, double size,
+                                      double density, double energy, double end, std::size_t zones = 100) {
   const bool plane = kind == Expansion::plane;
   const auto area = [&](double r) { return plane ? 1.0 : 4.0 * std::numbers::pi * r * r; };
   const auto enclosed = [&](double r) { return plane ? r : 4.0 / 3.0 * std::numbers::pi * r * r * r; };

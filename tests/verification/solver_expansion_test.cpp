@@ -43,17 +43,20 @@ std::string case_of(const Problem& problem, double cell, const std::string& more
   const bool plane = problem.kind == Expansion::plane;
   const std::string thickness = fmt::format("{}", 4 * cell);
   const std::string domain =
-      plane ? fmt::format("dimension = \"plane_strain\"\nlower = [0, 0]\nupper = [{}, {}]\ncell_size = {}\n"
-                          "boundary = {{ x_lower = \"symmetry\", y_lower = \"symmetry\", y_upper = \"symmetry\" }}\n",
-                          problem.length, thickness, cell)
-            : fmt::format("dimension = \"axisymmetric\"\nlower = [0, 0]\nupper = [{0}, {0}]\ncell_size = {1}\n"
-                          "boundary = {{ x_lower = \"symmetry\" }}\n",
-                          problem.length, cell);
+      plane ? fmt::format(
+                  "dimension = \"plane_strain\"\nlower = [0, 0]\nupper = [{}, {}]\ncell_size = {}\n"
+                  "boundary = {{ x_lower = \"symmetry\", y_lower = \"symmetry\", y_upper = \"symmetry\" }}\n",
+                  problem.length, thickness, cell)
+            : fmt::format(
+                  "dimension = \"axisymmetric\"\nlower = [0, 0]\nupper = [{0}, {0}]\ncell_size = {1}\n"
+                  "boundary = {{ x_lower = \"symmetry\" }}\n",
+                  problem.length, cell);
   const std::string shape =
       plane ? fmt::format("box = {{ lower = [0, 0, -1], upper = [{}, {}, 1] }}", problem.size, thickness)
             : fmt::format("sphere = {{ center = [0, 0, 0], radius = {} }}", problem.size);
-  return fmt::format("{}[domain]\n{}[time]\nend = {}\n[[body]]\nname = \"body\"\nmaterial = \"{}\"\n{}shape = {{ {} }}\n",
-                     more, domain, problem.end, problem.material, problem.initial, shape);
+  return fmt::format(
+      "{}[domain]\n{}[time]\nend = {}\n[[body]]\nname = \"body\"\nmaterial = \"{}\"\n{}shape = {{ {} }}\n",
+      more, domain, problem.end, problem.material, problem.initial, shape);
 }
 
 /// Deviations from the reference; temperature 0 if the model has none.
@@ -73,8 +76,8 @@ Deviation deviation(const Problem& problem, double cell, const std::string& more
   EXPECT_LT(simulation.state().ledger.momentum_error(simulation.totals()), 1e-12);
   EXPECT_EQ(simulation.state().ledger.limited_densities, 0.0);
   EXPECT_EQ(simulation.state().ledger.refused_divisions, 0.0);
-  ExpansionState exact = expand_in_zones(*setup.materials[0]->eos, problem.kind, problem.size, density, energy,
-                                         problem.end);
+  ExpansionState exact =
+      expand_in_zones(*setup.materials[0]->eos, problem.kind, problem.size, density, energy, problem.end);
   const double all = exact.kinetic + exact.internal;
   // The whole sphere is twice its half beside the plane of symmetry.
   const double scale = mass * energy / all;
@@ -85,14 +88,16 @@ Deviation deviation(const Problem& problem, double cell, const std::string& more
   temperature /= simulation.totals().mass;
   const solver::Totals& totals = simulation.totals();
   const double de = totals.internal_energy - exact.internal, dk = totals.kinetic_energy - exact.kinetic;
-  const Deviation result = {de / exact.internal, dk / exact.kinetic, exact.temperature > 0.0 ? temperature / exact.temperature - 1.0 : 0.0,
+  const Deviation result = {de / exact.internal, dk / exact.kinetic,
+                            exact.temperature > 0.0 ? temperature / exact.temperature - 1.0 : 0.0,
                             (std::abs(de) + std::abs(dk)) / (mass * energy)};
-  std::printf("%6.3f mm: %6zu particles, internal %.5g (exact %.5g, %+.2f %%), kinetic %.5g (%.5g, %+.2f %%), "
-              "unresolved %.2g, T %.5g (%.5g, %+.2f %%), held %.0f, outflow %.1e\n",
-              1e3 * cell, q.size(), totals.internal_energy, exact.internal, 100 * result.internal,
-              totals.kinetic_energy, exact.kinetic, 100 * result.kinetic, totals.unresolved_energy, temperature,
-              exact.temperature, 100 * result.temperature, simulation.state().ledger.held_pressures,
-              simulation.state().ledger.outflow.mass / mass);
+  std::printf(
+      "%6.3f mm: %6zu particles, internal %.5g (exact %.5g, %+.2f %%), kinetic %.5g (%.5g, %+.2f %%), "
+      "unresolved %.2g, T %.5g (%.5g, %+.2f %%), held %.0f, outflow %.1e\n",
+      1e3 * cell, q.size(), totals.internal_energy, exact.internal, 100 * result.internal,
+      totals.kinetic_energy, exact.kinetic, 100 * result.kinetic, totals.unresolved_energy, temperature,
+      exact.temperature, 100 * result.temperature, simulation.state().ledger.held_pressures,
+      simulation.state().ledger.outflow.mass / mass);
   return result;
 }
 
@@ -107,11 +112,14 @@ void expect_convergence(const Problem& problem, std::initializer_list<double> ce
   for (std::size_t i = 1; i < found.size(); ++i) EXPECT_LT(found[i].partition, found[i - 1].partition);
 }
 
-const Problem slab = {Expansion::plane, gas(), "initial = { density = \"1 kg/m^3\", pressure = \"1 MPa\" }\n", 16e-6, 0.15};
-const Problem sphere = {Expansion::spherical, gas(), "initial = { density = \"1 kg/m^3\", pressure = \"1 MPa\" }\n", 12e-6,
-                        0.09};
-const Problem products = {Expansion::spherical, "composition_b", "detonation = \"instantaneous\"\n", 8e-6, 0.08};
-const Problem vapour = {Expansion::plane, "copper", "initial = { density = \"8930 kg/m^3\", temperature = \"60000 K\" }\n", 6e-6, 0.3};
+const Problem slab = {Expansion::plane, gas(), "initial = { density = \"1 kg/m^3\", pressure = \"1 MPa\" }\n",
+                      16e-6, 0.15};
+const Problem sphere = {Expansion::spherical, gas(),
+                        "initial = { density = \"1 kg/m^3\", pressure = \"1 MPa\" }\n", 12e-6, 0.09};
+const Problem products = {Expansion::spherical, "composition_b", "detonation = \"instantaneous\"\n", 8e-6,
+                          0.08};
+const Problem vapour = {Expansion::plane, "copper",
+                        "initial = { density = \"8930 kg/m^3\", temperature = \"60000 K\" }\n", 6e-6, 0.3};
 
 TEST(FreeExpansion, SlabOfGas) { expect_convergence(slab, {0.5e-3, 0.25e-3}); }
 TEST(FreeExpansion, SphereOfGas) { expect_convergence(sphere, {0.625e-3, 0.5e-3}); }
@@ -144,7 +152,9 @@ TEST(Division, OfAParticleOfAnyLengthKeepsEverySumAndLetsNothingGrow) {
   constexpr double dx = 1e-3, inertia = dx * dx / 4.0;
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
-  const auto vector = [&](double scale) { return Vector3(scale * Vector3(normal(random), normal(random), normal(random))); };
+  const auto vector = [&](double scale) {
+    return Vector3(scale * Vector3(normal(random), normal(random), normal(random)));
+  };
   for (const double length : {0.1, 1.0, 1.9, 2.1, 3.0, 10.0, 100.0}) {
     for (int trial = 0; trial < 20; ++trial) {
       Particles q = particle_and_room();
@@ -169,8 +179,9 @@ TEST(Division, OfAParticleOfAnyLengthKeepsEverySumAndLetsNothingGrow) {
       const double energy = before.energy();
       EXPECT_EQ(after.mass, before.mass);
       EXPECT_LT((after.momentum - before.momentum).norm(), 1e-14 * before.momentum_scale);
-      EXPECT_LT((after.angular_momentum - before.angular_momentum).norm(),
-                1e-13 * (before.angular_momentum.norm() + before.mass * inertia * q.affine_velocity[0].norm()));
+      EXPECT_LT(
+          (after.angular_momentum - before.angular_momentum).norm(),
+          1e-13 * (before.angular_momentum.norm() + before.mass * inertia * q.affine_velocity[0].norm()));
       EXPECT_LT((moments() - moments_before).norm(), 1e-14 * moments_before.norm());
       EXPECT_LT(std::abs(after.energy() - energy), 1e-13 * energy);
       EXPECT_NEAR(after.unresolved_energy, loss, 1e-13 * energy);
@@ -183,15 +194,16 @@ TEST(Division, OfAParticleOfAnyLengthKeepsEverySumAndLetsNothingGrow) {
 }
 
 /// The lead sphere of cases/lead_sphere_on_plate_gray as a section, 14 cells across.
-cases::Case lead_section(const std::string& more_of_material, std::vector<std::pair<std::string, std::string>> overrides) {
+cases::Case lead_section(const std::string& more_of_material,
+                         std::vector<std::pair<std::string, std::string>> overrides) {
   const std::string folder = WHIPPLE_SOURCE_DIR "/cases/lead_sphere_on_plate_gray/";
   std::ifstream file(folder + "lead_linear.toml");
   std::stringstream text;
   text << file.rdbuf() << more_of_material;
   const std::string lead = "\"" + write_material("lead", text.str()) + "\"";
-  overrides.insert(overrides.end(), {{"domain.dimension", "axisymmetric"},
-                                     {"body.0.material", lead},
-                                     {"body.1.material", lead}});
+  overrides.insert(
+      overrides.end(),
+      {{"domain.dimension", "axisymmetric"}, {"body.0.material", lead}, {"body.1.material", lead}});
   return cases::read_case(folder + "case.toml", overrides);
 }
 
@@ -227,7 +239,8 @@ TEST(FreeExpansionFine, VapourOfAnImpactIsHeldBeforeItReachesTheDensityFloor) {
 
 TEST(Division, IsRefusedBeyondTheNumberOfParticlesThatTheCaseTakes) {
   const std::string bound = "[splitting]\nmaximum_particles = 200\n";
-  solver::Simulation simulation(cases::read_case_text(case_of(slab, 0.5e-3, bound), "bound.toml"), parallel::world());
+  solver::Simulation simulation(cases::read_case_text(case_of(slab, 0.5e-3, bound), "bound.toml"),
+                                parallel::world());
   run_to(simulation, slab.end);
   EXPECT_GT(simulation.particle_count(), 100U);
   EXPECT_LE(simulation.particle_count(), 200U);

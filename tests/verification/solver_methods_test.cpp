@@ -373,9 +373,9 @@ TEST(Splitting, KeepsStretchedMatterTogetherAndEverySumExact) {
   for (const char* dimension : {"3d", "plane_strain", "axisymmetric"}) {
     for (const bool split : {false, true}) {
       SCOPED_TRACE(fmt::format("{}, splitting {}", dimension, split));
-      const cases::Case setup = read(
-          Method{}, 1.0, "",
-          stretching_gas(dimension, split ? "[splitting]\nlength = 1\n" : "[splitting]\nlength = 0\n"));
+      const cases::Case setup =
+          read(Method{}, 1.0, "",
+               stretching_gas(dimension, split ? "[splitting]\nlength = 1\n" : "[splitting]\nlength = 0\n"));
       Particles particles = cases::seed(setup).particles;
       for (std::size_t p = 0; p < particles.size(); ++p) {
         particles.velocity[p] = {1e5 * particles.position[p][0], 0, 0};

@@ -53,8 +53,8 @@ double share_of_expanded_fluid(const solver::Simulation& simulation) {
     const std::size_t first = simulation.bodies()[b].first;
     carried[0] += parallel::sum<double>(simulation.bodies()[b].count, [&](std::size_t i) {
       const std::size_t p = first + i;
-      const bool expanded = particles.mass[p] < thin * particles.volume[p] &&
-                            is_continuous_fluid(fluid, particles, p);
+      const bool expanded =
+          particles.mass[p] < thin * particles.volume[p] && is_continuous_fluid(fluid, particles, p);
       return expanded ? particles.mass[p] * particles.unresolved_energy[p] : 0.0;
     });
   }
@@ -77,12 +77,13 @@ void tell(const Moment& moment, double expanded) {
   const bool at_rest = totals.kinetic_energy < nearly_at_rest * ledger.initial.kinetic_energy;
   if (totals.unresolved_share() > much_unresolved && !at_rest) {
     const bool parted = expanded > 0.5 && !solver::domains::may_divide(moment.simulation.setup());
-    log::info("motion that the cells do not resolve has {:.3g} % of the kinetic energy of the motion that they "
-              "resolve: {}",
-              100.0 * totals.unresolved_share(),
-              parted ? "most of it is lost heat of expanding fluid whose particles have parted; "
-                       "splitting.length above 0 keeps them together, finer cells do not"
-                     : "finer cells would change the result");
+    log::info(
+        "motion that the cells do not resolve has {:.3g} % of the kinetic energy of the motion that they "
+        "resolve: {}",
+        100.0 * totals.unresolved_share(),
+        parted ? "most of it is lost heat of expanding fluid whose particles have parted; "
+                 "splitting.length above 0 keeps them together, finer cells do not"
+               : "finer cells would change the result");
   }
 }
 

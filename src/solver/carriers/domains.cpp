@@ -208,8 +208,9 @@ void split(State& state, const Carriers& carriers, ParticleCarrier& of_particles
     const std::size_t before = state.particles.size();
     resize(state.particles, before + divisions.size());
     for (std::size_t i = 0; i < divisions.size(); ++i) {
-      (state.keeps_losses() ? state.booked.unresolved_kept : state.booked.transfer_heat) += divide(
-          state.particles, divisions[i].first, before + i, divisions[i].second, state.particle_affine_inertia());
+      (state.keeps_losses() ? state.booked.unresolved_kept : state.booked.transfer_heat) +=
+          divide(state.particles, divisions[i].first, before + i, divisions[i].second,
+                 state.particle_affine_inertia());
       state.particles.id[before + i] = next++;
     }
     of_particles.reallocated();
