@@ -106,7 +106,7 @@ TEST(Hourglass, StretchedAndSoftenedElementsReturnWhatWasStored) {
     lead_through(200, [&](const Vector3& x) { return Vector3(-bend(x)); });
     EXPECT_GE(led.lowest, -1e-3 * loaded) << softens;
     EXPECT_GE(led.least, 0.0);
-    EXPECT_GT(led.report.limited_hourglass, 0.0) << softens;
+    EXPECT_EQ(led.report.limited_hourglass > 0.0, softens);  // the stretch takes too little in any one step
   }
 }
 
