@@ -14,7 +14,7 @@ whipple_test(test_solver STARTS_MPI
 whipple_test(test_run STARTS_MPI
   SOURCES parallel/run_restart_test.cpp property/run_forecast_test.cpp property/run_gauges_test.cpp property/solver_plausibility_test.cpp verification/run_steering_test.cpp
   DEPENDS whipple_run nlohmann_json::nlohmann_json GTest::gmock LABELS fast)
-whipple_test(test_contact STARTS_MPI SOURCES property/contact_pressing_test.cpp verification/solver_gap_test.cpp verification/solver_first_touch_test.cpp
+whipple_test(test_contact STARTS_MPI SOURCES property/contact_pressing_test.cpp verification/solver_gap_test.cpp verification/solver_first_touch_test.cpp verification/solver_conduction_test.cpp
              DEPENDS whipple_run LABELS fast)
 whipple_test(test_burn STARTS_MPI SOURCES verification/burn_test.cpp verification/burn_contact_test.cpp verification/lighting_times_test.cpp verification/reaction_test.cpp DEPENDS whipple_run GTest::gmock LABELS fast)
 add_test(NAME burn.fine_slab COMMAND test_burn --gtest_filter=PlanarDetonation.FollowsTheTaylorWaveOfTnt)

@@ -32,6 +32,7 @@ struct Led {
     fem::move_nodes(mesh, motion, dt);
     taken += std::abs(report.hourglass_work - last);
     last = report.hourglass_work;
+    lowest = std::min(lowest, last);
     least = std::min(least, *std::ranges::min_element(mesh.elements.hourglass_energy));
   }
 
@@ -39,7 +40,8 @@ struct Led {
   fem::Motion motion;
   fem::VelocityGradients gradients;
   fem::DeformationReport report;
-  double least = 0.0, taken = 0.0, last = 0.0;  // J: stored energy of an element, work of both signs
+  double least = 0.0;                            // J, stored energy of any element
+  double taken = 0.0, last = 0.0, lowest = 0.0;  // J, work: of both signs, so far, least so far
 };
 
 TEST(Hourglass, NeverGivesMoreThanItTookInRandomMotion) {
@@ -102,9 +104,9 @@ TEST(Hourglass, StretchedAndSoftenedElementsReturnWhatWasStored) {
                    [&](const Vector3& x) { return Vector3(std::log(4.0) / (1000.0 * dt) * x[0], 0, 0); });
     }
     lead_through(200, [&](const Vector3& x) { return Vector3(-bend(x)); });
-    EXPECT_GE(led.report.hourglass_work, -1e-3 * loaded) << softens;
+    EXPECT_GE(led.lowest, -1e-3 * loaded) << softens;
     EXPECT_GE(led.least, 0.0);
-    EXPECT_GT(led.report.limited_hourglass, 0.0) << softens;
+    EXPECT_EQ(led.report.limited_hourglass > 0.0, softens);  // the stretch takes too little in any one step
   }
 }
 
