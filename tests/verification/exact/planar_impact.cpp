@@ -135,10 +135,11 @@ name = "{}"
 material = "{}"
 velocity = [0, 0, {}]
 shape = {{ box = {{ lower = [0, 0, {:.9g}], upper = [{:.9g}, {:.9g}, {:.9g}] }} }}
+discretization = {{ lattice = "{}" }}
 )",
                         target ? "target" : "flyer", hydrodynamic(target ? impact.target : impact.flyer),
                         (target ? 0.0 : impact.speed) - impact.frame, target ? 0.0 : -impact.flyer_length,
-                        width, width, target ? impact.target_length : 0.0);
+                        width, width, target ? impact.target_length : 0.0, impact.lattice);
   }
   solver::Simulation simulation(default_case(impact.end, text), parallel::world());
   const auto start = positions_by_id(simulation.particles());
