@@ -12,7 +12,7 @@ whipple_test(test_solver STARTS_MPI
           validation/solver_table_test.cpp regression/solver_regression_test.cpp fuzz/case_fuzz.cpp
   DEPENDS whipple_run GTest::gmock LABELS fast)
 whipple_test(test_run STARTS_MPI
-  SOURCES parallel/run_restart_test.cpp property/run_forecast_test.cpp property/run_gauges_test.cpp verification/run_steering_test.cpp
+  SOURCES parallel/run_restart_test.cpp property/run_forecast_test.cpp property/run_gauges_test.cpp property/solver_plausibility_test.cpp verification/run_steering_test.cpp
   DEPENDS whipple_run nlohmann_json::nlohmann_json GTest::gmock LABELS fast)
 whipple_test(test_contact STARTS_MPI SOURCES property/contact_pressing_test.cpp verification/solver_gap_test.cpp verification/solver_first_touch_test.cpp
              DEPENDS whipple_run LABELS fast)
@@ -83,7 +83,18 @@ whipple_test(test_exact STARTS_MPI
   SOURCES verification/exact_solutions_test.cpp verification/exact_gas_test.cpp verification/exact_impact_test.cpp
           verification/exact_solid_test.cpp
   DEPENDS whipple_exact LABELS fast)
-# Finer resolutions are long; all of them have the label exact.
+# Finer resolutions are long.
+whipple_test(test_expansion STARTS_MPI SOURCES verification/solver_expansion_test.cpp DEPENDS whipple_solver LABELS fast)
+set(expansion_labels ${CMAKE_CURRENT_BINARY_DIR}/test_expansion_labels.cmake)
+file(WRITE ${expansion_labels} [=[
+foreach(test IN LISTS test_expansion_TESTS)
+  if(test MATCHES "Fine")
+    set_tests_properties("${test}" PROPERTIES LABELS long)
+  endif()
+endforeach()
+]=])
+set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${expansion_labels})
+# All of those with exact solutions have the label exact.
 set(exact_labels ${CMAKE_CURRENT_BINARY_DIR}/test_exact_labels.cmake)
 file(WRITE ${exact_labels} [=[
 foreach(test IN LISTS test_exact_TESTS)

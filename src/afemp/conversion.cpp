@@ -240,6 +240,33 @@ std::vector<std::uint8_t> distorted_elements(const fem::Mesh& mesh, const Thresh
   return distorted;
 }
 
+std::vector<RangeFault> range_faults(const fem::Mesh& mesh, const ElementRange& range,
+                                     const fem::ViscosityCoefficients& viscosity, double grid_time_step) {
+  const std::size_t rows = fem::points_per_element(mesh.quadrature);
+  const bool asks_time_step = range.time_step_ratio > 0.0 && std::isfinite(grid_time_step);
+  const auto fault_of = [&](std::size_t e) {
+    if (fem::scaled_jacobian(mesh, e) < range.jacobian) return RangeFault::jacobian;
+    if (asks_time_step &&
+        fem::critical_time_step(mesh, e, viscosity) < range.time_step_ratio * grid_time_step) {
+      return RangeFault::time_step;
+    }
+    if (std::isfinite(range.hourglass_share)) {
+      double internal = 0.0;
+      for (std::size_t row = e * rows; row < (e + 1) * rows; ++row) {
+        internal += mesh.points.mass[row] * mesh.points.specific_internal_energy[row];
+      }
+      if (mesh.elements.hourglass_energy[e] > range.hourglass_share * std::abs(internal)) {
+        return RangeFault::hourglass;
+      }
+    }
+    const auto is_too_fast = [&](std::uint32_t a) { return mesh.nodes.velocity[a].norm() > range.speed; };
+    return std::ranges::any_of(mesh.elements.corners[e], is_too_fast) ? RangeFault::speed : RangeFault::none;
+  };
+  std::vector<RangeFault> faults(mesh.elements.size());
+  parallel::for_each(faults.size(), [&](std::size_t e) { faults[e] = fault_of(e); });
+  return faults;
+}
+
 ConversionBalance convert_elements(fem::Mesh& mesh, std::span<const std::uint8_t> chosen,
                                    double affine_inertia, Particles& particles, Arrangement arrangement) {
   ConversionBalance balance;

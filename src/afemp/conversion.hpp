@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
 
+#include "src/core/base/words.hpp"
 #include "src/fem/mesh.hpp"
 #include "src/fem/step.hpp"
 #include "src/particles/arrangement.hpp"
@@ -29,6 +31,30 @@ struct Thresholds {
 std::vector<std::uint8_t> distorted_elements(const fem::Mesh& mesh, const Thresholds& thresholds,
                                              const fem::ViscosityCoefficients& viscosity,
                                              double grid_time_step);
+
+/// Range in which an element is a valid approximation; 0 or infinite: any.
+struct ElementRange {
+  double jacobian = 0.0;  ///< least scaled Jacobian (docs/theory/fem.md)
+  double time_step_ratio = 0.0;
+  double hourglass_share = std::numeric_limits<double>::infinity();  ///< of its internal energy
+  double speed = std::numeric_limits<double>::infinity();            ///< m/s, of its nodes
+};
+
+/// How an element has left its range.
+enum class RangeFault : std::uint8_t { none, jacobian, time_step, hourglass, speed };
+constexpr std::array<Word<RangeFault>, 5> words(RangeFault) {
+  return {{{RangeFault::none, "is in its valid range"},
+           {RangeFault::jacobian, "is distorted: the Jacobian at a corner is below its fraction of the mean"},
+           {RangeFault::time_step,
+            "has become so thin that its stable time step is below its fraction of the grid's"},
+           {RangeFault::hourglass, "has more hourglass energy than its fraction of the internal energy"},
+           {RangeFault::speed, "has a node faster than its largest valid speed"}}};
+}
+
+/// Returns for every element how it has left its range.
+/// @param grid_time_step s, stable on the grid; infinite if there is nothing on it
+std::vector<RangeFault> range_faults(const fem::Mesh& mesh, const ElementRange& range,
+                                     const fem::ViscosityCoefficients& viscosity, double grid_time_step);
 
 /// Balance of the conversions.
 struct ConversionBalance {

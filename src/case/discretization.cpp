@@ -77,6 +77,27 @@ ParameterTable<Conversion> Conversion::parameters() {
       boolean("failed", &C::failed, "an element becomes particles when its material has failed").optional()};
 }
 
+ParameterTable<ElementRange> ElementRange::parameters() {
+  using R = ElementRange;
+  return {
+      choice(
+          "beyond", &R::beyond,
+          "an element that leaves its valid range becomes particles | is deleted, counted as outflow | stops "
+          "the run")
+          .optional(),
+      real("jacobian", &R::jacobian, "", range::between(0.0, 1.0),
+           "smallest valid ratio of the Jacobian at a corner to the mean one")
+          .optional(),
+      real("time_step_ratio", &R::time_step_ratio, "", range::between(0.0, 1.0),
+           "smallest valid ratio of its stable time step to that of the grid; 0: any")
+          .optional(),
+      real("hourglass_share", &R::hourglass_share, "", range::positive(),
+           "largest valid ratio of its hourglass energy to its internal energy (an element in bending stores "
+           "hourglass energy only)")
+          .optional("any"),
+      real("speed", &R::speed, "m/s", range::positive(), "largest valid speed of its nodes").optional("any")};
+}
+
 ParameterTable<BarRow> BarRow::parameters() {
   using B = BarRow;
   return {vector("from", &B::from, "m", range::any(), "first end"),

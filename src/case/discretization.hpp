@@ -73,6 +73,27 @@ struct Conversion {
   static ParameterTable<Conversion> parameters();
 };
 
+/// What becomes of an element that leaves its valid range.
+enum class BeyondRange : std::uint8_t {
+  particles,  ///< it becomes particles: nothing is lost
+  remove,     ///< it is deleted with its mass, momentum and energy, which count as outflow
+  stop,       ///< the run ends with its number
+};
+constexpr std::array<Word<BeyondRange>, 3> words(BeyondRange) {
+  return {
+      {{BeyondRange::particles, "particles"}, {BeyondRange::remove, "remove"}, {BeyondRange::stop, "stop"}}};
+}
+
+/// `element_range` of a body with elements: where an element is an approximation no longer.
+struct ElementRange {
+  BeyondRange beyond = BeyondRange::particles;
+  double jacobian = 0.05;
+  double time_step_ratio = 0.02;
+  double hourglass_share = std::numeric_limits<double>::infinity();
+  double speed = std::numeric_limits<double>::infinity();  ///< m/s
+  static ParameterTable<ElementRange> parameters();
+};
+
 /// One `node_condition` of a body: nodes whose velocity is prescribed along some axes.
 struct NodeCondition {
   Vector3 lower = Vector3::Zero();  ///< m, corners of the box that the nodes lie in at the start

@@ -11,6 +11,7 @@
 #include "eos/audit.hpp"
 #include "src/case/build/placement.hpp"
 #include "src/fem/structured.hpp"
+#include "src/material/fluid.hpp"
 
 namespace whipple::cases {
 namespace {
@@ -183,6 +184,18 @@ void remark_on_explosives(const Case& setup, std::vector<std::string>& remarks) 
   }
 }
 
+/// Particles of an expanding gas that are not divided part, and their heat is lost to motion that nothing resolves.
+void remark_on_splitting(const Case& setup, std::vector<std::string>& remarks) {
+  if (setup.splitting.length > 0.0) return;
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    const Material& material = *setup.materials[b];
+    if (fluidity(material) != Fluidity::always && !material.burns()) continue;
+    remarks.push_back(fmt::format("'{}' is gas or becomes it, and splitting is off: where it expands freely, its "
+                                  "particles part and its heat is lost to unresolved motion",
+                                  setup.bodies[b].name));
+  }
+}
+
 /// A body that a symmetry plane cuts is one with its mirror image: it cannot move along the normal, nor turn
 /// about an axis in the plane. One that only touches may move into the plane: it meets its image there.
 void remark_on_plane(const Case& setup, const Body& body, std::size_t face,
@@ -250,6 +263,7 @@ std::vector<std::string> remarks(const Case& setup) {
   remark_on_directions(setup, found);
   remark_on_speeds(setup, found);
   remark_on_explosives(setup, found);
+  remark_on_splitting(setup, found);
   remark_on_detonators(setup, found);
   remark_on_symmetry(setup, found);
   remark_on_meshes(setup, found);

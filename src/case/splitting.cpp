@@ -10,14 +10,22 @@
 namespace whipple::cases {
 
 ParameterTable<Splitting> Splitting::parameters() {
-  return {real("length", &Splitting::length, "", range::between(0.0, 2.0),
-               "length (in cells) of an intact particle along its longest direction above which it is split "
-               "in two; "
-               "0: never; 1 to 1.2 avoids numerical fracture of stretched material")
-              .optional(),
-          integer("maximum_generations", &Splitting::maximum_generations, range::between(0, 20),
-                  "largest number of successive splits of a particle")
-              .optional()};
+  return {
+      choice("of", &Splitting::of,
+             "gas, detonation products, liquid and vapour under pressure and without voids | all intact "
+             "material as well, which avoids numerical fracture of stretched solids")
+          .optional(),
+      real("length", &Splitting::length, "", range::between(0.0, 2.0),
+           "length (in cells) of a particle along its longest direction above which it is split in two; "
+           "0: never. Particles of the shape function `gimp`, whose domains keep their size, are not split")
+          .optional(),
+      integer("maximum_generations", &Splitting::maximum_generations, range::between(0, 20),
+              "largest number of successive splits of a particle")
+          .optional(),
+      integer("maximum_particles", &Splitting::maximum_particles, range::positive(),
+              "number of particles of the run beyond which none is split; refused splits are counted "
+              "(`refused_divisions`)")
+          .optional()};
 }
 
 /// A length below that of the particles would divide all of them, as often as generations allow.

@@ -1,16 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "src/case/section.hpp"
 
 namespace whipple::cases {
 
+/// Selects the material whose particles are divided.
+enum class Divided : std::uint8_t { fluid, all };
+constexpr std::array<Word<Divided>, 2> words(Divided) {
+  return {{{Divided::fluid, "fluid"}, {Divided::all, "all"}}};
+}
+
 /// Particle splitting; no division at length 0.
 struct Splitting {
-  double length = 0.0;  ///< of a particle along its longest direction, in cells
-  std::int64_t maximum_generations = 3;
+  Divided of = Divided::fluid;
+  double length = 1.2;  ///< of a particle along its longest direction, in cells
+  std::int64_t maximum_generations = 6;
+  std::int64_t maximum_particles = 100'000'000;  ///< of all ranks
 
   static ParameterTable<Splitting> parameters();
   void check(const Case& setup, const Faults& faults) const;

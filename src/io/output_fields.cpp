@@ -25,6 +25,12 @@ SymmetricTensor stress(const Source& s, std::size_t i) {
   return sigma;
 }
 
+double von_mises_stress(const Source& s, std::size_t i) {
+  const SymmetricTensor& t = s.particles.deviatoric_stress[i];
+  const double mean = (t.xx + t.yy + t.zz) / 3.0;  // not 0 where pressure is held back
+  return std::sqrt(1.5 * std::max(t.squared_norm() - 3.0 * mean * mean, 0.0));
+}
+
 double void_fraction(const Source& s, std::size_t i) {
   const double opened = s.particles.void_volume[i];
   return opened / (s.particles.volume[i] + opened);
@@ -74,8 +80,7 @@ const auto table_of_state = std::to_array<OutputField>({
      }},
     {"stress", "Pa", "Cauchy stress xx yy zz xy yz zx, positive in tension, without artificial viscosity", false,
      stress},
-    {"von_mises_stress", "Pa", "sqrt(3/2 s:s) of the deviatoric stress s", false,
-     [](const Source& s, std::size_t i) { return std::sqrt(1.5 * s.particles.deviatoric_stress[i].squared_norm()); }},
+    {"von_mises_stress", "Pa", "sqrt(3/2 s:s) of the deviatoric stress s", false, von_mises_stress},
     {"artificial_viscosity", "Pa", "pressure of artificial viscosity", false,
      [](const Source& s, std::size_t i) { return s.particles.artificial_viscosity[i]; }},
     {"sound_speed", "m/s", "longitudinal sound speed", false,

@@ -38,6 +38,24 @@ std::string at_faces(const cases::Case& setup, const solver::Simulation& simulat
   return text;
 }
 
+/// Tells how many particles splitting may lead to, and their memory on this rank; empty where nothing is divided.
+std::string of_splitting(const solver::Simulation& simulation) {
+  const cases::Splitting& splitting = simulation.setup().splitting;
+  const SplittingForecast forecast = forecast_splitting(simulation);
+  const auto now = static_cast<double>(simulation.particle_count());
+  if (forecast.generations == 0.0 || now == 0.0) return {};
+  double bytes = 0.0;
+  for (const solver::Carrier* carrier : simulation.carriers()) {
+    if (carrier->particle_count() > 0) bytes += static_cast<double>(carrier->bytes());
+  }
+  const char* const divided = splitting.of == cases::Divided::all ? "what stretches"
+                              : forecast.fluid_from_start         ? "fluid that expands freely"
+                                                                  : "what melts or boils and stretches";
+  return fmt::format("splitting: {:.0f} to {:.3g} particles, {} to {}: {} is divided up to {:.0f} times\n", now,
+                     forecast.most_particles, format_bytes(bytes),
+                     format_bytes(bytes / now * forecast.most_particles), divided, forecast.generations);
+}
+
 }  // namespace
 
 std::string check_case(const RunOptions& options, MPI_Comm communicator) {
@@ -66,9 +84,11 @@ std::string check_case(const RunOptions& options, MPI_Comm communicator) {
   }
   for (const std::string& remark : setup.contact_fields.remarks) text += remark + "\n";
   for (const std::string& remark : cases::remarks(setup)) text += "warning: " + remark + "\n";
+  const std::string splitting = of_splitting(simulation);
   const Forecast cost = forecast(simulation);
   text += fmt::format("particles: {}, active blocks: {}, memory: {} now\n", simulation.particle_count(),
                       simulation.grid().slots(), format_bytes(static_cast<double>(simulation.bytes())));
+  text += splitting;
   text += fmt::format("steps: {:.0f} to {:.0f} to t = {:.6g} us\n", cost.least_steps, cost.most_steps,
                       1e6 * setup.time.end);
   text += fmt::format(

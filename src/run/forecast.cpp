@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "src/core/parallel/mpi.hpp"
+#include "src/material/fluid.hpp"
+#include "src/solver/carriers/domains.hpp"
 
 namespace whipple::run {
 namespace {
@@ -109,6 +111,30 @@ double steps_between_snapshots(double steps, double snapshots) {
 }
 
 }  // namespace
+
+SplittingForecast forecast_splitting(const solver::Simulation& s) {
+  const cases::Case& setup = s.setup();
+  const cases::Splitting& splitting = setup.splitting;
+  SplittingForecast result;
+  if (!solver::domains::may_divide(setup)) return result;
+  const double pieces = std::exp2(static_cast<double>(splitting.maximum_generations));
+  std::array<double, 1> most = {0.0};
+  bool any = false;
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    const Fluidity fluid = fluidity(*setup.materials[b]);
+    const bool divided = fluid != Fluidity::never || splitting.of == cases::Divided::all;
+    const bool burns = setup.materials[b]->burns();
+    any = any || divided;
+    result.fluid_from_start = result.fluid_from_start || fluid == Fluidity::always || burns;
+    most[0] += (divided ? pieces : 1.0) * static_cast<double>(s.bodies()[b].count);
+  }
+  parallel::sum(s.communicator(), most);
+  if (!any) return result;
+  result.generations = static_cast<double>(splitting.maximum_generations);
+  result.most_particles = std::max(static_cast<double>(s.particle_count()),
+                                   std::min(most[0], static_cast<double>(splitting.maximum_particles)));
+  return result;
+}
 
 Forecast forecast(solver::Simulation& s) {
   const cases::TimeControl& control = s.setup().time;

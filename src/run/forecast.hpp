@@ -13,6 +13,15 @@ struct Forecast {
   double least_time = 0.0, most_time = 0.0;  ///< s of wall time
 };
 
+/// Holds what particle splitting may add.
+struct SplittingForecast {
+  double generations = 0.0;     ///< successive divisions of a particle, at most; 0: nothing is divided
+  bool fluid_from_start = false;  ///< else only what melts or boils is divided
+  double most_particles = 0.0;  ///< of all ranks, if all that may become fluid were divided as often as it may
+};
+/// Bounds the number of particles of a case in its initial state. Collective.
+SplittingForecast forecast_splitting(const solver::Simulation& simulation);
+
 /// Predicts steps and wall time of a case from a few measured steps. Collective.
 ///
 /// Steps: the end time over the time step that the initial state allows, after steps that grow from `time.first_step`, at

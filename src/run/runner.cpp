@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "src/core/base/error.hpp"
+#include "src/core/base/log.hpp"
 #include "src/core/base/resource_error.hpp"
 #include "src/core/parallel/mpi.hpp"
 
@@ -104,6 +105,12 @@ Requests Runner::asked() {
 void Runner::follow(const Request& request) {
   if (request.act == Act::none) return;
   if (request.act == Act::pause || request.act == Act::resume) paused_ = request.act == Act::pause;
+  if (const double least = schedule_.end / cases::OutputControl::most_snapshots;
+      request.act == Act::snapshot_every && request.value > 0.0 && request.value < least) {
+    log::warning("snapshots every {:.3g} s are refused: at least {:.3g} s, a millionth of the run",
+                 request.value, least);
+    return;
+  }
   double Schedule::* const number = entry_of(request.act).changes;
   if (number != nullptr) schedule_.*number = request.value;
   if (request.act == Act::end) schedule_.end = std::max(request.value, simulation_.state().time);

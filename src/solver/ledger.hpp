@@ -25,7 +25,7 @@ struct Totals {
   double affine_kinetic_energy = 0.0;          ///< of their affine fields: m inertia |C|^2 / 2
   double internal_energy = 0.0;
   double unresolved_energy = 0.0;  ///< kinetic, of motion that the cells do not resolve
-  double hourglass_energy = 0.0;   ///< stored in the hourglass modes of elements
+  double hourglass_energy = 0.0;   ///< stored in the hourglass modes of elements, never negative
 
   [[nodiscard]] double energy() const {
     return kinetic_energy + affine_kinetic_energy + unresolved_energy + internal_energy + hourglass_energy;
@@ -123,11 +123,19 @@ struct Ledger {
   double friction_impulse = 0.0;     ///< N s, sum of the tangential impulses
   double converted_mass = 0.0;       ///< kg, of elements that became particles
   double conversion_heat = 0.0;      ///< J, kinetic energy that this took, into internal energy
+  double removed_mass = 0.0;         ///< kg, of elements that were deleted, part of the outflow
+  double hourglass_work = 0.0;       ///< J, against hourglass forces, into hourglass and internal energy
+  double hourglass_overdrawn = 0.0;  ///< J, that these gave beyond what was stored, out of internal energy
+  double limited_hourglass = 0.0;    ///< steps of elements whose hourglass forces their stored energy limited
+  double elements_beyond_range = 0.0;  ///< elements that left their valid range
   double clamped_to_cold_curve =
       0.0;  ///< evaluations below the cold curve (temperature clamped, energy kept)
   double held_at_pressure_floor = 0.0;  ///< evaluations at the least pressure of a modifier `floor`
   double limited_volume_changes = 0.0;  ///< steps of particles whose volume change was limited
   double limited_domains = 0.0;  ///< steps of particles whose domain was larger than its shape function takes
+  double held_pressures =
+      0.0;  ///< steps of fluid particles whose pressure did not act along directions in which they have parted
+  double refused_divisions = 0.0;  ///< divisions of particles beyond `splitting.maximum_particles`
   double limited_densities = 0.0;  ///< steps of particles at their least density
   double limited_compressions =
       0.0;                          ///< steps of particles at the greatest density of their equation of state
@@ -135,6 +143,8 @@ struct Ledger {
   double limited_bulking = 0.0;  ///< steps of particles of crushed brittle material at its greatest bulking
   double held_time_steps = 0.0;  ///< steps longer than `time.compression_limit` asked for
 
+  double releasable_energy =
+      0.0;  ///< J, that the materials can set free in all: above their zero, and chemical
   double largest_kinetic_energy =
       0.0;                        ///< J, with affine and hourglass energies, at the ends of the steps so far
   double largest_heating = 0.0;   ///< J, the same of the change of internal energy
@@ -183,15 +193,23 @@ void for_each_number(L& ledger, Function&& f) {
   f("friction_impulse", ledger.friction_impulse);
   f("converted_mass", ledger.converted_mass);
   f("conversion_heat", ledger.conversion_heat);
+  f("removed_mass", ledger.removed_mass);
+  f("hourglass_work", ledger.hourglass_work);
+  f("hourglass_overdrawn", ledger.hourglass_overdrawn);
+  f("limited_hourglass", ledger.limited_hourglass);
+  f("elements_beyond_range", ledger.elements_beyond_range);
   f("clamped_to_cold_curve", ledger.clamped_to_cold_curve);
   f("held_at_pressure_floor", ledger.held_at_pressure_floor);
   f("limited_volume_changes", ledger.limited_volume_changes);
   f("limited_domains", ledger.limited_domains);
+  f("held_pressures", ledger.held_pressures);
+  f("refused_divisions", ledger.refused_divisions);
   f("limited_densities", ledger.limited_densities);
   f("limited_compressions", ledger.limited_compressions);
   f("limited_void_steps", ledger.limited_void_steps);
   f("limited_bulking", ledger.limited_bulking);
   f("held_time_steps", ledger.held_time_steps);
+  f("releasable_energy", ledger.releasable_energy);
   f("largest_kinetic_energy", ledger.largest_kinetic_energy);
   f("largest_heating", ledger.largest_heating);
   f("largest_momentum", ledger.largest_momentum);
@@ -214,6 +232,13 @@ inline constexpr auto limiters = std::to_array<Limiter>({
     {"limited_void_steps", &Ledger::limited_void_steps, "change of material with a void limited"},
     {"limited_bulking", &Ledger::limited_bulking, "bulking of crushed brittle material limited"},
     {"limited_domains", &Ledger::limited_domains, "domain of a particle limited"},
+    {"limited_hourglass", &Ledger::limited_hourglass,
+     "hourglass forces of an element limited to its stored energy"},
+    {"elements_beyond_range", &Ledger::elements_beyond_range, "element left its valid range"},
+    {"held_pressures", &Ledger::held_pressures,
+     "pressure held back in a fluid particle that has parted from its neighbours"},
+    {"refused_divisions", &Ledger::refused_divisions,
+     "division of a particle refused at splitting.maximum_particles"},
     {"held_time_steps", &Ledger::held_time_steps,
      "time step kept longer than the volumetric strain-rate limit"},
 });
@@ -228,17 +253,5 @@ void sum_over_ranks(MPI_Comm communicator, Parts&... parts) {
   auto next = numbers.begin();
   (for_each_number(parts, [&](const std::string&, double& x) { x = *next++; }), ...);
 }
-
-/// Masses by phase and other figures for the history.
-struct PhaseMasses {
-  std::array<double, 4> mass{};  ///< kg: solid, melting, liquid, vapour
-  double failed = 0.0;           ///< kg
-  PhaseMasses& operator+=(const PhaseMasses& other);
-};
-/// Sums the masses (kg) by phase over the material points [first, first + count); bitwise independent of the
-/// number of threads.
-PhaseMasses phase_masses(const MaterialPoints& points, std::size_t first, std::size_t count);
-/// Collective.
-void sum_over_ranks(MPI_Comm communicator, std::vector<PhaseMasses>& by_body);
 
 }  // namespace whipple::solver

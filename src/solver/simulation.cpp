@@ -40,6 +40,10 @@ Simulation::Simulation(const cases::Case& setup, MPI_Comm communicator) {
   std::array<double, 1> chemical_energy = {Explosives(*state_).chemical_energy()};
   parallel::sum(communicator, chemical_energy);
   ledger.largest_heating = chemical_energy[0];
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    ledger.releasable_energy +=
+        state_->bodies[b].mass * releasable_energy(setup.bodies[b], *setup.materials[b]);
+  }
 }
 
 Simulation::Simulation(const cases::Case& setup, Particles particles, const RunState& state,

@@ -55,6 +55,7 @@ struct RunState {
   double time = 0.0;                  ///< s
   double time_step = 0.0;             ///< s, of the last step; 0 before the first
   double unclipped_step = 0.0;        ///< s, the same if it had not been shortened to meet a time
+  double largest_step = 0.0;          ///< s, in which nothing crossed more than a cell, the longest so far
   double maximum_acceleration = 0.0;  ///< m/s^2, in the last step
   double compression_rate =
       0.0;  ///< 1/s, that all but a thousandth of the material under pressure kept below

@@ -213,6 +213,7 @@ TransferBalance gather_all(double slope_smoothing, Particles& particles, BlockGr
           if (prefetches(p)) {
             prefetch_state(particles, p + prefetch_distance);  // most of it for who takes the gradients
             prefetch(p + prefetch_distance, particles.position, particles.velocity);
+            if (!particles.extent.empty()) prefetch(p + prefetch_distance, particles.extent);
             if constexpr (affine) {
               prefetch(p + prefetch_distance, particles.affine_velocity);
             }

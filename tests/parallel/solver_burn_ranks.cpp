@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Explosives on several ranks: lighting times, burn fractions, the products' drive and what of them is
-// removed are those of one rank, and a checkpoint of several ranks goes on with the lighting that it holds.
+// removed are those of one rank, and a checkpoint of several ranks goes on with the lighting that it holds. A gas
+// whose particles divide and part.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -158,6 +159,63 @@ TEST(BurnRanks, RemoveTheProductsThatOneRankRemoves) {
   EXPECT_NEAR(of_all.retired.mass, of_one.retired.mass, 1e-11 * of_one.initial.mass);
   EXPECT_NEAR(of_all.retired.energy, of_one.retired.energy, 1e-11 * energy);
   EXPECT_LE((of_all.retired.momentum - of_one.retired.momentum).norm(), 1e-11 * momentum);
+}
+
+/// A sphere of gas beside two planes of symmetry, in vacuum: an octant, or a section.
+cases::Case expanding_gas(bool section) {
+  const std::string of_dimension =
+      section ? "dimension = \"axisymmetric\"\nlower = [\"0 mm\", \"0 mm\"]\nupper = [\"48 mm\", \"48 mm\"]\n"
+              : "lower = [\"0 mm\", \"0 mm\", \"0 mm\"]\nupper = [\"24 mm\", \"24 mm\", \"24 mm\"]\n";
+  const std::string boundary = section ? "" : ", y_lower = \"symmetry\", z_lower = \"symmetry\"";
+  return cases::read_case_text("[domain]\n" + of_dimension +
+                                   "cell_size = \"1 mm\"\nboundary = { x_lower = \"symmetry\"" + boundary + " }\n" +
+                                   R"([time]
+end = "20 us"
+[splitting]
+maximum_generations = 4
+[[body]]
+name = "gas"
+material = "air"
+initial = { density = "1 kg/m^3", pressure = "1 MPa" }
+velocity = ["1 m/s", "0 m/s"]
+shape = { sphere = { center = ["0 mm", "0 mm", "0 mm"], radius = "4 mm" } }
+)",
+                               "expanding_gas.toml");
+}
+
+// New particles, their numbers, and the pressure that is held back behind the last division.
+TEST(BurnRanks, DivideTheGasThatOneRankDivides) {
+  const io::Ranks ranks(MPI_COMM_WORLD);
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() /
+                                       ("whipple_gas_ranks_" + ranks.broadcast(std::to_string(::getpid())));
+  for (const bool section : {true, false}) {
+    const cases::Case setup = expanding_gas(section);
+    const double half_way = section ? 12e-6 : 5e-6, end = section ? 16e-6 : 7e-6;
+    Simulation together(setup, MPI_COMM_WORLD), alone(setup, MPI_COMM_SELF);
+    const std::size_t seeded = alone.particle_count();
+    advance_to(together, half_way);
+    const std::filesystem::path file =
+        io::write_checkpoint(folder, together.state().step, together.particles(),
+                             run::to_checkpoint(together.state()), MPI_COMM_WORLD);
+    advance_to(together, end);
+    advance_on_root(alone, half_way);
+    advance_on_root(alone, end);
+    expect_agreement(together, alone, 1e-11);
+    io::Checkpoint checkpoint = io::read_checkpoint(file, MPI_COMM_SELF);
+    Simulation resumed(setup, std::move(checkpoint.particles), run::from_checkpoint(checkpoint.values),
+                       MPI_COMM_SELF);
+    advance_on_root(resumed, end);
+    if (is_root()) {
+      EXPECT_GT(alone.particle_count(), 4 * seeded);
+      if (section) {
+        EXPECT_GT(alone.state().ledger.held_pressures, 0.0);
+        EXPECT_EQ(together.state().ledger.held_pressures, alone.state().ledger.held_pressures);
+      }
+      expect_equal(resumed, alone, ranks.is_parallel() ? 1e-11 : 0.0);
+    }
+    MPI_Barrier(MPI_COMM_WORLD);
+  }
+  ranks.on_root([&] { std::filesystem::remove_all(folder); });
 }
 
 }  // namespace

@@ -172,6 +172,7 @@ TEST_F(SolverRanks, MigrateWithAllFieldsAndStandByBody) {
 TEST_F(SolverRanks, AgreeWithOneRankInEveryOption) {
   const Overrides options = {{"domain.upper", R"(["12 mm", "12 mm", "3.6 mm"])"},
                              {"domain.boundary.z_upper", "separating"},
+                             {"splitting.of", "all"},
                              {"splitting.length", "0.7"},
                              {"heat.conduction", "true"},
                              {"body.0.material", "\"copper_ofhc.toml\""},

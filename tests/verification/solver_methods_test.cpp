@@ -375,7 +375,7 @@ TEST(Splitting, KeepsStretchedMatterTogetherAndEverySumExact) {
       SCOPED_TRACE(fmt::format("{}, splitting {}", dimension, split));
       const cases::Case setup = read(
           Method{}, 1.0, "",
-          stretching_gas(dimension, split ? "[splitting]\nlength = 1.0\nmaximum_generations = 6\n" : ""));
+          stretching_gas(dimension, split ? "[splitting]\nlength = 1\n" : "[splitting]\nlength = 0\n"));
       Particles particles = cases::seed(setup).particles;
       for (std::size_t p = 0; p < particles.size(); ++p) {
         particles.velocity[p] = {1e5 * particles.position[p][0], 0, 0};

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -11,6 +12,8 @@
 #include "src/core/base/text.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/parallel/threads.hpp"
+#include "src/material/fluid.hpp"
+#include "src/solver/carriers/domains.hpp"
 
 namespace whipple::run {
 namespace {
@@ -36,7 +39,31 @@ std::string profile_as_json(const Moment& moment, const solver::Profile& profile
       .dump(2);
 }
 
-void tell(const Moment& moment) {
+/// Returns the share of the unresolved energy that fluid carries which has expanded freely: continuous and thinner than
+/// half its initial density. Its particles have parted, unless they are divided. Collective.
+double share_of_expanded_fluid(const solver::Simulation& simulation) {
+  const cases::Case& setup = simulation.setup();
+  const Particles& particles = simulation.particles();
+  if (particles.unresolved_energy.empty() || !(simulation.totals().unresolved_energy > 0.0)) return 0.0;
+  std::array<double, 1> carried = {0.0};
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    const Material& material = *setup.materials[b];
+    const Fluidity fluid = fluidity(material);
+    const double thin = 0.5 * setup.bodies[b].initial.of(material).density;
+    const std::size_t first = simulation.bodies()[b].first;
+    carried[0] += parallel::sum<double>(simulation.bodies()[b].count, [&](std::size_t i) {
+      const std::size_t p = first + i;
+      const bool expanded = particles.mass[p] < thin * particles.volume[p] &&
+                            is_continuous_fluid(fluid, particles, p);
+      return expanded ? particles.mass[p] * particles.unresolved_energy[p] : 0.0;
+    });
+  }
+  parallel::sum(simulation.communicator(), carried);
+  return carried[0] / simulation.totals().unresolved_energy;
+}
+
+/// @param expanded  share of the unresolved energy that freely expanded fluid carries
+void tell(const Moment& moment, double expanded) {
   const solver::Ledger& ledger = moment.simulation.state().ledger;
   const solver::Totals& totals = moment.simulation.totals();
   log::info("{} steps to t = {:.6g} s in {}; energy error {:.2e}, momentum error {:.2e}, outflow {:.3g} kg",
@@ -49,10 +76,13 @@ void tell(const Moment& moment) {
   // Of bodies that have come to rest the remainder is no motion of fragments.
   const bool at_rest = totals.kinetic_energy < nearly_at_rest * ledger.initial.kinetic_energy;
   if (totals.unresolved_share() > much_unresolved && !at_rest) {
-    log::info(
-        "motion that the cells do not resolve has {:.3g} % of the kinetic energy of the motion that they "
-        "resolve: finer cells would change the result",
-        100.0 * totals.unresolved_share());
+    const bool parted = expanded > 0.5 && !solver::domains::may_divide(moment.simulation.setup());
+    log::info("motion that the cells do not resolve has {:.3g} % of the kinetic energy of the motion that they "
+              "resolve: {}",
+              100.0 * totals.unresolved_share(),
+              parted ? "most of it is lost heat of expanding fluid whose particles have parted; "
+                       "splitting.length above 0 keeps them together, finer cells do not"
+                     : "finer cells would change the result");
   }
 }
 
@@ -60,13 +90,14 @@ void tell(const Moment& moment) {
 
 void Summary::end(const Moment& moment, Outcome& outcome) {
   if (outcome.kind != Outcome::Kind::done && outcome.kind != Outcome::Kind::stopped) return;
+  const double expanded = share_of_expanded_fluid(moment.simulation);
   ranks_.on_root([&] {
     io::write_text_atomically(directory_.profile_file(), profile_as_json(moment, profile_));
     if (outcome.kind == Outcome::Kind::stopped) {
       log::info("{} at step {}, t = {:.6g} s; resume with: whipple run --restart {}", outcome.message,
                 moment.step(), moment.time(), directory_.path().string());
     }
-    tell(moment);
+    tell(moment, expanded);
   });
 }
 

@@ -11,6 +11,7 @@
 
 #include "src/fem/bars.hpp"
 #include "src/fem/mesh.hpp"
+#include "src/solver/phase_masses.hpp"
 #include "src/solver/state.hpp"
 
 namespace whipple::solver {
@@ -92,6 +93,8 @@ class Carrier {
   virtual void add_totals(Totals& sum) = 0;
   virtual void add_phases(std::span<PhaseMasses> of_body) const = 0;
   virtual void add_figures(Figures& figures) const = 0;
+  /// Returns the largest speed (m/s) of a particle or node relative to a velocity (m/s).
+  [[nodiscard]] virtual double largest_speed(const Vector3& frame) const = 0;
   [[nodiscard]] virtual std::size_t particle_count() const { return 0; }
   [[nodiscard]] virtual std::size_t element_count() const { return 0; }
   /// Returns the largest id of a particle that is there, or that an element may become.

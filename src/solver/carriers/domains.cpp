@@ -1,25 +1,99 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Domains of the particles: deformation with the material, particle splitting (docs/theory/mpm.md,
-// section 2).
+// Domains of the particles: deformation with the material, particle splitting, particles that have parted
+// (docs/theory/mpm.md, section 2).
 #include "src/solver/carriers/domains.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "src/core/base/vector_math.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/parallel/threads.hpp"
+#include "src/material/fluid.hpp"
 
 namespace whipple::solver::domains {
 
-bool follow_deformation(const State& state) {
-  return state.setup.transfer.shape_function == transfer::ShapeFunction::convected_gimp ||
-         state.setup.splitting.length > 0.0;
+namespace {
+
+using cases::Divided;
+
+Fluidity fluidity_of(const State& state, std::size_t body) { return fluidity(*state.setup.materials[body]); }
+
+/// Not less than the largest eigenvalue (Gershgorin).
+double largest_at_most(const SymmetricTensor& e) {
+  const double xy = std::abs(e.xy), yz = std::abs(e.yz), zx = std::abs(e.zx);
+  return std::max({e.xx + xy + zx, e.yy + xy + yz, e.zz + zx + yz});
+}
+
+/// Principal directions of a domain, in two dimensions of its section with the plane: eigenvalues (m^2) ascending.
+Eigen::SelfAdjointEigenSolver<Matrix3> principal_directions(const SymmetricTensor& extent, bool planar) {
+  Matrix3 moments = extent.matrix();
+  if (planar) {
+    moments.row(2).setZero();
+    moments.col(2).setZero();
+  }
+  return Eigen::SelfAdjointEigenSolver<Matrix3>(moments);
+}
+
+/// Returns whether a particle is of matter that stays together when it stretches.
+bool may_be_divided(const Particles& particles, std::size_t p, const cases::Splitting& splitting,
+                    Fluidity fluidity) {
+  if (particles.generation[p] >= splitting.maximum_generations) return false;
+  return is_continuous_fluid(fluidity, particles, p) ||
+         (splitting.of == Divided::all && particles.failed[p] == failure::intact);
+}
+
+/// Longest half-edges of the particles to divide, by ascending numbers of the particles.
+using Divisions = std::vector<std::pair<std::uint32_t, Vector3>>;
+Divisions find_divisions(const State& state) {
+  const Particles& particles = state.particles;
+  const cases::Splitting& splitting = state.setup.splitting;
+  const grid::Geometry& geometry = state.setup.geometry;
+  const double half = 0.5 * splitting.length * state.setup.domain.cell_size, limit = half * half;
+  Divisions divisions;
+  for (std::size_t b = 0; b < state.bodies.size(); ++b) {
+    if (!follow_deformation(state, b)) continue;
+    const std::size_t first = state.bodies[b].first;
+    const Fluidity fluid = fluidity_of(state, b);
+    const std::vector<std::uint32_t> long_ones = parallel::where(state.bodies[b].count, [&](std::size_t i) {
+      return largest_at_most(particles.extent[first + i]) > limit &&
+             may_be_divided(particles, first + i, splitting, fluid);
+    });
+    for (const std::uint32_t i : long_ones) {
+      const std::size_t p = first + i;
+      const auto principal = principal_directions(particles.extent[p], geometry.is_planar());
+      if (principal.eigenvalues()[2] <= limit) continue;
+      const Vector3 half_edge = std::sqrt(principal.eigenvalues()[2]) * principal.eigenvectors().col(2);
+      bool inside = true;
+      for (int a = 0; a < (geometry.is_planar() ? 2 : 3); ++a) {  // no ring of radius 0
+        const double reach = 0.5 * std::abs(half_edge[a]);
+        inside = inside && particles.position[p][a] - reach > geometry.lower[a] &&
+                 particles.position[p][a] + reach < geometry.upper(a);
+      }
+      if (inside) divisions.emplace_back(static_cast<std::uint32_t>(p), half_edge);
+    }
+  }
+  return divisions;
+}
+
+}  // namespace
+
+bool may_divide(const cases::Case& setup) {
+  return setup.splitting.length > 0.0 && setup.transfer.shape_function != transfer::ShapeFunction::gimp;
+}
+
+bool follow_deformation(const State& state, std::size_t body) {
+  if (state.setup.transfer.shape_function == transfer::ShapeFunction::convected_gimp) return true;
+  return may_divide(state.setup) &&
+         (state.setup.splitting.of == Divided::all || fluidity_of(state, body) != Fluidity::never);
 }
 
 bool are_needed(const State& state, bool may_meet_images) {
-  return follow_deformation(state) || state.setup.transfer.shape_function == transfer::ShapeFunction::gimp ||
-         state.setup.contact_fields.several() || may_meet_images;
+  bool any = state.setup.transfer.shape_function == transfer::ShapeFunction::gimp ||
+             state.setup.contact_fields.several() || may_meet_images;
+  for (std::size_t b = 0; b < state.setup.bodies.size(); ++b) any = any || follow_deformation(state, b);
+  return any;
 }
 
 std::size_t deform(State& state, std::span<const std::uint32_t> particles,
@@ -28,35 +102,52 @@ std::size_t deform(State& state, std::span<const std::uint32_t> particles,
   const bool counted = state.setup.transfer.shape_function == transfer::ShapeFunction::convected_gimp;
   std::size_t larger = 0;
   for (std::size_t k = 0; k < particles.size(); ++k) {
-    const Matrix3 step = Matrix3::Identity() + dt * gradients[k];
-    SymmetricTensor& extent = state.particles.extent[particles[k]];
-    extent = SymmetricTensor::from(step * extent.matrix() * step.transpose());
+    const double* const l = gradients[k].data();
+    SymmetricTensor& e = state.particles.extent[particles[k]];
+    const Lanes x = Lanes{1.0, 0.0, 0.0, 0.0} + dt * load_vector(l),  // columns of I + dt L
+        y = Lanes{0.0, 1.0, 0.0, 0.0} + dt * load_vector(l + 3),
+                z = Lanes{0.0, 0.0, 1.0, 0.0} + dt * load_vector(l + 6);
+    const Lanes of_x = e.xx * x + e.xy * y + e.zx * z,  // columns of (I + dt L) E
+        of_y = e.xy * x + e.yy * y + e.yz * z, of_z = e.zx * x + e.yz * y + e.zz * z;
+    const Lanes first = x[0] * of_x + y[0] * of_y + z[0] * of_z,
+                second = x[1] * of_x + y[1] * of_y + z[1] * of_z,
+                third = x[2] * of_x + y[2] * of_y + z[2] * of_z;
+    e = {first[0], second[1], third[2], first[1], second[2], first[2]};
     if (!counted) continue;
-    const double largest = transfer::half_sizes(extent, dx).maxCoeff();
+    const double largest = transfer::half_sizes(e, dx).maxCoeff();
     larger += largest > transfer::ConvectedGimp::largest_half_size ? 1 : 0;
   }
   return larger;
 }
 
-namespace {
-
-/// Returns the longest half-edge of a particle's domain: the eigenvector of the largest eigenvalue of its extent, in
-/// two dimensions of its section with the plane.
-Vector3 longest_half_edge(const SymmetricTensor& extent, bool planar) {
-  Matrix3 moments = extent.matrix();
-  if (planar) {
-    moments.row(2).setZero();
-    moments.col(2).setZero();
+std::size_t hold_back_pressure(Particles& particles, std::span<const std::uint32_t> list, const State& state,
+                               std::size_t body) {
+  const Fluidity fluid = fluidity_of(state, body);
+  if (!may_divide(state.setup) || fluid == Fluidity::never) return 0;
+  const double dx = state.setup.domain.cell_size, length = state.setup.splitting.length;
+  const double parted = std::max(0.75, 0.25 * length * length) * dx * dx;  // lambda of (2.8)
+  const double thin = 0.5 * state.initial_density[body];
+  std::size_t held = 0;
+  for (const std::uint32_t p : list) {
+    if (largest_at_most(particles.extent[p]) <= parted || particles.mass[p] > thin * particles.volume[p] ||
+        !is_filling_fluid(fluid, particles, p)) {
+      continue;
+    }
+    const auto principal = principal_directions(particles.extent[p], state.setup.geometry.is_planar());
+    Matrix3 parting = Matrix3::Zero();  // I - S
+    for (int a = 0; a < 3; ++a) {
+      const Vector3 n = principal.eigenvectors().col(a);
+      if (principal.eigenvalues()[a] > parted) parting += n * n.transpose();
+    }
+    if (parting.isZero(0.0)) continue;
+    const SymmetricTensor back = SymmetricTensor::from(particles.pressure[p] * parting);
+    SymmetricTensor& s = particles.deviatoric_stress[p];
+    s = {s.xx + back.xx, s.yy + back.yy, s.zz + back.zz, s.xy + back.xy, s.yz + back.yz, s.zx + back.zx};
+    ++held;
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(moments);
-  return std::sqrt(solver.eigenvalues()[2]) * solver.eigenvectors().col(2);
+  return held;
 }
 
-/// Divides a particle in two halves of its domain along a half-edge (2.6), (2.7). Its second half becomes
-/// `other`, a copy of it. Mass, momentum, angular momentum and second moments of the mass stay exactly; what
-/// the affine field loses becomes unresolved energy if there is a store of it, else internal energy.
-/// @param inertia  of the affine field; 0 without one
-/// @returns J, that loss
 double divide(Particles& particles, std::size_t p, std::size_t other, const Vector3& half_edge,
               double inertia) {
   particles.mass[p] *= 0.5;
@@ -70,9 +161,11 @@ double divide(Particles& particles, std::size_t p, std::size_t other, const Vect
   double heat = 0.0;  // per mass
   if (inertia > 0.0) {
     Matrix3& c = particles.affine_velocity[p];
-    difference = c * offset;
+    const double most = std::max(inertia, offset.squaredNorm());
+    const Vector3 along = c * offset;
     const double before = 0.5 * inertia * c.squaredNorm();
-    c -= difference * offset.transpose() / inertia;
+    c -= along * offset.transpose() / most;
+    difference = inertia / most * along;
     heat = before - 0.5 * inertia * c.squaredNorm() - 0.5 * difference.squaredNorm();
     (particles.unresolved_energy.empty() ? particles.specific_internal_energy
                                          : particles.unresolved_energy)[p] += heat;
@@ -88,33 +181,11 @@ double divide(Particles& particles, std::size_t p, std::size_t other, const Vect
   return 2.0 * particles.mass[p] * heat;
 }
 
-}  // namespace
-
 void split(State& state, const Carriers& carriers, ParticleCarrier& of_particles) {
-  if (state.setup.splitting.length <= 0.0) return;
+  if (!may_divide(state.setup)) return;
   state.profile.time("split", [&] {
-    const double limit =
-        0.5 * state.setup.splitting.length * state.setup.domain.cell_size;  // half the length
-    const grid::Geometry& geometry = state.setup.geometry;
-    std::vector<std::pair<std::uint32_t, Vector3>> divided;
-    for (std::uint32_t p = 0; p < state.particles.size(); ++p) {
-      const SymmetricTensor& e = state.particles.extent[p];
-      if (e.xx + e.yy + e.zz <= limit * limit) continue;  // the largest eigenvalue is smaller still
-      if (state.particles.failed[p] != 0 ||
-          state.particles.generation[p] >= state.setup.splitting.maximum_generations) {
-        continue;
-      }
-      const Vector3 half_edge = longest_half_edge(e, geometry.is_planar());
-      if (half_edge.squaredNorm() <= limit * limit) continue;
-      bool inside = true;
-      for (int a = 0; a < (geometry.is_planar() ? 2 : 3); ++a) {  // no ring of radius 0
-        const double reach = 0.5 * std::abs(half_edge[a]);
-        inside = inside && state.particles.position[p][a] - reach > geometry.lower[a] &&
-                 state.particles.position[p][a] + reach < geometry.upper(a);
-      }
-      if (inside) divided.emplace_back(p, half_edge);
-    }
-    if (!parallel::any(state.communicator, !divided.empty())) return;
+    const Divisions divisions = find_divisions(state);
+    if (!parallel::any(state.communicator, !divisions.empty())) return;
 
     // New particles take the numbers above all present ones, rank by rank.
     std::uint64_t largest = 0;
@@ -122,17 +193,23 @@ void split(State& state, const Carriers& carriers, ParticleCarrier& of_particles
     largest = static_cast<std::uint64_t>(parallel::maximum(state.communicator, static_cast<double>(largest)));
     std::vector<double> count(static_cast<std::size_t>(parallel::size(state.communicator)), 0.0);
     const auto rank = static_cast<std::size_t>(parallel::rank(state.communicator));
-    count[rank] = static_cast<double>(divided.size());
+    count[rank] = static_cast<double>(divisions.size());
     parallel::sum(state.communicator, count);
     std::uint64_t next = largest + 1;
     for (std::size_t r = 0; r < rank; ++r) next += static_cast<std::uint64_t>(count[r]);
-    for (const double n : count) state.particle_count += static_cast<std::size_t>(n);
+    std::size_t after = state.particle_count;
+    for (const double n : count) after += static_cast<std::size_t>(n);
+    if (after > static_cast<std::size_t>(state.setup.splitting.maximum_particles)) {
+      state.booked.refused_divisions += static_cast<double>(divisions.size());
+      return;
+    }
+    state.particle_count = after;
 
     const std::size_t before = state.particles.size();
-    resize(state.particles, before + divided.size());
-    for (std::size_t i = 0; i < divided.size(); ++i) {
+    resize(state.particles, before + divisions.size());
+    for (std::size_t i = 0; i < divisions.size(); ++i) {
       (state.keeps_losses() ? state.booked.unresolved_kept : state.booked.transfer_heat) += divide(
-          state.particles, divided[i].first, before + i, divided[i].second, state.particle_affine_inertia());
+          state.particles, divisions[i].first, before + i, divisions[i].second, state.particle_affine_inertia());
       state.particles.id[before + i] = next++;
     }
     of_particles.reallocated();

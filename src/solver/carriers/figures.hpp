@@ -13,10 +13,15 @@
 /// Sums and greatest values that the carriers have in common.
 namespace whipple::solver {
 
+/// Returns the largest speed (m/s) relative to a velocity (m/s).
+inline double largest_speed_of(const std::vector<Vector3>& velocity, const Vector3& frame) {
+  return std::sqrt(parallel::maximum(velocity.size(), 0.0,
+                                     [&](std::size_t p) { return (velocity[p] - frame).squaredNorm(); }));
+}
+
 /// Raises the greatest speed.
 inline void add_speeds(const std::vector<Vector3>& velocity, Figures& figures) {
-  figures.speed = std::sqrt(parallel::maximum(velocity.size(), figures.speed * figures.speed,
-                                              [&](std::size_t p) { return velocity[p].squaredNorm(); }));
+  figures.speed = std::max(figures.speed, largest_speed_of(velocity, Vector3::Zero()));
 }
 
 /// Adds the state of material points.

@@ -131,6 +131,13 @@ void Hexahedra::add_figures(Figures& figures) const {
   }
 }
 
+double Hexahedra::largest_speed(const Vector3& frame) const {
+  double largest = 0.0;
+  for (const fem::Mesh& mesh : meshes_)
+    largest = std::max(largest, largest_speed_of(mesh.nodes.velocity, frame));
+  return largest;
+}
+
 std::size_t Hexahedra::element_count() const {
   std::size_t count = 0;
   for (const fem::Mesh& mesh : meshes_) count += mesh.elements.size();

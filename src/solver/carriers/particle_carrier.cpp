@@ -92,6 +92,10 @@ void ParticleCarrier::add_figures(Figures& figures) const {
   figures.chemical_energy += Explosives(state_).chemical_energy();
 }
 
+double ParticleCarrier::largest_speed(const Vector3& frame) const {
+  return largest_speed_of(state_.particles.velocity, frame);
+}
+
 std::uint64_t ParticleCarrier::largest_particle_id() const {
   return state_.particles.size() == 0 ? 0 : std::ranges::max(state_.particles.id);
 }

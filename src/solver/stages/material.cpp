@@ -102,16 +102,19 @@ void MaterialStage::update(std::string_view stage, Energy energy,
   for (std::size_t b = 0; b < state_.bodies.size(); ++b) settings.push_back(update_settings(state_, b));
   std::vector<MaterialReport> reports(state_.bodies.size());
   std::vector<std::pair<std::uint32_t, double>> dissipations;  // J, by the first particle of each list
-  std::size_t limited_domains = 0;
+  std::size_t limited_domains = 0, held_pressures = 0;
   Clock::duration in_material{};  // of all threads
   std::mutex mutex;
   const bool has_affine_field = state_.keeps_losses() && state_.particle_affine_inertia() > 0.0;
-  const bool deforming = domains::follow_deformation(state_);
+  std::vector<char> deforming;
+  for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
+    deforming.push_back(domains::follow_deformation(state_, b) ? 1 : 0);
+  }
   const std::vector<std::uint32_t>& flying = activity_.flying();
   const auto take = [&](std::span<const std::uint32_t> particles,
                         std::span<const Matrix3> gradients) -> double {
     const Clock::time_point begin = Clock::now();
-    const std::size_t limited = deforming ? domains::deform(state_, particles, gradients) : 0;
+    std::size_t limited = 0, held = 0;
     double plastic_work = 0.0;  // apart from the report, which other threads add to in any order
     for (std::size_t first = 0, end = 0; first < particles.size(); first = end) {
       const std::uint32_t body = state_.particles.body[particles[first]];
@@ -119,12 +122,17 @@ void MaterialStage::update(std::string_view stage, Energy energy,
       const auto list = particles.subspan(first, end - first);
       const auto of_list = gradients.subspan(first, end - first);
       const Material& material = *state_.setup.materials[body];
+      if (deforming[body] != 0) limited += domains::deform(state_, list, of_list);
       UpdateSettings of_body = settings[body];
       if (has_affine_field) of_body.affine_divergence = affine_divergence(state_.particles, list);
       MaterialReport report =
           energy == Energy::by_work_identity
               ? whipple::update_material(material, state_.particles, list, of_list, of_body)
               : update_material_and_energy(material, state_.particles, list, of_list, of_body);
+      // Only the work identity knows the work of a stress that the constitutive model did not make.
+      if (deforming[body] != 0 && energy == Energy::by_work_identity) {
+        held += domains::hold_back_pressure(state_.particles, list, state_, body);
+      }
       plastic_work += std::exchange(report.plastic_work, 0.0);
       const double dissipated = std::exchange(report.dissipation, 0.0);
       const std::lock_guard lock(mutex);
@@ -133,6 +141,7 @@ void MaterialStage::update(std::string_view stage, Energy energy,
     }
     const std::lock_guard lock(mutex);
     limited_domains += limited;
+    held_pressures += held;
     in_material += Clock::now() - begin;
     return plastic_work;
   };
@@ -144,6 +153,7 @@ void MaterialStage::update(std::string_view stage, Energy energy,
       take(std::span(flying).subspan(begin, end - begin), none);  // without strain, so without plastic work
     });
     state_.booked.limited_domains += static_cast<double>(limited_domains);
+    state_.booked.held_pressures += static_cast<double>(held_pressures);
     std::ranges::sort(dissipations);  // so that the sum does not depend on the order of threads
     for (const auto& [first, dissipated] : dissipations) state_.booked.dissipation += dissipated;
     SqueezedPoints squeezed(state_.bodies.size());
