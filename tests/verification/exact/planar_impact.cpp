@@ -119,7 +119,10 @@ double ShockedAndReleased::entropy_share(double density, double specific_interna
 
 Result run(const PlanarImpact& impact, double cell) {
   const double width = 2 * cell;
+  // Layers are known by the numbers of their particles: none is split.
   std::string text = fmt::format(R"(
+[splitting]
+length = 0
 [domain]
 lower = [0, 0, -0.04]
 upper = [{0:.9g}, {0:.9g}, 0.1]
