@@ -43,7 +43,7 @@ inline bool is_loose(const Particles& particles, std::size_t p, double initial_d
 
 /// Divides the loss of the transfers (J/kg, >= 0 but for round-off) and the work of the artificial viscosity
 /// between internal and unresolved energy (eq. 3 to 5). In material without gaps the loss is heat as far as the
-/// viscosity that heats does work, which measures what of the motion is a shock: a share of the work is an allowance,
+/// viscosity that heats does work, which measures what of the motion is a shock: a fraction of the work is an allowance,
 /// which is used up or forgotten, since the loss of a steady shock comes in steps in which its viscosity may rest.
 /// Where gaps close, material collides: all of the loss is heat, and so is the fraction of what had been kept before that the volume loses.
 /// Contact heats, but for fragmented material that expands, whose fragments hit those of another body as they hit

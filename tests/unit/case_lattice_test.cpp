@@ -108,12 +108,14 @@ TEST(LayeredLattice, LeavesCutParticlesAtTheirCentroids) {
   const Particles regular = particles_of("", ball, "regular"), layered = particles_of("", ball, "layered");
   ASSERT_EQ(layered.size(), regular.size());
   EXPECT_EQ(layered.mass, regular.mass);
-  const double whole = std::ranges::max(regular.mass);
+  std::vector<double> masses = regular.mass;
+  std::ranges::sort(masses);
+  const double whole = masses[masses.size() / 2];  // most are
   std::size_t moved = 0;
   for (std::size_t p = 0; p < regular.size(); ++p) {
     const double distance = (layered.position[p] - regular.position[p]).norm();
     EXPECT_LT(distance, 0.5 * dx);
-    if (regular.mass[p] < (1.0 - 1e-9) * whole) {
+    if (std::abs(regular.mass[p] - whole) > 1e-9 * whole) {
       EXPECT_EQ(distance, 0.0);
     }
     moved += distance > 0.0 ? 1 : 0;
@@ -129,7 +131,7 @@ TEST(LayeredLattice, IsRefusedWhereItMakesNoSense) {
             "[[body]]\nname = \"one\"\nmaterial = \"copper.toml\"\nshape = { box = { lower = [0.002, 0.002, "
             "0.002], upper = [0.006, 0.006, 0.006] } }\ndiscretization = { lattice = \"layered\"" +
             method + " }\n",
-        {"'lattice'", why});
+        {"lattice", why});
   };
   refused("", ", method = \"finite_elements\"", "become particles");
   refused("dimension = \"axisymmetric\"\n", "", "rings");

@@ -89,8 +89,8 @@ class HeatOfMetals {
             results, [&](const Result& r) { return std::abs(r.cell - cell) < 1e-3 * cell; });
         text_ += result == results.end()
                      ? " - |"
-                     : fmt::format(" {:.3f}, {:.3f} |", result->at(std::string("flyer: ") + figure),
-                                   result->at(std::string("target: ") + figure));
+                     : fmt::format(" {}, {} |", text_of(result->at(std::string("flyer: ") + figure)),
+                                   text_of(result->at(std::string("target: ") + figure)));
       }
       text_ += "\n";
     }
@@ -108,6 +108,7 @@ class HeatOfMetals {
   static constexpr std::array cell_sizes{0.4e-3, 0.2e-3, 0.1e-3, 0.05e-3, 0.025e-3};
 
  private:
+  static std::string text_of(double value) { return std::isnan(value) ? "-" : fmt::format("{:.3f}", value); }
   static const Figure* find(const Result& result, const std::string& name) {
     const auto found = std::ranges::find(result.figures, name, &Figure::name);
     return found == result.figures.end() ? nullptr : &*found;
@@ -189,6 +190,12 @@ void write_table(const std::string& path, const std::string& only) {
   for (const PlanarImpact& impact : melting_impacts()) {
     add_impact(impact, all);
     add_impact(with_centre_at_rest(impact), all);
+    if (impact.name.find("cadmium") == std::string::npos) continue;
+    PlanarImpact layered = impact;
+    layered.name += ", layered lattice";
+    layered.lattice = "layered";
+    add_impact(layered, all);
+    add_impact(with_centre_at_rest(layered), all);
   }
   suite.add_text(heat.text());
   add_blocks(suite);

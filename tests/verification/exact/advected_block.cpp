@@ -46,6 +46,8 @@ Result run(const AdvectedBlock& block, double cell) {
   const cases::Case setup =
       default_case(end,
                    fmt::format(R"(
+[splitting]
+length = 0
 [domain]
 lower = [0, 0, {0:.9g}]
 upper = [{1:.9g}, {1:.9g}, {2:.9g}]

@@ -119,7 +119,10 @@ double ShockedAndReleased::entropy_share(double density, double specific_interna
 
 Result run(const PlanarImpact& impact, double cell) {
   const double width = 2 * cell;
+  // Layers are known by the numbers of their particles: none is split.
   std::string text = fmt::format(R"(
+[splitting]
+length = 0
 [domain]
 lower = [0, 0, -0.04]
 upper = [{0:.9g}, {0:.9g}, 0.1]
@@ -135,10 +138,11 @@ name = "{}"
 material = "{}"
 velocity = [0, 0, {}]
 shape = {{ box = {{ lower = [0, 0, {:.9g}], upper = [{:.9g}, {:.9g}, {:.9g}] }} }}
+discretization = {{ lattice = "{}" }}
 )",
                         target ? "target" : "flyer", hydrodynamic(target ? impact.target : impact.flyer),
                         (target ? 0.0 : impact.speed) - impact.frame, target ? 0.0 : -impact.flyer_length,
-                        width, width, target ? impact.target_length : 0.0);
+                        width, width, target ? impact.target_length : 0.0, impact.lattice);
   }
   solver::Simulation simulation(default_case(impact.end, text), parallel::world());
   const auto start = positions_by_id(simulation.particles());

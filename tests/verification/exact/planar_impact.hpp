@@ -25,6 +25,7 @@ struct PlanarImpact {
   double end;                          ///< s, when both are released
   /// m/s, of the frame of the run against that of the target: what differs is not Galilean invariant.
   double frame = 0.0;
+  std::string lattice = "regular";  ///< of the particles
   /// For messages of tests.
   friend void PrintTo(const PlanarImpact& impact, std::ostream* out) { *out << impact.name; }
 };
