@@ -143,8 +143,6 @@ struct Ledger {
   double limited_bulking = 0.0;  ///< steps of particles of crushed brittle material at its greatest bulking
   double held_time_steps = 0.0;  ///< steps longer than `time.compression_limit` asked for
 
-  double releasable_energy =
-      0.0;  ///< J, that the materials can set free in all: above their zero, and chemical
   double largest_kinetic_energy =
       0.0;                        ///< J, with affine and hourglass energies, at the ends of the steps so far
   double largest_heating = 0.0;   ///< J, the same of the change of internal energy
@@ -209,39 +207,10 @@ void for_each_number(L& ledger, Function&& f) {
   f("limited_void_steps", ledger.limited_void_steps);
   f("limited_bulking", ledger.limited_bulking);
   f("held_time_steps", ledger.held_time_steps);
-  f("releasable_energy", ledger.releasable_energy);
   f("largest_kinetic_energy", ledger.largest_kinetic_energy);
   f("largest_heating", ledger.largest_heating);
   f("largest_momentum", ledger.largest_momentum);
 }
-
-/// A bound that material or the time step may run into: its column in history.csv and how it is told.
-struct Limiter {
-  const char* name;
-  double Ledger::* count;
-  const char* meaning;
-};
-/// All of them (docs/manual/output.md).
-inline constexpr auto limiters = std::to_array<Limiter>({
-    {"below_cold_curve", &Ledger::clamped_to_cold_curve, "temperature held at the cold curve, energy kept"},
-    {"at_pressure_floor", &Ledger::held_at_pressure_floor, "pressure held at its floor"},
-    {"limited_volume_changes", &Ledger::limited_volume_changes, "volume change of a step limited"},
-    {"limited_densities", &Ledger::limited_densities, "density limited to its minimum"},
-    {"limited_compressions", &Ledger::limited_compressions,
-     "density limited to the end of the equation of state"},
-    {"limited_void_steps", &Ledger::limited_void_steps, "change of material with a void limited"},
-    {"limited_bulking", &Ledger::limited_bulking, "bulking of crushed brittle material limited"},
-    {"limited_domains", &Ledger::limited_domains, "domain of a particle limited"},
-    {"limited_hourglass", &Ledger::limited_hourglass,
-     "hourglass forces of an element limited to its stored energy"},
-    {"elements_beyond_range", &Ledger::elements_beyond_range, "element left its valid range"},
-    {"held_pressures", &Ledger::held_pressures,
-     "pressure held back in a fluid particle that has parted from its neighbours"},
-    {"refused_divisions", &Ledger::refused_divisions,
-     "division of a particle refused at splitting.maximum_particles"},
-    {"held_time_steps", &Ledger::held_time_steps,
-     "time step kept longer than the volumetric strain-rate limit"},
-});
 
 /// Replaces every number by its sum over all ranks. Collective.
 template <class... Parts>

@@ -62,6 +62,8 @@ struct RunState {
   double squeezed_beside_voids = 0.0;  ///< kg, intact, under pressure in cells that it does not fill
   double first_touch = 1e300;  ///< s, at which bodies that have not touched yet next do; 1e300: not in sight
   transfer::FirstTouches::Words touched;  ///< what has
+  double releasable_energy = 0.0;         ///< J, that the materials could set free at the start
+  double reference_speed = 0.0;           ///< m/s, of the start: of what moved, and what that energy can make
   std::int64_t step = 0;
   std::int64_t particles_at_rest = 0;  ///< of all ranks, left as they were by the last step
   Ledger ledger;

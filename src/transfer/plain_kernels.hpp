@@ -40,7 +40,7 @@ AxisWeights<Shape::count> along_axis(const Points& points, std::size_t p, const 
     const Vector3 h = half_sizes(points.extent[p], cells.size);
     return Shape::weights(from_first, h[static_cast<Eigen::Index>(direction)], cells);
   } else {
-    return Shape::weights(from_first, cells);
+    return Shape::weights(from_first, cells.along(direction));
   }
 }
 
@@ -172,7 +172,7 @@ struct Kernels {
                      std::size_t slot, double slope_smoothing, const Sums& sums, const Take& take) {
     const std::span<const grid::PlaceInStencil> places = grid.places(kind);
     const std::uint32_t* const list = grid.members(kind, slot).data();
-    const Cells cells{grid.cell_size(slot), slope_smoothing};
+    const Cells cells(grid, slot, slope_smoothing);
     grid.for_each_field(kind, slot, [&](std::span<const std::uint32_t> members, unsigned field) {
       narrow::DirectAccess<Shape> access(grid, slot, field);
       for (const std::uint32_t& p : members) {
@@ -187,7 +187,7 @@ struct Kernels {
   template <class Shape, class What>
   static void scatter(const What& what, grid::BlockGrid& grid, std::size_t slot, double slope_smoothing) {
     const std::span<const grid::PlaceInStencil> places = grid.places(What::kind);
-    const Cells cells{grid.cell_size(slot), slope_smoothing};
+    const Cells cells(grid, slot, slope_smoothing);
     grid.for_each_field(What::kind, slot, [&](std::span<const std::uint32_t> members, unsigned field) {
       narrow::DirectAccess<Shape> access(grid, slot, field);
       for (const std::uint32_t p : members) {

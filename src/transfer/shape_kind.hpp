@@ -38,7 +38,7 @@ struct ShapeFunctions {
   constexpr ShapeFunctions(ShapeFunction of_kind, double smoothing = 0.0)
       : kind(of_kind), slope_smoothing(smoothing) {}
   ShapeFunction kind;
-  double slope_smoothing;  ///< a1 of quadratic B-splines (docs/theory/mpm.md, 2.8); 0: the derivatives of N
+  double slope_smoothing;  ///< a1 of quadratic B-splines (docs/theory/mpm.md, 2.9); 0: the derivatives of N
 };
 
 /// The kind that reaches nodes of the plane z = lower only.

@@ -5,8 +5,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 
 #include "src/core/base/error.hpp"
+#include "src/core/base/simd.hpp"
 #include "src/grid/block_grid.hpp"
 #include "src/transfer/shape_kind.hpp"
 
@@ -16,9 +18,26 @@ namespace whipple::transfer {
 
 /// Cells of the grid as the shape functions see them.
 struct Cells {
-  constexpr Cells(double edge, double smoothing = 0.0) : size(edge), slope_smoothing(smoothing) {}
-  double size;             ///< m
-  double slope_smoothing;  ///< as of ShapeFunctions
+  // NOLINTNEXTLINE(google-explicit-constructor): a size alone has the derivatives of N as slopes
+  constexpr Cells(double edge, double smoothing = 0.0)
+      : size(edge), slope_smoothing{smoothing, smoothing, smoothing, smoothing} {}
+  /// Those of a grid. Along the radius of rings the slopes are the derivatives of N: with the hoop terms N/r they keep a
+  /// uniform pressure in equilibrium at the axis.
+  Cells(const grid::BlockGrid& grid, std::size_t slot, double smoothing)
+      : Cells(grid.cell_size(slot), smoothing) {
+    if (grid.geometry().is_axisymmetric()) slope_smoothing[1] = 0.0;
+  }
+  /// Returns the smoothing of a direction, of three directions at once in their lanes.
+  template <class Number>
+  [[nodiscard, gnu::always_inline]] Number smoothing() const {
+    if constexpr (std::is_same_v<Number, Lanes>) return slope_smoothing;
+    return slope_smoothing[0];
+  }
+  /// Returns the cells along one direction.
+  [[nodiscard]] Cells along(std::size_t direction) const { return {size, slope_smoothing[direction]}; }
+
+  double size;            ///< m
+  Lanes slope_smoothing;  ///< of each direction, as of ShapeFunctions
 };
 
 /// In the place of a smoothing, where nothing is weighted with slopes.
@@ -54,7 +73,7 @@ struct Linear {
 
 /// Quadratic B-splines: three nodes per direction, continuous gradients (Steffen, Kirby & Berzins, IJNME 76
 /// (2008) 922). Sum of N r r^T is dx^2/4 everywhere, which the affine transfer relies on. Slopes may be smoother than
-/// the derivatives of N (2.8).
+/// the derivatives of N (2.9).
 struct QuadraticBSpline {
   static constexpr auto kind = ShapeFunction::quadratic_bspline;
   static constexpr int count = 3;
@@ -66,7 +85,7 @@ struct QuadraticBSpline {
   [[gnu::always_inline]] static AxisWeights<count, Number> weights(Number g, const Cells& cells) {
     AxisWeights<count, Number> w;
     const double per_cell = 1.0 / cells.size;
-    const Number y = g - 1.0, slope = y + (cells.slope_smoothing * y) * (0.25 - y * y);
+    const Number y = g - 1.0, slope = y + (cells.smoothing<Number>() * y) * (0.25 - y * y);
     w.weight = {0.5 * (1.5 - g) * (1.5 - g), 0.75 - (g - 1.0) * (g - 1.0), 0.5 * (g - 0.5) * (g - 0.5)};
     w.derivative = {(slope - 0.5) * per_cell, slope * (-2.0 * per_cell), (slope + 0.5) * per_cell};
     w.distance = {-g * cells.size, (1.0 - g) * cells.size, (2.0 - g) * cells.size};

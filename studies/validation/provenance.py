@@ -38,7 +38,7 @@ def digest_of(*texts):
 
 def code_of(text):
     """What a C++ file says: comments and layout do not count."""
-    return re.sub(r"\s+", " ", COMMENT.sub(lambda match: match[1] or " ", text))
+    return re.sub(r"\s+", " ", COMMENT.sub(lambda match: match[1] or " ", text)).strip()
 
 
 @functools.cache

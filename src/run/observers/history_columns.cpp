@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "src/core/parallel/mpi.hpp"
+#include "src/solver/limiters.hpp"
 
 namespace whipple::run {
 namespace {

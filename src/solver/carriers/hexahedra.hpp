@@ -47,6 +47,7 @@ class Hexahedra : public Carrier {
   void add_phases(std::span<PhaseMasses> of_body) const override;
   void add_figures(Figures& figures) const override;
   [[nodiscard]] double largest_speed(const Vector3& frame) const override;
+  void add_releasable(Releasable& sum) const override;
   [[nodiscard]] std::size_t element_count() const override;
   [[nodiscard]] std::uint64_t largest_particle_id() const override;
   [[nodiscard]] std::size_t bytes() const override;

@@ -5,28 +5,24 @@
 
 namespace whipple::solver {
 
-/// Returns the energy (J/kg) that the material of a body may set free in all: what it holds in its initial state above
-/// the zero of its equation of state, that of unburnt explosive included, and twice the elastic energy of its initial
-/// pressure.
-double releasable_energy(const cases::Body& body, const Material& material);
-
 /// Ends a run whose parts of energy or whose speeds are impossible, however exact the sum of its energies is
 /// (docs/theory/mpm.md, section 4): a carrier that gives energy takes it from a part that no balance looks at.
 class Plausibility {
  public:
-  Plausibility(const State& state, const Carriers& carriers);
+  Plausibility(State& state, const Carriers& carriers);
 
+  /// Notes what the run starts with: `RunState::releasable_energy`, `reference_speed`. Collective.
+  void begin();
   /// Checks the end of a step. Collective.
-  /// @throws StateError naming the part, its value and its bound; of speeds also the particle or node
+  /// @throws StateError naming the part, its value and its bound; of speeds also the body and the place
   void require() const;
 
  private:
   void require_parts() const;
   void require_speeds() const;
   [[nodiscard]] Vector3 frame() const;
-  [[nodiscard]] double reference_speed(const Vector3& frame) const;
 
-  const State& state_;
+  State& state_;
   const Carriers& carriers_;
   bool has_walls_;
 };

@@ -15,7 +15,7 @@ struct Kernels {
   WHIPPLE_WHOLE_KERNEL static void gather(const Points& points, grid::BlockGrid& grid,
                                           grid::BlockGrid::Points kind, std::size_t slot,
                                           double slope_smoothing, const Sums& sums, const Take& take) {
-    const Cells cells{grid.cell_size(slot), slope_smoothing};
+    const Cells cells(grid, slot, slope_smoothing);
     const std::span<const grid::PlaceInStencil> places = grid.places(kind);
     const std::uint32_t* const list = grid.members(kind, slot).data();
     read_nodes<Shape, typename Sums::Content>(grid, kind, slot, [&](const auto& members, auto& access) {
@@ -78,7 +78,7 @@ struct Kernels {
   template <class Shape, class What>
   WHIPPLE_WHOLE_KERNEL static void scatter(const What& what, grid::BlockGrid& grid, std::size_t slot,
                                            double slope_smoothing) {
-    const Cells cells{grid.cell_size(slot), slope_smoothing};
+    const Cells cells(grid, slot, slope_smoothing);
     const std::span<const grid::PlaceInStencil> places = grid.places(What::kind);
     const auto load = [&](std::size_t p) WHIPPLE_INLINE {
       if (prefetches(p)) {

@@ -87,7 +87,7 @@ class Direction<QuadraticBSpline> {
   WHIPPLE_INLINE Direction(const Group& group, std::size_t a, const Cells& cells) {
     const Vector x = of_group([&](std::size_t m) { return broadcast(group.place[m]->from_first(a)); });
     const Vector y = x - 1.0, to_first = y - 0.5, to_last = y + 0.5;
-    a_ = multiply_add(cells.slope_smoothing * y, 0.25 - y * y, to_first);  // (2.8)
+    a_ = multiply_add(cells.slope_smoothing[a] * y, 0.25 - y * y, to_first);  // (2.9)
     before_ = 0.5 * to_first * to_first;
     behind_ = 0.5 * to_last * to_last;
     distance = {-cells.size * x, cells.size * (1.0 - x), cells.size * (2.0 - x)};
