@@ -61,9 +61,8 @@ struct MaterialPoints {
   std::vector<double> specific_internal_energy;  ///< J/kg
   std::vector<double> pressure;              ///< Pa, positive in compression, without artificial viscosity
   std::vector<double> artificial_viscosity;  ///< Pa, negative in expansion
-  std::vector<SymmetricTensor>
-      deviatoric_stress;            ///< Pa, positive in tension; p (I - S) with it (mpm.md, 2.8)
-  std::vector<double> temperature;  ///< K
+  std::vector<SymmetricTensor> deviatoric_stress;  ///< Pa, positive in tension
+  std::vector<double> temperature;                 ///< K
   std::vector<double> sound_speed;  ///< m/s, longitudinal (with shear stiffness), for time step and viscosity
   std::vector<double> plastic_strain;      ///< equivalent plastic strain
   std::vector<double> melted_fraction;     ///< mass fraction of liquid and vapour

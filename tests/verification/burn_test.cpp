@@ -181,13 +181,17 @@ TEST(PlanarDetonation, ProductsEscapeIntoVacuum) {
     if (x > X - 0.5 * D * (t - T))
       c = 0.5 * (x / t - (x - X) / (t - T)), u = 0.5 * (x / t + (x - X) / (t - T));
     const double exact = 16.0 / 9.0 * rho0 * std::max(c, 0.0) / D;
-    density.add(q.mass[p] / q.volume[p] / exact, 1.0, q.mass[p]);
+    // Ahead of the front, where there should be nothing, and just behind it: wrong by all of it.
+    density.add(exact > 0.0 ? std::min(q.mass[p] / q.volume[p] / exact, 2.0) : 2.0, 1.0, q.mass[p]);
     velocity.add(q.velocity[p][0] / D, u / D, q.mass[p]);
     front = std::max(front, x);
   }
   EXPECT_LT(density.value(), 0.035);
   EXPECT_LT(velocity.value(), 0.01);
-  EXPECT_GT(front, 0.95 * D * t);  // the place of the outermost of 800 particles is 2 % behind the front
+  std::printf("products into vacuum: density %.4f, velocity %.4f, front %.4f\n", density.value(),
+              velocity.value(), front / (D * t));
+  EXPECT_GT(front, 0.95 * D * t);
+  EXPECT_LT(front, 1.02 * D * t);
 }
 
 // --- What burns when -----------------------------------------------------------------------------------------
@@ -281,7 +285,7 @@ TEST(Burn, ProductsRetireBelowAPressureAndAreCounted) {
     run_to(*simulation, end);
     return simulation;
   };
-  const auto whole = run(""), retired = run("[burn]\nretire_below = \"20 MPa\"\n");
+  const auto whole = run(""), retired = run("[burn]\nretire_below = \"50 MPa\"\n");
   const solver::Ledger& ledger = retired->state().ledger;
   EXPECT_EQ(whole->state().ledger.retired.mass, 0.0);
   EXPECT_GT(ledger.retired.mass, 0.05 * ledger.initial.mass);
