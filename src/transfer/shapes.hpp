@@ -30,8 +30,11 @@ struct Cells {
   /// Returns the smoothing of a direction, of three directions at once in their lanes.
   template <class Number>
   [[nodiscard, gnu::always_inline]] Number smoothing() const {
-    if constexpr (std::is_same_v<Number, Lanes>) return slope_smoothing;
-    return slope_smoothing[0];
+    if constexpr (std::is_floating_point_v<Number>) {
+      return slope_smoothing[0];
+    } else {
+      return slope_smoothing;
+    }
   }
   /// Returns the cells along one direction.
   [[nodiscard]] Cells along(std::size_t direction) const { return {size, slope_smoothing[direction]}; }
