@@ -53,19 +53,11 @@ model = "none"
 }
 
 /// A simulation of seeded particles after `change` of their state (velocities, energies).
-inline solver::Simulation start_with(cases::Case setup, const std::function<void(Particles&)>& change) {
-  // What the bodies of the case bring along says nothing of the changed state.
-  setup.output.maximum_speed_factor = std::numeric_limits<double>::infinity();
+inline solver::Simulation start_with(const cases::Case& setup,
+                                     const std::function<void(Particles&)>& change) {
   Particles particles = cases::seed(setup).particles;
   change(particles);
   solver::RunState state;
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    const double density = particles.mass[p] / particles.volume[p], c = particles.sound_speed[p];
-    const double of_pressure = c > 0.0 ? particles.pressure[p] / (density * c) : 0.0;
-    state.ledger.releasable_energy +=
-        particles.mass[p] *
-        (std::max(particles.specific_internal_energy[p], 0.0) + of_pressure * of_pressure);
-  }
   state.ledger.initial = solver::totals_of(
       particles, transfer::affine_inertia(setup.transfer.shape_function, setup.domain.cell_size));
   return solver::Simulation(setup, std::move(particles), state, parallel::world());
