@@ -21,6 +21,8 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "unit"))
 from checks import require, wait_for  # noqa: E402
 
 WHIPPLE, CASE, PLAN, FOLDER = *sys.argv[1:4], pathlib.Path(sys.argv[4])
+# A million snapshots are refused: a run without an end writes the first and the last one.
+ENDLESS = ["--set", "time.end='1 s'", "--set", "output.snapshot_every=0"]
 
 
 def start(*arguments):
@@ -100,7 +102,7 @@ def one_rank():
 
 def two_ranks():
     run = FOLDER / "ranks"
-    launcher = start(CASE, "-o", run, "--ranks", "2", "--set", "time.end='1 s'")
+    launcher = start(CASE, "-o", run, "--ranks", "2", *ENDLESS)
     wait_for(lambda: list(run.glob("checkpoint/*.h5")), "a checkpoint")
     ranks = ranks_of(launcher.pid)
     require(len(ranks) == 2, f"expected two ranks, found {ranks}")
@@ -167,7 +169,7 @@ def little_memory():
 def steered():
     """A run on two ranks is paused, goes on, is asked nonsense and ends, from another process; then it is restarted."""
     run = FOLDER / "group" / "steered"  # whipple status searches at any depth
-    launcher = start(CASE, "-o", run, "--ranks", "2", "--set", "time.end='1 s'")
+    launcher = start(CASE, "-o", run, "--ranks", "2", *ENDLESS)
 
     def steer(*request):
         return subprocess.run([WHIPPLE, "steer", run, *request], capture_output=True, text=True)

@@ -18,12 +18,13 @@ namespace whipple::verification {
 struct ElementMethod {
   std::string element = "one_point";
   bool converted = false;  ///< at half of the time the elements of the left half become particles
+  Method transfers = {};   ///< of these particles
 };
 
 /// Relative error (rms over the mass) of velocity and displacement of a motion along x, n elements.
 inline double element_motion_error(const ExactMotion& motion, const ElementMethod& method, int n) {
   const cases::Case setup = motion_case(
-      motion, {}, n,
+      motion, method.transfers, n,
       "discretization = { method = \"finite_elements\", element = \"" + method.element + "\" }\n");
   const long steps = motion_steps(motion, n);
   const double dt = motion.end() / static_cast<double>(steps);
