@@ -128,9 +128,8 @@ struct Ledger {
   double held_at_pressure_floor = 0.0;  ///< evaluations at the least pressure of a modifier `floor`
   double limited_volume_changes = 0.0;  ///< steps of particles whose volume change was limited
   double limited_domains = 0.0;  ///< steps of particles whose domain was larger than its shape function takes
-  double held_pressures =
-      0.0;  ///< steps of fluid particles whose pressure did not act along directions in which they have parted
-  double refused_divisions = 0.0;  ///< divisions of particles beyond `splitting.maximum_particles`
+  double held_pressures = 0.0;   ///< steps of fluid particles that have parted
+  double refused_divisions = 0.0;  ///< beyond `splitting.maximum_particles`
   double limited_densities = 0.0;  ///< steps of particles at their least density
   double limited_compressions =
       0.0;                          ///< steps of particles at the greatest density of their equation of state
@@ -219,10 +218,8 @@ inline constexpr auto limiters = std::to_array<Limiter>({
     {"limited_void_steps", &Ledger::limited_void_steps, "change of material with a void limited"},
     {"limited_bulking", &Ledger::limited_bulking, "bulking of crushed brittle material limited"},
     {"limited_domains", &Ledger::limited_domains, "domain of a particle limited"},
-    {"held_pressures", &Ledger::held_pressures,
-     "pressure held back in a fluid particle that has parted from its neighbours"},
-    {"refused_divisions", &Ledger::refused_divisions,
-     "division of a particle refused at splitting.maximum_particles"},
+    {"held_pressures", &Ledger::held_pressures, "pressure of a parted fluid particle held back"},
+    {"refused_divisions", &Ledger::refused_divisions, "division beyond maximum_particles refused"},
     {"held_time_steps", &Ledger::held_time_steps,
      "time step kept longer than the volumetric strain-rate limit"},
 });

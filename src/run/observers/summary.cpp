@@ -39,7 +39,7 @@ std::string profile_as_json(const Moment& moment, const solver::Profile& profile
       .dump(2);
 }
 
-/// Returns the share of the unresolved energy that fluid carries which has expanded freely: continuous and thinner than
+/// Returns the fraction of the unresolved energy that fluid carries which has expanded freely: continuous and thinner than
 /// half its initial density. Its particles have parted, unless they are divided. Collective.
 double share_of_expanded_fluid(const solver::Simulation& simulation) {
   const cases::Case& setup = simulation.setup();
@@ -62,7 +62,7 @@ double share_of_expanded_fluid(const solver::Simulation& simulation) {
   return carried[0] / simulation.totals().unresolved_energy;
 }
 
-/// @param expanded  share of the unresolved energy that freely expanded fluid carries
+/// @param expanded  fraction of the unresolved energy that freely expanded fluid carries
 void tell(const Moment& moment, double expanded) {
   const solver::Ledger& ledger = moment.simulation.state().ledger;
   const solver::Totals& totals = moment.simulation.totals();

@@ -36,7 +36,7 @@ Eigen::SelfAdjointEigenSolver<Matrix3> principal_directions(const SymmetricTenso
   return Eigen::SelfAdjointEigenSolver<Matrix3>(moments);
 }
 
-/// Returns whether a particle is of matter that stays together when it stretches.
+/// Returns whether a particle is of material that stays together when it stretches.
 bool may_be_divided(const Particles& particles, std::size_t p, const cases::Splitting& splitting,
                     Fluidity fluidity) {
   if (particles.generation[p] >= splitting.maximum_generations) return false;
