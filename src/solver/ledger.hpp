@@ -133,9 +133,8 @@ struct Ledger {
   double held_at_pressure_floor = 0.0;  ///< evaluations at the least pressure of a modifier `floor`
   double limited_volume_changes = 0.0;  ///< steps of particles whose volume change was limited
   double limited_domains = 0.0;  ///< steps of particles whose domain was larger than its shape function takes
-  double held_pressures =
-      0.0;  ///< steps of fluid particles whose pressure did not act along directions in which they have parted
-  double refused_divisions = 0.0;  ///< divisions of particles beyond `splitting.maximum_particles`
+  double held_pressures = 0.0;   ///< steps of fluid particles that have parted
+  double refused_divisions = 0.0;  ///< beyond `splitting.maximum_particles`
   double limited_densities = 0.0;  ///< steps of particles at their least density
   double limited_compressions =
       0.0;                          ///< steps of particles at the greatest density of their equation of state

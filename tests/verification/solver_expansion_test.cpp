@@ -131,6 +131,17 @@ TEST(FreeExpansionFine, SphereOfGas) { expect_convergence(sphere, {0.5e-3, 0.25e
 TEST(FreeExpansionFine, SphereOfDetonationProducts) { expect_convergence(products, {0.5e-3, 0.25e-3}); }
 TEST(FreeExpansionFine, SlabOfCopperVapour) { expect_convergence(vapour, {0.5e-3, 0.25e-3, 0.125e-3}); }
 
+// Why fluid is divided: its particles part, and lone ones drive their own fields with their heat.
+TEST(FreeExpansionFine, LosesItsHeatWithoutSplittingAndMoreOfItWithFinerCells) {
+  for (const Problem& problem : {slab, sphere, products, vapour}) {
+    const std::string none = "[splitting]\nlength = 0\n";
+    const Deviation coarse = deviation(problem, 0.5e-3, none), fine = deviation(problem, 0.25e-3, none);
+    EXPECT_LT(coarse.internal, -0.5);
+    EXPECT_LT(fine.internal, coarse.internal);
+    EXPECT_LT(fine.kinetic, -0.1);
+  }
+}
+
 /// Two particles, of which the second is room for a half of the first.
 Particles particle_and_room() {
   Particles particles;
