@@ -62,6 +62,21 @@ class Queue(unittest.TestCase):
         self.assertEqual(([job.run.name for job in failed], [job.run.name for job in left]), (["broken"], ["slow"]))
         self.assertEqual(written, [[(self.case, quick)]])
 
+    def test_what_is_being_measured_is_written_later(self):
+        runs = [run_of(name) for name in ("a", "b", "c")]
+        jobs = self.planned(*((run, entry_of(run, "former", 1.0)) for run in runs))
+        calls = []
+
+        def write(chosen):
+            calls.append(len(chosen))
+            if len(calls) == 1:
+                raise queue.BadExpectation("quantities.csv is missing")
+
+        with mock.patch.object(execution, "execute", lambda *_: True), \
+                mock.patch.object(execution, "analyse", lambda *_: True), mock.patch("builtins.print"):
+            self.assertEqual(queue.work_off(jobs, "whipple", 1.0, 1, write, write_every=-1.0), ([], []))
+        self.assertEqual(calls, [1, 2, 1])
+
 
 if __name__ == "__main__":
     unittest.main()
