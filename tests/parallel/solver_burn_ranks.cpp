@@ -166,6 +166,7 @@ cases::Case expanding_gas(bool section) {
   const std::string of_dimension =
       section ? "dimension = \"axisymmetric\"\nlower = [\"0 mm\", \"0 mm\"]\nupper = [\"48 mm\", \"48 mm\"]\n"
               : "lower = [\"0 mm\", \"0 mm\", \"0 mm\"]\nupper = [\"24 mm\", \"24 mm\", \"24 mm\"]\n";
+  const std::string velocity = section ? "velocity = [1, 0]\n" : "velocity = [1, 0, 0]\n";
   const std::string boundary = section ? "" : ", y_lower = \"symmetry\", z_lower = \"symmetry\"";
   return cases::read_case_text("[domain]\n" + of_dimension +
                                    "cell_size = \"1 mm\"\nboundary = { x_lower = \"symmetry\"" + boundary +
@@ -178,9 +179,8 @@ maximum_generations = 4
 name = "gas"
 material = "air"
 initial = { density = "1 kg/m^3", pressure = "1 MPa" }
-velocity = ["1 m/s", "0 m/s"]
 shape = { sphere = { center = ["0 mm", "0 mm", "0 mm"], radius = "4 mm" } }
-)",
+)" + velocity,
                                "expanding_gas.toml");
 }
 
