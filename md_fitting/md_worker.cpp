@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "md_fitting/lammps/empty_working_folder.hpp"
 #include "md_fitting/plan/plan.hpp"
 #include "md_fitting/protocols/budget.hpp"
 #include "md_fitting/protocols/campaign.hpp"
@@ -124,7 +125,10 @@ int run_plan(const Options& options) {
   int ranks = 1;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  const Plan plan = read_plan(options.plan);
+  Plan plan = read_plan(options.plan);
+  plan.folder = std::filesystem::absolute(plan.folder.empty() ? "." : plan.folder);
+  const std::filesystem::path store = std::filesystem::absolute(options.store);
+  const EmptyWorkingFolder working_folder;
   // Errors of the potential, or of states outside its range, are errors of the plan.
   const auto of_plan = [&](const auto& call) {
     try {
@@ -140,7 +144,7 @@ int run_plan(const Options& options) {
   });
   if (plan.validity_pressure > 0.0) potential.state_validity({plan.validity_pressure, "stated in the plan"});
   const std::vector<Task> tasks = of_plan([&] { return make_tasks(plan, potential); });
-  require_writable_on_all(options.store, rank);
+  require_writable_on_all(store, rank);
   if (rank == 0) {
     log::info("{}: {} points, potential {} ({}), {} rank{}", plan.title.empty() ? options.plan : plan.title,
               tasks.size(), potential.name(), potential.file().filename().string(), ranks,
@@ -163,13 +167,13 @@ int run_plan(const Options& options) {
           potential.name(), potential.least_volume_ratio());
     }
   }
-  if (rank == 0) report_estimate(plan, tasks, potential, options.store);
-  const CampaignSummary summary = run_campaign(tasks, options.store, MPI_COMM_WORLD, options.retry_failed,
+  if (rank == 0) report_estimate(plan, tasks, potential, store);
+  const CampaignSummary summary = run_campaign(tasks, store, MPI_COMM_WORLD, options.retry_failed,
                                                static_cast<int>(plan.ranks_per_point));
   if (rank == 0) {
     report(summary, options.store);
     report_time(summary, plan);
-    if (plan.liquid_vapour) report_critical_point(options.store);
+    if (plan.liquid_vapour) report_critical_point(store);
   }
   if (summary.code != 0) {
     if (rank == 0) log::warning("the plan is incomplete; repeat the call to compute what is missing");

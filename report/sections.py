@@ -33,6 +33,8 @@ COUNTED = (("below_cold_curve", "points clamped to the cold curve"),
            ("limited_void_steps", "limited changes of material with voids"),
            ("limited_bulking", "limited bulking"),
            ("limited_domains", "limited domains"),
+           ("limited_hourglass", "hourglass forces of elements limited to their stored energy"),
+           ("elements_beyond_range", "elements that left their valid range"),
            ("held_time_steps", "steps longer than the volumetric strain-rate limit"))
 # What took kinetic energy from the motion, and where it is (docs/theory/dissipation.md).
 DISSIPATION = (("viscous_work", "artificial viscosity", "internal energy"),

@@ -3,15 +3,17 @@
 """Runs the cases, gives every number a band, compares with expected.toml, and writes the tables of docs/generated/results.md.
 
 usage: results.py [CASE[:RUN]]... [--resolution coarse|normal|fine | --band] [--run] [--any-source] [--threads N]
-                  [--write] [--list] [--cost] [--check-fresh]
+                  [--write] [--list] [--cost] [--check-fresh] [--queue MINUTES [--jobs N]]
 
 Without --run, runs that are there are compared. A run lies in run/results/CASE/RUN.VARIANT; a variant is a resolution,
 a position of the lattice or a moving frame. --band takes all variants of a run: three grids and what [band] of
 expected.toml declares of a headline, two grids of others. A run is repeated if its command, case, a material or the C++
-under src/ or eos/ has changed since; --any-source lets the last pass. --write renews docs/generated/results.json with the runs that
+that computes it (studies/validation/provenance.py) has changed since; --any-source lets the last pass. --write renews docs/generated/results.json with the runs that
 are there, and from it the page and report/grid_sensitivity.json; runs that are not here keep their tables, marked where
 they are out of date. --check-fresh runs nothing: exit code 1 if a table belongs to another case or material, or the page
 to other data.
+--queue computes what is left of all tables for so many minutes, by value, N runs at a time, and writes the results as they
+come; called again it goes on (studies/validation/queue.py). With --list it names what is left, in order, with its cost.
 Format of expected.toml: docs/manual/expected_results.md; bands and marks: docs/theory/uncertainty.md.
 Exit code 1 if a run failed, 2 for bad input; a difference from an experiment is a result, not an error.
 """
@@ -23,7 +25,7 @@ import sys
 
 # The modules of the project are imported from its root.
 sys.path[0] = str(pathlib.Path(__file__).resolve().parents[1])
-from studies.validation import comparison, execution, page, provenance  # noqa: E402
+from studies.validation import comparison, execution, page, provenance, queue  # noqa: E402
 from studies.validation.cases import ROOT, BadExpectation, all_cases  # noqa: E402
 from studies.validation.variants import variants_of  # noqa: E402
 
@@ -94,6 +96,21 @@ def listed(chosen, arguments):
         print(f"all together about {work / 3600:.1f} h on {os.cpu_count()} threads")
 
 
+def queued(chosen, arguments):
+    """Works the queue off, or lists it; returns the exit code."""
+    jobs = queue.plan(page.load(), chosen)
+    if arguments.list:
+        for job in jobs:
+            print(f"{job.cost:7.0f} s  {job.name}")
+        print(f"{len(jobs)} left, about {sum(job.cost for job in jobs) / 60:.0f} minutes on one thread")
+        return 0
+    failed, left = queue.work_off(jobs, arguments.whipple, arguments.queue or 0.0, arguments.jobs, write)
+    for word, of in (("failed", failed), ("left for another call", left)):
+        if of:
+            print(f"{word}: {', '.join(job.name for job in of)}")
+    return 1 if failed else 0
+
+
 def variants(run, arguments):
     if arguments.band:
         return variants_of(run, band=True)
@@ -114,6 +131,8 @@ def main():
     parser.add_argument("--write", action="store_true", help="renew docs/generated/results.json and docs/generated/results.md")
     parser.add_argument("--list", action="store_true", help="list cases and runs")
     parser.add_argument("--cost", action="store_true", help="with --list: particles and steps by `whipple check`")
+    parser.add_argument("--queue", type=float, metavar="MINUTES", help="compute what is left of all tables, by value")
+    parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)), help="of the queue: runs at a time")
     parser.add_argument("--check-fresh", action="store_true", help="whether the written tables belong to the cases")
     parser.add_argument("--whipple", default=str(ROOT / "build/release/bin/whipple"), help="the executable")
     arguments = parser.parse_args()
@@ -121,6 +140,8 @@ def main():
         if arguments.check_fresh:
             return check_fresh()
         chosen = execution.select(arguments.cases)
+        if arguments.queue is not None:
+            return queued(chosen, arguments)
         if arguments.list:
             listed(chosen, arguments)
             return 0

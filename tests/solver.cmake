@@ -12,9 +12,9 @@ whipple_test(test_solver STARTS_MPI
           validation/solver_table_test.cpp regression/solver_regression_test.cpp fuzz/case_fuzz.cpp
   DEPENDS whipple_run GTest::gmock LABELS fast)
 whipple_test(test_run STARTS_MPI
-  SOURCES parallel/run_restart_test.cpp property/run_forecast_test.cpp property/run_gauges_test.cpp verification/run_steering_test.cpp
+  SOURCES parallel/run_restart_test.cpp property/run_forecast_test.cpp property/run_gauges_test.cpp property/solver_plausibility_test.cpp verification/run_steering_test.cpp
   DEPENDS whipple_run nlohmann_json::nlohmann_json GTest::gmock LABELS fast)
-whipple_test(test_contact STARTS_MPI SOURCES property/contact_pressing_test.cpp verification/solver_gap_test.cpp verification/solver_first_touch_test.cpp
+whipple_test(test_contact STARTS_MPI SOURCES property/contact_pressing_test.cpp verification/solver_gap_test.cpp verification/solver_first_touch_test.cpp verification/solver_conduction_test.cpp
              DEPENDS whipple_run LABELS fast)
 whipple_test(test_burn STARTS_MPI SOURCES verification/burn_test.cpp verification/burn_contact_test.cpp verification/lighting_times_test.cpp verification/reaction_test.cpp DEPENDS whipple_run GTest::gmock LABELS fast)
 add_test(NAME burn.fine_slab COMMAND test_burn --gtest_filter=PlanarDetonation.FollowsTheTaylorWaveOfTnt)
@@ -30,7 +30,7 @@ whipple_test(test_rotation STARTS_MPI SOURCES verification/solver_rotation_test.
 # Writes docs/generated/orders_of_convergence.md; a program of its own, as it takes minutes.
 add_executable(orders_of_convergence EXCLUDE_FROM_ALL verification/solver_orders.cpp)
 target_link_libraries(orders_of_convergence PRIVATE whipple_flags whipple_solver)
-whipple_test(test_case SOURCES unit/case_bodies_test.cpp unit/case_case_test.cpp unit/case_check_test.cpp unit/case_shape_test.cpp unit/case_remarks_test.cpp
+whipple_test(test_case SOURCES unit/case_bodies_test.cpp unit/case_lattice_test.cpp unit/case_case_test.cpp unit/case_check_test.cpp unit/case_shape_test.cpp unit/case_remarks_test.cpp
              DEPENDS whipple_case LABELS fast)
 
 # Distributed: against one rank, restart on another number of ranks, errors and killed ranks.
@@ -72,7 +72,8 @@ endif()
 # Problems with exact solutions: sources shared by the tests and the program that writes docs/generated/exact_suite.md.
 add_library(whipple_exact STATIC EXCLUDE_FROM_ALL
   verification/exact/result.cpp verification/exact/gas_solutions.cpp verification/exact/gas_problems.cpp
-  verification/exact/planar_impact.cpp verification/exact/piston.cpp verification/exact/oblique_impact.cpp)
+  verification/exact/planar_impact.cpp verification/exact/piston.cpp verification/exact/oblique_impact.cpp
+  verification/exact/advected_block.cpp)
 target_link_libraries(whipple_exact PUBLIC whipple_flags whipple_solver)
 whipple_test_flags(whipple_exact OPTIMIZED)
 target_compile_definitions(whipple_exact PRIVATE WHIPPLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")

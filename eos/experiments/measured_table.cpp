@@ -7,9 +7,9 @@
 #include <array>
 #include <cctype>
 #include <charconv>
-#include <fstream>
 #include <limits>
 #include <span>
+#include <sstream>
 
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
@@ -143,8 +143,7 @@ void join_units(std::vector<std::string>& headings) {
 }  // namespace
 
 MeasuredTable MeasuredTable::read(const std::filesystem::path& file) {
-  std::ifstream stream(regular_file(file));
-  if (!stream) throw InputError(fmt::format("cannot read '{}'", file.string()));
+  std::istringstream stream(read_text(file));
   MeasuredTable table;
   table.file_ = file;
   char separator = ' ';

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <regex>
+#include <sstream>
 #include <vector>
 
 #include "eos/files/sesame_layout.hpp"
@@ -92,7 +92,7 @@ struct Words {
 
 class Reader {
  public:
-  explicit Reader(const fs::path& path) : path_(path), file_(regular_file(path)) {
+  explicit Reader(const fs::path& path) : path_(path), file_(read_text(path)) {
     if (!file_) throw InputError(fmt::format("{}: does not exist or cannot be read", path.string()));
   }
 
@@ -223,7 +223,7 @@ class Reader {
   }
 
   fs::path path_;
-  std::ifstream file_;
+  std::istringstream file_;
   std::string text_;
   std::size_t line_ = 0, width_ = 0, per_line_ = words_per_line;
   std::optional<int> index_;  ///< material of the last index line, of files with labelled headers

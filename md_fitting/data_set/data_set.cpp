@@ -10,7 +10,6 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
-#include <fstream>
 #include <iterator>
 #include <optional>
 #include <tuple>
@@ -19,6 +18,7 @@
 #include "md_fitting/data_set/store_order.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/file_lock.hpp"
+#include "src/core/base/files.hpp"
 #include "src/core/base/units.hpp"
 #include "src/core/hdf5/hdf5.hpp"
 
@@ -334,10 +334,7 @@ bool append_to(const std::filesystem::path& path, const std::filesystem::path& c
 }
 
 bool same_bytes(const std::filesystem::path& first, const std::filesystem::path& second) {
-  std::ifstream a(first, std::ios::binary);
-  std::ifstream b(second, std::ios::binary);
-  using Bytes = std::istreambuf_iterator<char>;
-  return std::equal(Bytes(a), Bytes(), Bytes(b), Bytes());
+  return read_text(first) == read_text(second);
 }
 
 bool in_order(const PointRecord& a, const PointRecord& b) {

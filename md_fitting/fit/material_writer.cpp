@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <functional>
 #include <set>
 #include <sstream>
@@ -25,14 +24,6 @@
 
 namespace whipple::fit {
 namespace {
-
-std::string read_text(const std::filesystem::path& path) {
-  std::ifstream file(regular_file(path), std::ios::binary);
-  if (!file) throw InputError(fmt::format("cannot read '{}'", path.string()));
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 /// Name of the table that a line opens: "strength" for "[strength]", "failure" for "[[failure]]"; empty if
 /// none.

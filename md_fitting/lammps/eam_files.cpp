@@ -9,7 +9,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -41,7 +41,7 @@ bool is_plain(std::string_view line) {
 /// Lines and words of a potential file, with errors that name file and line.
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& path) : path_(path), stream_(regular_file(path)) {
+  explicit Reader(const std::filesystem::path& path) : path_(path), stream_(read_text(path)) {
     if (!stream_) throw InputError(fmt::format("cannot read the potential file {}", path.string()));
   }
   /// The next line, a comment: it may hold anything.
@@ -108,7 +108,7 @@ class Reader {
   }
 
   std::filesystem::path path_;
-  std::ifstream stream_;
+  std::istringstream stream_;
   std::string buffer_;
   std::string_view rest_;
   int line_ = 0;

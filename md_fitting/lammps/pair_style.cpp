@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <fstream>
 #include <iterator>
 #include <sstream>
 #include <string_view>
@@ -23,6 +22,28 @@ namespace {
 
 /// Styles whose tables the program reads and checks itself.
 constexpr std::array<std::string_view, 3> read_styles = {"eam", "eam/alloy", "eam/fs"};
+
+/// Styles whose coefficients are numbers and tables. Others are refused: some run what a file says (python, mliap), load
+/// shared objects (kim: such models are named by `potential`), or mean something else than atoms.
+// clang-format off
+constexpr auto data_styles = std::to_array<std::string_view>(
+    {"adp", "agni", "airebo", "airebo/morse", "atm", "beck", "bop", "born", "buck", "comb", "comb3",
+     "dispersion/d3", "edip", "edip/multi", "eim", "extep", "gauss", "gw", "gw/zbl", "harmonic/cut",
+     "hybrid", "hybrid/overlay", "hybrid/scaled", "lcbop", "lj/cubic", "lj/cut", "lj/expand", "lj/mdf",
+     "lj/smooth", "lj/smooth/linear", "lj96/cut", "lebedeva/z", "local/density", "meam", "meam/c",
+     "meam/spline", "meam/sw/spline", "mie/cut", "momb", "morse", "morse/smooth/linear", "nb3b/harmonic",
+     "nm/cut", "pace", "polymorphic", "rebo", "snap", "soft", "sw", "sw/mod", "table", "tersoff",
+     "tersoff/mod", "tersoff/mod/c", "tersoff/table", "tersoff/zbl", "threebody/table", "ufm", "vashishta",
+     "vashishta/table", "yukawa", "zbl", "zero"});
+// clang-format on
+
+/// Returns a style without the ending that chooses an accelerated version of it.
+std::string_view without_accelerator(std::string_view style) {
+  for (const std::string_view ending : {"/omp", "/opt", "/intel", "/gpu", "/kk"}) {
+    if (style.ends_with(ending)) return style.substr(0, style.size() - ending.size());
+  }
+  return style;
+}
 
 std::vector<std::string> words_of(const std::string& line) {
   std::istringstream stream(line);
@@ -41,11 +62,11 @@ void require_plain(const std::string& text) {
   }
 }
 
-/// A name with an ending of letters, which no number has.
+/// A name with an ending that does not begin with a digit, which no number has.
 bool looks_like_file(const std::string& word) {
   const std::size_t dot = word.rfind('.');
   return dot != std::string::npos && dot + 1 < word.size() &&
-         std::isalpha(static_cast<unsigned char>(word[dot + 1])) != 0;
+         std::isdigit(static_cast<unsigned char>(word[dot + 1])) == 0;
 }
 
 /// Returns the path of a file as LAMMPS reads it between quotation marks.
@@ -58,7 +79,24 @@ std::string readable_path(const std::filesystem::path& path) {
       "{}: LAMMPS reads no paths with quotation marks or letters beyond ASCII: move the file", text));
 }
 
-void require_style(const std::string& style) {
+/// Refuses styles that are more than data, also as parts of a hybrid one.
+/// @param words  of the command pair_style
+void require_data(const std::vector<std::string>& words, const Lammps& lammps) {
+  for (const std::string& word : words) {
+    const std::string_view style = without_accelerator(word);
+    const bool known = std::ranges::find(data_styles, style) != data_styles.end() ||
+                       std::ranges::find(read_styles, style) != read_styles.end();
+    if (known || !lammps.has_style("pair", word)) continue;
+    throw InputError(
+        fmt::format("the pair style '{}' is refused: it may run code or load more than tables; accepted "
+                    "here: {}, and in hybrid "
+                    "styles {}",
+                    word, fmt::join(data_styles, ", "), fmt::join(read_styles, ", ")));
+  }
+}
+
+void require_style(const std::vector<std::string>& words) {
+  const std::string& style = words.front();
   if (std::ranges::find(read_styles, style) != read_styles.end()) {
     throw InputError(
         fmt::format("pair_style \"{}\": the program reads tables of this style itself, with more checks; "
@@ -67,10 +105,13 @@ void require_style(const std::string& style) {
                     style));
   }
   const Lammps lammps;
-  if (lammps.has_style("pair", style)) return;
-  const std::vector<std::string> all = lammps.styles("pair");
-  throw InputError(fmt::format("LAMMPS was built without the pair style '{}'{}; its {} pair styles are: {}",
-                               style, did_you_mean(style, all), all.size(), fmt::join(all, ", ")));
+  if (lammps.has_style("pair", style)) return require_data(words, lammps);
+  std::vector<std::string> there;
+  for (const std::string_view of_data : data_styles) {
+    if (lammps.has_style("pair", std::string(of_data))) there.emplace_back(of_data);
+  }
+  throw InputError(fmt::format("LAMMPS was built without the pair style '{}'{}; it has: {}", style,
+                               did_you_mean(style, there), fmt::join(there, ", ")));
 }
 
 }  // namespace
@@ -80,7 +121,7 @@ PairInteractions pair_interactions(const PairStyle& pair, const std::string& nam
   require_plain(pair.style);
   const std::vector<std::string> style = words_of(pair.style);
   if (style.empty()) throw InputError("pair_style has no word");
-  require_style(style.front());
+  require_style(style);
   PairInteractions result;
   result.interactions.name = fmt::format("the pair style {} ({})", style.front(), name);
   result.interactions.before_box = {{"units metal", "units metal"}};
@@ -101,8 +142,7 @@ PairInteractions pair_interactions(const PairStyle& pair, const std::string& nam
                         word, potential_folder().string()));
       }
       if (!path.empty()) {
-        std::ifstream file(path, std::ios::binary);
-        content += sha256(std::string(std::istreambuf_iterator<char>(file), {})) + "\n";
+        content += sha256_of_file(path) + "\n";
       }
       full += path.empty() ? " " + word : fmt::format(" \"{}\"", readable_path(path));
       shown += " " + (path.empty() ? word : path.filename().string());

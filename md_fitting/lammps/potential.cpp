@@ -17,6 +17,7 @@
 #include "md_fitting/lammps/units.hpp"
 #include "md_fitting/lammps/zhou_2004.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
 #include "src/core/base/hash.hpp"
 #include "src/core/base/temporary_folder.hpp"
 #include "src/core/base/text.hpp"
@@ -99,11 +100,6 @@ std::filesystem::path find_file(const std::string& name, const std::string& elem
   throw InputError(fmt::format("there is no potential '{}'{}; for {} there are: {} (files in {})", name,
                                did_you_mean(name, choices), element, fmt::join(choices, ", "),
                                potential_folder().string()));
-}
-
-std::string content_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 /// Shortens the reach of all functions to the cutoff; what is cut off must be nothing.
@@ -290,7 +286,7 @@ void Potential::read_file(const std::string& element, const std::filesystem::pat
     write_tables(fmt::format("{} out of {}", element, file_.string()));
   } else {
     style_ = format == EamFormat::funcfl ? "eam" : format == EamFormat::setfl ? "eam/alloy" : "eam/fs";
-    const std::string content = content_of(file_);
+    const std::string content = read_text(file_);
     hash_ = sha256(content);
     if (!is_ascii(file_.string())) {
       written_ = std::make_shared<TemporaryFile>(

@@ -13,7 +13,7 @@ namespace whipple::afemp {
 namespace {
 
 constexpr std::size_t corner_count = 8;
-constexpr double place = 0.5;  ///< natural coordinates of the particles
+constexpr double place = 0.5;  ///< natural coordinates of the particles of a regular arrangement
 
 /// Trilinear functions of the corners and their derivatives at a point of natural coordinates.
 struct ShapeFunctions {
@@ -33,17 +33,26 @@ ShapeFunctions shape_functions(const Vector3& xi) {
   return n;
 }
 
-/// Returns the shape functions at the eight particle positions, in the order of the corners.
-const std::array<ShapeFunctions, corner_count>& at_particles() {
-  static const auto all = [] {
-    std::array<ShapeFunctions, corner_count> functions;
-    for (std::size_t k = 0; k < corner_count; ++k) {
-      const std::array<double, 3>& c = fem::corner_coordinates[k];
-      functions[k] = shape_functions(place * Vector3(c[0], c[1], c[2]));
+using AtParticles = std::array<ShapeFunctions, corner_count>;
+
+AtParticles make_at_particles(Arrangement arrangement) {
+  AtParticles functions;
+  for (std::size_t k = 0; k < corner_count; ++k) {
+    const std::array<double, 3>& c = fem::corner_coordinates[k];
+    Vector3 xi = place * Vector3(c[0], c[1], c[2]);
+    if (arrangement == Arrangement::layered) {  // the eighth of an element has the edge 1
+      xi += layer_offset((c[0] > 0 ? 1U : 0U) + (c[1] > 0 ? 2U : 0U) + (c[2] > 0 ? 4U : 0U));
     }
-    return functions;
-  }();
-  return all;
+    functions[k] = shape_functions(xi);
+  }
+  return functions;
+}
+
+/// Returns the shape functions at the eight particle positions, in the order of the corners.
+const AtParticles& at_particles(Arrangement arrangement) {
+  static const AtParticles regular = make_at_particles(Arrangement::regular);
+  static const AtParticles layered = make_at_particles(Arrangement::layered);
+  return arrangement == Arrangement::layered ? layered : regular;
 }
 
 /// Contribution of a corner: its part of the nodal mass with the motion of the node.
@@ -77,13 +86,13 @@ std::array<Corner, corner_count> corners_of(const fem::Mesh& mesh, std::size_t e
 
 /// Masses, places and domains (3.1).
 void place_fragments(const fem::Mesh& mesh, std::size_t element,
-                     const std::array<Corner, corner_count>& corners,
+                     const std::array<Corner, corner_count>& corners, const AtParticles& at,
                      std::array<Fragment, corner_count>& fragments) {
   const std::size_t rows = fem::points_per_element(mesh.quadrature);
   std::array<double, corner_count> jacobian{};
   double sum = 0.0, least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < corner_count; ++k) {
-    const ShapeFunctions& n = at_particles()[k];
+    const ShapeFunctions& n = at[k];
     Fragment& f = fragments[k];
     f.position.setZero();
     Matrix3 j = Matrix3::Zero();  // columns dx/dxi
@@ -116,10 +125,10 @@ Matrix3 mean_gradient(const std::array<Corner, corner_count>& corners) {
 }
 
 /// Velocities (3.2) to (3.6).
-Conversion convert(const fem::Mesh& mesh, std::size_t element, double affine_inertia) {
+Conversion convert(const fem::Mesh& mesh, std::size_t element, double affine_inertia, const AtParticles& at) {
   const std::array<Corner, corner_count> corners = corners_of(mesh, element);
   Conversion out;
-  place_fragments(mesh, element, corners, out.fragment);
+  place_fragments(mesh, element, corners, at, out.fragment);
   double mass = 0.0;
   Vector3 momentum = Vector3::Zero(), moment = Vector3::Zero();
   for (const Corner& c : corners) {
@@ -138,7 +147,7 @@ Conversion convert(const fem::Mesh& mesh, std::size_t element, double affine_ine
     Fragment& f = out.fragment[k];
     f.velocity.setZero();
     for (std::size_t a = 0; a < corner_count; ++a) {
-      f.velocity += at_particles()[k].value[a] * (corners[a].velocity - mean);
+      f.velocity += at[k].value[a] * (corners[a].velocity - mean);
     }
     drift += f.mass * f.velocity;
     offset += f.mass * (f.position - center);
@@ -231,8 +240,35 @@ std::vector<std::uint8_t> distorted_elements(const fem::Mesh& mesh, const Thresh
   return distorted;
 }
 
+std::vector<RangeFault> range_faults(const fem::Mesh& mesh, const ElementRange& range,
+                                     const fem::ViscosityCoefficients& viscosity, double grid_time_step) {
+  const std::size_t rows = fem::points_per_element(mesh.quadrature);
+  const bool asks_time_step = range.time_step_ratio > 0.0 && std::isfinite(grid_time_step);
+  const auto fault_of = [&](std::size_t e) {
+    if (fem::scaled_jacobian(mesh, e) < range.jacobian) return RangeFault::jacobian;
+    if (asks_time_step &&
+        fem::critical_time_step(mesh, e, viscosity) < range.time_step_ratio * grid_time_step) {
+      return RangeFault::time_step;
+    }
+    if (std::isfinite(range.hourglass_share)) {
+      double internal = 0.0;
+      for (std::size_t row = e * rows; row < (e + 1) * rows; ++row) {
+        internal += mesh.points.mass[row] * mesh.points.specific_internal_energy[row];
+      }
+      if (mesh.elements.hourglass_energy[e] > range.hourglass_share * std::abs(internal)) {
+        return RangeFault::hourglass;
+      }
+    }
+    const auto is_too_fast = [&](std::uint32_t a) { return mesh.nodes.velocity[a].norm() > range.speed; };
+    return std::ranges::any_of(mesh.elements.corners[e], is_too_fast) ? RangeFault::speed : RangeFault::none;
+  };
+  std::vector<RangeFault> faults(mesh.elements.size());
+  parallel::for_each(faults.size(), [&](std::size_t e) { faults[e] = fault_of(e); });
+  return faults;
+}
+
 ConversionBalance convert_elements(fem::Mesh& mesh, std::span<const std::uint8_t> chosen,
-                                   double affine_inertia, Particles& particles) {
+                                   double affine_inertia, Particles& particles, Arrangement arrangement) {
   ConversionBalance balance;
   std::vector<std::size_t> list;
   for (std::size_t e = 0; e < chosen.size(); ++e) {
@@ -250,7 +286,7 @@ ConversionBalance convert_elements(fem::Mesh& mesh, std::span<const std::uint8_t
   particles.extent.resize(particles.size());
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::size_t e = list[i];
-    const Conversion conversion = convert(mesh, e, affine_inertia);
+    const Conversion conversion = convert(mesh, e, affine_inertia, at_particles(arrangement));
     write_particles(mesh, e, conversion, before + corner_count * i, particles);
     balance.mass += fem::mass(mesh, e);
     balance.kinetic_heat += conversion.heat;

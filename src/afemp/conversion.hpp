@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
 
+#include "src/core/base/words.hpp"
 #include "src/fem/mesh.hpp"
 #include "src/fem/step.hpp"
+#include "src/particles/arrangement.hpp"
 #include "src/particles/particles.hpp"
 
 /// Adaptive finite element material point method: elements that deform too much become particles
@@ -29,6 +32,30 @@ std::vector<std::uint8_t> distorted_elements(const fem::Mesh& mesh, const Thresh
                                              const fem::ViscosityCoefficients& viscosity,
                                              double grid_time_step);
 
+/// Range in which an element is a valid approximation; 0 or infinite: any.
+struct ElementRange {
+  double jacobian = 0.0;  ///< least scaled Jacobian (docs/theory/fem.md)
+  double time_step_ratio = 0.0;
+  double hourglass_share = std::numeric_limits<double>::infinity();  ///< of its internal energy
+  double speed = std::numeric_limits<double>::infinity();            ///< m/s, of its nodes
+};
+
+/// How an element has left its range.
+enum class RangeFault : std::uint8_t { none, jacobian, time_step, hourglass, speed };
+constexpr std::array<Word<RangeFault>, 5> words(RangeFault) {
+  return {{{RangeFault::none, "is in its valid range"},
+           {RangeFault::jacobian, "is distorted: the Jacobian at a corner is below its fraction of the mean"},
+           {RangeFault::time_step,
+            "has become so thin that its stable time step is below its fraction of the grid's"},
+           {RangeFault::hourglass, "has more hourglass energy than its fraction of the internal energy"},
+           {RangeFault::speed, "has a node faster than its largest valid speed"}}};
+}
+
+/// Returns for every element how it has left its range.
+/// @param grid_time_step s, stable on the grid; infinite if there is nothing on it
+std::vector<RangeFault> range_faults(const fem::Mesh& mesh, const ElementRange& range,
+                                     const fem::ViscosityCoefficients& viscosity, double grid_time_step);
+
 /// Balance of the conversions.
 struct ConversionBalance {
   std::size_t elements = 0;
@@ -38,12 +65,13 @@ struct ConversionBalance {
 };
 
 /// Takes the chosen elements out of the mesh and appends eight particles for each: at the natural coordinates
-/// (+-0.5)^3, with the state of the element (of the Gauss point in their octant), ids 8 times that of the
+/// (+-0.5)^3, or in layers beside them, with the state of the element (of the Gauss point in their octant), ids 8 times that of the
 /// element and following, and velocities by (3.2) to (3.6). Mass, momentum and energy stay to round-off;
 /// angular momentum too unless the affine field is capped; the heat is not negative. Nodes that lost an
 /// element lie on the surface from now on; nodes without elements vanish.
 /// @param affine_inertia of the particles' affine field per mass, m^2 (`transfer::affine_inertia`); 0: none
 ConversionBalance convert_elements(fem::Mesh& mesh, std::span<const std::uint8_t> chosen,
-                                   double affine_inertia, Particles& particles);
+                                   double affine_inertia, Particles& particles,
+                                   Arrangement arrangement = Arrangement::regular);
 
 }  // namespace whipple::afemp

@@ -182,11 +182,12 @@ Quantities measure(const Run& run, Start& start, const Options& options, const O
 /// Front and radius are unknown from the time on at which the outermost debris comes within a cell of the
 /// border of the domain: what leaves cannot be followed.
 void end_at_the_border(const Run& run, const Frame& frame, Table& series) {
-  const auto cut = [&](const char* outermost, std::initializer_list<const char*> names, double limit) {
+  const auto cut = [&](const char* outermost, std::initializer_list<const char*> names,
+                       const std::function<double(double)>& limit) {
     bool reached = false;
-    const std::vector<double> position = series[outermost];
+    const std::vector<double> position = series[outermost], time = series["time"];
     for (std::size_t k = 0; k < position.size(); ++k) {
-      reached = reached || position[k] >= limit;
+      reached = reached || position[k] >= limit(time[k]);
       for (Column& column : series.columns) {
         const bool named = std::ranges::any_of(names, [&](const char* name) { return column.name == name; });
         if (reached && named) column.values[k] = nan;
@@ -194,16 +195,19 @@ void end_at_the_border(const Run& run, const Frame& frame, Table& series) {
     }
   };
   const int z = frame.axis;
-  const double border = frame.sign > 0.0 ? run.upper[z] : -run.lower[z];
-  cut("foremost", {"front", "foremost", "cloud_length", "cloud_length_over_width"}, border - run.cell_size);
-  double side = std::numeric_limits<double>::infinity();
-  for (const int a : frame.transverse) {
-    if (frame.is_planar() && a == 2) continue;
-    side = std::min(side, run.upper[a] - frame.centre[a] - run.cell_size);
-    if (!frame.mirrored(a) && frame.dimension != grid::Dimension::axisymmetric)
-      side = std::min(side, frame.centre[a] - run.lower[a] - run.cell_size);
-  }
-  cut("outermost", {"radius", "outermost", "cloud_length_over_width"}, side);
+  cut("foremost", {"front", "foremost", "cloud_length", "cloud_length_over_width"}, [&](double time) {
+    return (frame.sign > 0.0 ? run.upper_at(time)[z] : -run.lower_at(time)[z]) - run.cell_size;
+  });
+  cut("outermost", {"radius", "outermost", "cloud_length_over_width"}, [&](double time) {
+    double side = std::numeric_limits<double>::infinity();
+    for (const int a : frame.transverse) {
+      if (frame.is_planar() && a == 2) continue;
+      side = std::min(side, run.upper_at(time)[a] - frame.centre[a] - run.cell_size);
+      if (!frame.mirrored(a) && frame.dimension != grid::Dimension::axisymmetric)
+        side = std::min(side, frame.centre[a] - run.lower_at(time)[a] - run.cell_size);
+    }
+    return side;
+  });
 }
 
 /// Evenly spread indices, the first and the last among them.
@@ -301,7 +305,8 @@ Quantities final_values(const Table& series, const Quantities& last, const Run& 
   const Frame& frame = start.frame;
   const double speed = frame.impact_speed > 0.0 ? frame.impact_speed : nan;
   append(row,
-         {measured("impact_speed", speed), measured("impact_angle", speed > 0.0 ? frame.impact_angle : nan),
+         {measured("target_velocity", frame.axial(run.frame_velocity) + 0.0), measured("impact_speed", speed),
+          measured("impact_angle", speed > 0.0 ? frame.impact_angle : nan),
           measured("front_speed_over_impact_speed", of("front_speed")->value / speed),
           measured("radial_speed_over_impact_speed", of("radial_speed")->value / speed)});
   const BodyInput& projectile = run.bodies[frame.projectile];

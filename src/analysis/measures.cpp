@@ -59,6 +59,7 @@ constexpr auto table = std::to_array<Measure>({
     {"front_speed_over_impact_speed", "1", "front speed over impact speed", no_debris},
     {"radial_speed_over_impact_speed", "1", "radial speed over impact speed", no_debris},
     // The impact.
+    {"target_velocity", "m/s", "axial velocity of the target at the start, whose frame all other measures refer to; 0 against a wall", ""},
     {"impact_speed", "m/s", "relative speed of the fastest and the slowest body at the start", "nothing moves at the start"},
     {"impact_angle", "rad", "angle of their relative velocity with the axis; 0: normal impact", "nothing moves at the start"},
     {"projectile_size", "m", "smallest extent of the projectile by its shape in the case", "nothing moves at the start, or the shape states no extent"},

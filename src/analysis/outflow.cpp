@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
 #include <map>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "src/core/base/csv.hpp"
+#include "src/core/base/files.hpp"
 
 namespace whipple::analysis {
 namespace {
@@ -24,7 +25,8 @@ double number(const std::vector<std::string>& cells, std::size_t column) {
 }  // namespace
 
 OutflowHistory::OutflowHistory(const Run& run) {
-  std::ifstream file(run.folder / "history.csv");
+  const std::filesystem::path path = run.folder / "history.csv";
+  std::istringstream file(std::filesystem::exists(path) ? read_text(path) : std::string());
   std::string line;
   if (!std::getline(file, line)) return;
   std::map<std::string, std::size_t, std::less<>> columns;
@@ -50,6 +52,7 @@ OutflowHistory::OutflowHistory(const Run& run) {
     double all = 0.0;
     for (const auto& [m, x, y, z] : of_body) {
       row.bodies.push_back({number(cells, m), {number(cells, x), number(cells, y), number(cells, z)}});
+      row.bodies.back().momentum -= row.bodies.back().mass * run.frame_velocity;
       all += row.bodies.back().mass;
     }
     if (all > lost) rows_.push_back(std::move(row));

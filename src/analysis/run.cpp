@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <tuple>
 #include <unordered_map>
 
 #include "src/analysis/table.hpp"
@@ -60,17 +60,62 @@ void read_material_traits(const fs::path& file, BodyInput& body) {
   }
 }
 
-void take_bodies(const std::vector<cases::Body>& bodies, Run& run) {
+/// Returns the mean section (m^2) of a body across a direction: its volume over its length along it; in two dimensions that
+/// of the rectangle around it (m).
+double section_of(const cases::Shape& shape, const Vector3& direction, bool planar) {
+  const cases::Shape::Bounds bounds = shape.bounds();
+  Vector3 edge = bounds.upper - bounds.lower;
+  if (planar) edge[2] = 0.0;
+  const double length = edge.dot(direction.cwiseAbs());
+  return (planar ? edge[0] * edge[1] : shape.volume()) / length;
+}
+
+/// Returns the velocity (m/s) of the target: of the bodies that move alike and have the largest section across the flight;
+/// among equal ones the slowest, the longest along it, the last. Zero where walls, or bodies without a shape of their
+/// own, leave no choice.
+Vector3 velocity_of_target(const std::vector<cases::Body>& bodies, const Run& run) {
+  const auto has_shape = [](const cases::Body& body) { return body.shape != nullptr; };
+  if (bodies.size() < 2 || !std::ranges::all_of(bodies, has_shape)) return Vector3::Zero();
+  Vector3 flight = Vector3::Zero();
+  for (const cases::Body& a : bodies) {
+    for (const cases::Body& b : bodies) {
+      if ((a.velocity - b.velocity).norm() > flight.norm()) flight = a.velocity - b.velocity;
+    }
+  }
+  if (flight.isZero(0.0)) return Vector3::Zero();
+  const Vector3 direction = flight.normalized();
+  const bool planar = run.dimension != grid::Dimension::space;
+  const auto rank = [&](const cases::Body& body) {
+    // A millionth is the round-off of what a case says twice.
+    const auto rounded = [](double x) { return x > 0.0 ? std::round(1e6 * std::log(x)) : -1e300; };
+    const cases::Shape::Bounds bounds = body.shape->bounds();
+    return std::tuple(rounded(section_of(*body.shape, direction, planar)), -rounded(body.velocity.norm()),
+                      rounded((bounds.upper - bounds.lower).dot(direction.cwiseAbs())));
+  };
+  const cases::Body* target = &bodies.front();
   for (const cases::Body& body : bodies) {
+    if (rank(body) >= rank(*target)) target = &body;
+  }
+  for (std::size_t a = 0; a < 3; ++a) {
+    const bool held = run.walls[a][0] || run.walls[a][1];
+    if (held && target->velocity[static_cast<Eigen::Index>(a)] != 0.0) return Vector3::Zero();
+  }
+  return target->velocity;
+}
+
+void take_bodies(const std::vector<cases::Body>& bodies, Run& run) {
+  run.frame_velocity = velocity_of_target(bodies, run);
+  for (const cases::Body& body : bodies) {
+    const Vector3 velocity = body.velocity - run.frame_velocity;
     // An element counts as the eight particles that it may become.
     const cases::Discretization& made = body.discretization;
     const double spacing = made.has_particles()
                                ? run.cell_size / std::cbrt(static_cast<double>(made.per_cell))
                                : 0.5 * made.size(run.cell_size);
     run.bodies.push_back({.name = body.name,
-                          .velocity = body.velocity,
+                          .velocity = velocity,
                           .spacing = spacing,
-                          .size = body.shape != nullptr ? body.shape->smallest_extent(body.velocity) : nan});
+                          .size = body.shape != nullptr ? body.shape->smallest_extent(velocity) : nan});
     read_material_traits(run.folder / body.material, run.bodies.back());
   }
 }
@@ -87,8 +132,7 @@ std::vector<SnapshotEntry> read_index(const fs::path& folder) {
   }
   std::vector<SnapshotEntry> entries;
   try {
-    std::ifstream stream(regular_file(found.front()));
-    const nlohmann::json index = nlohmann::json::parse(stream);
+    const nlohmann::json index = nlohmann::json::parse(read_text(found.front()));
     for (const nlohmann::json& file : index.at("files")) {
       entries.push_back({folder / file.at("name").get<std::string>(), file.at("time").get<double>()});
     }
@@ -139,6 +183,12 @@ void require_sound(const Snapshot& snapshot, const SnapshotEntry& entry) {
       throw InputError(fmt::format("{}: error: particle {} has no finite position and velocity, or no mass",
                                    entry.file.string(), snapshot.id[i]));
     }
+    const Vector3& x = snapshot.position[i];
+    if ((x.array() < entry.lower.array()).any() || (x.array() > entry.upper.array()).any()) {
+      throw InputError(
+          fmt::format("{}: error: particle {} lies at ({:.6g}, {:.6g}, {:.6g}) m, far outside of the domain",
+                      entry.file.string(), snapshot.id[i], x[0], x[1], x[2]));
+    }
   }
 }
 
@@ -157,7 +207,15 @@ Run read_run(const fs::path& folder) {
   take_bodies(setup.bodies, run);
   if (run.bodies.empty()) throw InputError(fmt::format("{}: error: run.toml has no bodies", folder.string()));
   run.snapshots = read_index(folder);
-  for (SnapshotEntry& entry : run.snapshots) entry.bodies = run.bodies.size();
+  for (SnapshotEntry& entry : run.snapshots) {
+    entry.bodies = run.bodies.size();
+    entry.frame_velocity = run.frame_velocity;
+    const Vector3 edge = run.upper - run.lower;
+    for (int a = 0; a < (run.dimension == grid::Dimension::space ? 3 : 2); ++a) {
+      entry.lower[a] = run.lower[a] - edge[a];
+      entry.upper[a] = run.upper[a] + edge[a];
+    }
+  }
   return run;
 }
 
@@ -329,6 +387,13 @@ Snapshot read_snapshot(const SnapshotEntry& entry) {
     sort_by_number(snapshot);
   }
   require_sound(snapshot, entry);
+  if (!entry.frame_velocity.isZero(0.0)) {
+    const Vector3 way = snapshot.time * entry.frame_velocity;
+    for (Vector3& v : snapshot.velocity) v -= entry.frame_velocity;
+    for (std::vector<Vector3>* const points : {&snapshot.position, &snapshot.nodes}) {
+      for (Vector3& x : *points) x -= way;
+    }
+  }
   return snapshot;
 }
 

@@ -28,8 +28,11 @@ struct BodyInput {
 
 struct SnapshotEntry {
   std::filesystem::path file;
-  double time = 0.0;           ///< s
-  std::size_t bodies = 65536;  ///< of the run: particles of others are refused
+  double time = 0.0;                         ///< s
+  std::size_t bodies = 65536;                ///< of the run: particles of others are refused
+  Vector3 frame_velocity = Vector3::Zero();  ///< m/s, taken off all velocities, and its way off all positions
+  /// The domain and as much again around it, m: points beyond are those of a damaged file.
+  Vector3 lower = Vector3::Constant(-1e300), upper = Vector3::Constant(1e300);
 };
 
 /// The folder of a run.
@@ -48,8 +51,15 @@ struct Run {
     bool holds = true;  ///< a mirror plane, which material does not leave either
   };
   std::array<std::array<std::optional<Wall>, 2>, 3> walls;  ///< lower and upper, of each axis
+  /// Velocity of the target at the start, m/s. Bodies and snapshots are relative to it, so that no measure depends on the
+  /// frame in which the case was written; 0 where walls or mirror planes across it hold the frame.
+  Vector3 frame_velocity = Vector3::Zero();
   std::vector<BodyInput> bodies;
   std::vector<SnapshotEntry> snapshots;
+
+  /// Returns a corner of the domain at a time (s), in the frame of the target.
+  [[nodiscard]] Vector3 lower_at(double time) const { return lower - time * frame_velocity; }
+  [[nodiscard]] Vector3 upper_at(double time) const { return upper - time * frame_velocity; }
 };
 
 /// Reads run.toml and the index of the snapshots.
@@ -86,7 +96,7 @@ struct Snapshot {
 std::filesystem::path elements_file(const SnapshotEntry& entry);
 
 /// @throws InputError if the file is not that of a snapshot of this run: arrays of other lengths, bodies that
-/// the case does not have, numbers that are not finite, masses that are not positive
+/// the case does not have, numbers that are not finite, points far outside of the domain, masses that are not positive
 Snapshot read_snapshot(const SnapshotEntry& entry);
 
 }  // namespace whipple::analysis

@@ -229,7 +229,7 @@ Wall::Remains Wall::remains(const Snapshot& snapshot) const {
 
 /// Returns whether the wall has come to an end of the domain along the axis, beyond which it cannot be followed.
 bool Wall::at_border(const Snapshot& snapshot, const Remains& remains) const {
-  double lower = run_.lower[frame_.axis], upper = run_.upper[frame_.axis];
+  double lower = run_.lower_at(snapshot.time)[frame_.axis], upper = run_.upper_at(snapshot.time)[frame_.axis];
   if (frame_.sign < 0.0) std::tie(lower, upper) = std::pair(-upper, -lower);
   lower += run_.cell_size;
   upper -= run_.cell_size;

@@ -69,7 +69,7 @@ Measurement measure_in_own_processes(const BenchOptions& options, const std::str
   if (options.whole) program.emplace_back("--whole");
   const int code = process::mpirun(ranks, program);
   if (code != 0) throw CLI::RuntimeError(code);
-  const Measurement measurement = bench::from_json(nlohmann::json::parse(io::read_text(file)));
+  const Measurement measurement = bench::from_json(nlohmann::json::parse(read_text(file)));
   fs::remove(file);
   return measurement;
 }
@@ -126,7 +126,7 @@ void print_scaling(const std::vector<Measurement>& all) {
 
 std::vector<Measurement> read_measurements(const fs::path& file) {
   try {
-    const nlohmann::json json = nlohmann::json::parse(io::read_text(file));
+    const nlohmann::json json = nlohmann::json::parse(read_text(file));
     std::vector<Measurement> all;
     for (const nlohmann::json& m : json.at("measurements")) all.push_back(bench::from_json(m));
     return all;

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -25,14 +24,6 @@ struct EditOptions {
   bool dry_run = false;
 };
 
-std::string content_of(const std::string& file) {
-  std::ifstream stream(regular_file(file));
-  if (!stream) throw InputError(fmt::format("{}: error: cannot open the file", file));
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
 void edit(const EditOptions& options) {
   std::vector<std::pair<std::string, std::string>> changes;
   for (const std::string& entry : options.assignments) {
@@ -42,7 +33,7 @@ void edit(const EditOptions& options) {
     }
     changes.emplace_back(entry.substr(0, equals), entry.substr(equals + 1));
   }
-  const std::string before = content_of(options.file);
+  const std::string before = read_text(options.file);
   static_cast<void>(cases::read_case(options.file, changes));
   std::string text = before, report;
   for (const auto& [key, value] : changes) {
@@ -52,7 +43,7 @@ void edit(const EditOptions& options) {
     text = std::move(done.text);
   }
   if (!options.dry_run) {
-    if (content_of(options.file) != before) {
+    if (read_text(options.file) != before) {
       throw InputError(
           fmt::format("{}: error: was changed by another program meanwhile: nothing written", options.file));
     }

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <map>
+#include <sstream>
 #include <string_view>
 
 #include "src/core/base/csv.hpp"
@@ -106,7 +106,7 @@ StatedColumn column_of(const std::string& head) {
 
 std::vector<eos::curves::StateQuery> state_queries(const EosOptions& o) {
   if (o.states.empty()) return {state_query(o)};
-  std::ifstream file(regular_file(o.states));
+  std::istringstream file(read_text(o.states));
   std::vector<StatedColumn> columns;
   std::vector<eos::curves::StateQuery> queries;
   int number = 0;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -15,6 +14,7 @@
 #include "src/app/eos_audit.hpp"
 #include "src/app/materials_table.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
 #include "src/core/base/log.hpp"
 #include "src/material/material_file.hpp"
 
@@ -44,13 +44,6 @@ void print_materials() {
   for (const std::filesystem::path& folder : library_folders()) log::info("  {}", folder.string());
 }
 
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
 std::string lower(std::string text) {
   std::ranges::transform(text, text.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -61,7 +54,7 @@ std::string lower(std::string text) {
 void search_materials(const std::vector<std::string>& words) {
   std::vector<LibraryMaterial> found = library_materials();
   std::erase_if(found, [&](const LibraryMaterial& material) {
-    const std::string text = lower(material.file.stem().string() + "\n" + text_of(material.file));
+    const std::string text = lower(material.file.stem().string() + "\n" + read_text(material.file));
     return !std::ranges::all_of(words,
                                 [&](const std::string& word) { return text.find(lower(word)) != text.npos; });
   });
@@ -76,7 +69,7 @@ void search_materials(const std::vector<std::string>& words) {
 /// The file itself, which holds constants and sources, and where its equation of state is valid.
 void show_material(const std::string& name) {
   const Material material = read_material(name);
-  fmt::print("# {}\n{}\n", material.file.string(), text_of(material.file));
+  fmt::print("# {}\n{}\n", material.file.string(), read_text(material.file));
   print_audit(material, eos::AuditDepth::brief);
 }
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <memory>
 #include <string>
@@ -14,6 +13,7 @@
 
 #include "md_fitting/plan/plan.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/process/mpirun.hpp"
 #include "src/core/process/paths.hpp"
@@ -60,11 +60,6 @@ int compute(const MdOptions& options, const std::string& plan, int ranks) {
   }
 }
 
-std::string content_of(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 /// Rounds of proposal (whipple-fit) and computation (whipple-md) until the proposer has no more points.
 int run_adaptive(MdOptions options, int ranks) {
   const std::filesystem::path plan = options.plan;
@@ -81,7 +76,7 @@ int run_adaptive(MdOptions options, int ranks) {
         process::run_process({process::find_executable("whipple-fit").string(), options.store, "--propose",
                               options.plan, "--proposal", round.string(), "--points", at_once});
     if (code != 0 || !std::filesystem::exists(round)) return code;
-    const std::string text = content_of(round);
+    const std::string text = read_text(round);
     if (text == former) {
       log::warning("the points proposed last could not be computed");
       std::filesystem::remove(round);

@@ -42,6 +42,8 @@ std::span<const Section<Body>> Body::sections() {
       section<&Body::discretization>("discretization"),
       section<&Body::conversion>("conversion", ", of adaptive bodies",
                                  [](const Body& body) { return body.discretization.converts(); }),
+      section<&Body::element_range>("element_range", ", of bodies with elements",
+                                    [](const Body& body) { return body.discretization.has_elements(); }),
       section<&Body::node_conditions>("node_condition", ", of bodies with elements"),
       section<&Body::bars>("bar", ", of bodies of bars"),
       section<&Body::initial>("initial", ", at most two of",

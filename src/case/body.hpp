@@ -41,6 +41,7 @@ struct Body {
   double detonation_velocity = std::numeric_limits<double>::infinity();  ///< m/s; infinite: not given
   Discretization discretization;
   Conversion conversion;
+  ElementRange element_range;
   std::vector<NodeCondition> node_conditions;
   std::vector<BarRow> bars;
   InitialState initial;

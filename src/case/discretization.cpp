@@ -20,6 +20,11 @@ ParameterTable<Discretization> Discretization::parameters() {
           .optional(),
       integer("per_cell", &D::per_cell, range::between(1, 1000), "particles per full cell: 1, 8, 27 or 64")
           .optional(),
+      choice("lattice", &D::lattice,
+             "places of the particles in a cell at the start: at the middles of equal parts of it | eight "
+             "(in the "
+             "plane four) in as many layers along every axis, for solids that cross many cells")
+          .optional(),
       boolean("partial_volumes", &D::partial_volumes,
               "particles at curved or oblique surfaces have the part of their volume that is inside the body")
           .optional("true"),
@@ -70,6 +75,27 @@ ParameterTable<Conversion> Conversion::parameters() {
            "ratio of its smallest to its mean Jacobian below which an element becomes particles; 0: never")
           .optional(),
       boolean("failed", &C::failed, "an element becomes particles when its material has failed").optional()};
+}
+
+ParameterTable<ElementRange> ElementRange::parameters() {
+  using R = ElementRange;
+  return {
+      choice(
+          "beyond", &R::beyond,
+          "an element that leaves its valid range becomes particles | is deleted, counted as outflow | stops "
+          "the run")
+          .optional(),
+      real("jacobian", &R::jacobian, "", range::between(0.0, 1.0),
+           "smallest valid ratio of the Jacobian at a corner to the mean one")
+          .optional(),
+      real("time_step_ratio", &R::time_step_ratio, "", range::between(0.0, 1.0),
+           "smallest valid ratio of its stable time step to that of the grid; 0: any")
+          .optional(),
+      real("hourglass_share", &R::hourglass_share, "", range::positive(),
+           "largest valid ratio of its hourglass energy to its internal energy (an element in bending stores "
+           "hourglass energy only)")
+          .optional("any"),
+      real("speed", &R::speed, "m/s", range::positive(), "largest valid speed of its nodes").optional("any")};
 }
 
 ParameterTable<BarRow> BarRow::parameters() {
@@ -129,6 +155,20 @@ void check_elements(const Discretization& control, const Case& setup, const Faul
   }
 }
 
+/// The mass of a ring belongs to its radius, which balances a uniform pressure: it has no place beside it.
+void check_layers(const Discretization& control, const Case& setup, const Faults& faults) {
+  if (setup.geometry.is_axisymmetric()) {
+    faults.add("lattice",
+               "lattice = \"layered\" works in three dimensions and in the plane, not for the rings of "
+               "an axisymmetric domain");
+  }
+  if (!control.has_particles() && !control.converts()) {
+    faults.add("lattice", fmt::format("'lattice' belongs to bodies of particles and of elements that become "
+                                      "particles; method = \"{}\" has none",
+                                      word_of(control.method)));
+  }
+}
+
 }  // namespace
 
 void Discretization::check(const Case& setup, const Faults& faults) const {
@@ -136,6 +176,7 @@ void Discretization::check(const Case& setup, const Faults& faults) const {
   if (std::abs(edge - std::round(edge)) > 1e-9) {
     faults.add("per_cell", fmt::format("'per_cell' is {}, expected a cube: 1, 8, 27, 64", per_cell));
   }
+  if (lattice == Arrangement::layered) check_layers(*this, setup, faults);
   if (has_elements() || is_bars()) {
     check_elements(*this, setup, faults);
   } else if (!mesh.empty()) {

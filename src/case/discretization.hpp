@@ -11,6 +11,7 @@
 #include "src/core/base/tensor.hpp"
 #include "src/fem/mesh.hpp"
 #include "src/fem/step.hpp"
+#include "src/particles/arrangement.hpp"
 
 namespace whipple::cases {
 
@@ -33,6 +34,7 @@ struct Discretization {
   Representation method = Representation::particles;
   // of particles
   std::int64_t per_cell = 8;
+  Arrangement lattice = Arrangement::regular;
   bool partial_volumes = false;
   bool partial_volumes_given = false;  ///< in the case file; else `choose_volumes` decides
   // of elements
@@ -69,6 +71,27 @@ struct Conversion {
   double jacobian = 0.2;
   bool failed = true;
   static ParameterTable<Conversion> parameters();
+};
+
+/// What becomes of an element that leaves its valid range.
+enum class BeyondRange : std::uint8_t {
+  particles,  ///< it becomes particles: nothing is lost
+  remove,     ///< it is deleted with its mass, momentum and energy, which count as outflow
+  stop,       ///< the run ends with its number
+};
+constexpr std::array<Word<BeyondRange>, 3> words(BeyondRange) {
+  return {
+      {{BeyondRange::particles, "particles"}, {BeyondRange::remove, "remove"}, {BeyondRange::stop, "stop"}}};
+}
+
+/// `element_range` of a body with elements: where an element is an approximation no longer.
+struct ElementRange {
+  BeyondRange beyond = BeyondRange::particles;
+  double jacobian = 0.05;
+  double time_step_ratio = 0.02;
+  double hourglass_share = std::numeric_limits<double>::infinity();
+  double speed = std::numeric_limits<double>::infinity();  ///< m/s
+  static ParameterTable<ElementRange> parameters();
 };
 
 /// One `node_condition` of a body: nodes whose velocity is prescribed along some axes.

@@ -19,6 +19,10 @@ ParameterTable<Dissipation> Dissipation::parameters() {
       real("heat_share", &Dissipation::heat_share, "", range::non_negative(),
            "losses of a particle are converted to heat up to this fraction of its artificial viscous work")
           .optional(),
+      real("allowance_time", &Dissipation::allowance_time, "", range::non_negative(),
+           "time over which the viscous work still counts for heat_share, in transits of sound through a "
+           "cell; 0: only the step itself")
+          .optional(),
       real("collision_rate", &Dissipation::collision_rate, "", range::non_negative(),
            "fraction of the unresolved energy of fragmented material converted to heat, per fraction of "
            "volume "

@@ -28,6 +28,7 @@ constexpr Losses default_losses(Scheme scheme) {
 struct Dissipation {
   Losses losses = Losses::by_scheme;
   double heat_share = 0.1;           ///< f of eq. 3
+  double allowance_time = 5.0;       ///< tau of eq. 3, in transits of sound through a cell
   double collision_rate = 1.0;       ///< r of eq. 4
   double affine_gain = 1.5;          ///< a of eq. 6
   double affine_compression = 0.25;  ///< g of eq. 6

@@ -13,6 +13,12 @@ ParameterTable<TransferControl> TransferControl::parameters() {
       choice("shape_function", &TransferControl::shape_function,
              "shape functions of the transfers between particles and nodes")
           .optional(),
+      real("slope_smoothing", &TransferControl::slope_smoothing, "", range::between(0.0, 2.0),
+           "a1 of the slopes of quadratic B-splines in forces and strain rates: 0 gives the derivatives of "
+           "the "
+           "functions, larger values less heat in material that crosses cells and more pressure noise "
+           "elsewhere")
+          .optional(),
       choice("particle_update", &TransferControl::particle_update,
              "velocity transfer to the particles; default of schemes other than symplectic: flip")
           .optional("\"relaxed_affine\""),

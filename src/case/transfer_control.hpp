@@ -48,6 +48,7 @@ constexpr std::array<Word<AffineTransport>, 2> words(AffineTransport) {
 
 struct TransferControl {
   transfer::ShapeFunction shape_function = transfer::ShapeFunction::quadratic_bspline;
+  double slope_smoothing = 1.5;  ///< a1 of docs/theory/mpm.md, 2.9
   ParticleUpdate particle_update = ParticleUpdate::by_scheme;
   double kappa = 0.2;
   AffineTransport affine_field = AffineTransport::deformed;

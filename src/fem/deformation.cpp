@@ -11,6 +11,8 @@ namespace whipple::fem {
 DeformationReport& DeformationReport::operator+=(const DeformationReport& other) {
   work += other.work;
   hourglass_work += other.hourglass_work;
+  hourglass_overdrawn += other.hourglass_overdrawn;
+  limited_hourglass += other.limited_hourglass;
   inverted += other.inverted;
   first_inverted = std::min(first_inverted, other.first_inverted);
   return *this;

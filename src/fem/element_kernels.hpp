@@ -22,6 +22,8 @@
 namespace whipple::fem {
 
 inline constexpr double root8 = 2.8284271247461900976;  ///< norm of a mode's corner values
+inline constexpr double negligible_cut = 0.02;  ///< of the energy of hourglass forces: not counted as a limit
+inline constexpr double negligible_energy = 1e-12;  ///< of m c^2, the same
 
 /// Quantities that are the same for all groups of elements.
 struct DeformationStep {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <sstream>
@@ -24,7 +23,7 @@ namespace {
 class GmshReader {
  public:
   GmshReader(MeshData& file, const std::filesystem::path& path, double length_unit)
-      : file_(file), path_(path), unit_(length_unit), stream_(regular_file(path)) {
+      : file_(file), path_(path), unit_(length_unit), stream_(read_text(path)) {
     if (!stream_) throw InputError(fmt::format("{}: cannot be read", path.string()));
   }
 
@@ -257,7 +256,7 @@ class GmshReader {
   MeshData& file_;
   std::filesystem::path path_;
   double unit_, version_ = 0.0;
-  std::ifstream stream_;
+  std::istringstream stream_;
   std::string buffer_;
   std::string_view text_, rest_;
   std::size_t line_ = 0;

@@ -70,8 +70,9 @@ struct Elements {
   /// because kernels take several elements at a time; zero with Quadrature::b_bar.
   std::vector<double> hourglass_1x, hourglass_1y, hourglass_1z, hourglass_2x, hourglass_2y, hourglass_2z,
       hourglass_3x, hourglass_3y, hourglass_3z, hourglass_4x, hourglass_4y, hourglass_4z;
-  std::vector<double> hourglass_energy;         ///< J, work against the stiffness of the hourglass modes
-  std::vector<double> returned_plastic_strain;  ///< up to which hourglass forces have returned (eq. 3.7)
+  std::vector<double> hourglass_energy;         ///< J, stored by the hourglass stiffness, never negative
+  std::vector<double> hourglass_lead;           ///< J, by which it leads the work done (eq. 3.7)
+  std::vector<double> returned_plastic_strain;  ///< up to which hourglass forces have returned (eq. 3.9)
 
   [[nodiscard]] std::size_t size() const { return id.size(); }
 
@@ -93,6 +94,7 @@ struct Elements {
         Field{"hourglass_3z", "N", &E::hourglass_3z}, Field{"hourglass_4x", "N", &E::hourglass_4x},
         Field{"hourglass_4y", "N", &E::hourglass_4y}, Field{"hourglass_4z", "N", &E::hourglass_4z},
         Field{"hourglass_energy", "J", &E::hourglass_energy},
+        Field{"hourglass_lead", "J", &E::hourglass_lead},
         Field{"returned_plastic_strain", "1", &E::returned_plastic_strain});
   }
 };

@@ -18,7 +18,7 @@
 /// constant to round-off whatever the stresses are. No function allocates per element or throws.
 namespace whipple::fem {
 
-/// Resistance of the four modes of a one-point element that its mean gradient does not see (eq. 3.3, 3.4).
+/// Resistance of the four modes of a one-point element that its mean gradient does not see (eq. 3.3 to 3.9).
 struct HourglassControl {
   enum class Kind : std::uint8_t {
     viscous,    ///< resists the rate; what it takes becomes heat at once
@@ -92,10 +92,11 @@ struct VelocityGradients {
 /// Effects of the deformation of a step on the elements.
 struct DeformationReport {
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-  double work = 0.0;  ///< J, of the stresses, into internal energy
-  double hourglass_work =
-      0.0;  ///< J, into hourglass energy (stiffness: heat where material yields) or heat (viscous)
-  std::size_t inverted = 0;  ///< elements without positive volume (or Jacobian at a Gauss point)
+  double work = 0.0;                 ///< J, of the stresses, into internal energy
+  double hourglass_work = 0.0;       ///< J, against the hourglass forces, into hourglass energy and heat
+  double hourglass_overdrawn = 0.0;  ///< J, of it that the forces gave back beyond what was stored, from heat
+  double limited_hourglass = 0.0;    ///< elements whose forces were cut to what the stored energy allows
+  std::size_t inverted = 0;          ///< elements without positive volume (or Jacobian at a Gauss point)
   std::size_t first_inverted = none;
   DeformationReport& operator+=(const DeformationReport& other);
 };
@@ -105,7 +106,7 @@ struct DeformationReport {
 using BlockUpdate = std::function<void(std::size_t begin, std::size_t end)>;
 
 /// Velocity gradients, work and hourglass forces of the step that takes the nodes from their present
-/// positions to x + dt motion.end (eq. 2.5 to 2.8, 3.1 to 3.6, 4.1 to 4.4); `points.length` becomes that of
+/// positions to x + dt motion.end (eq. 2.5 to 2.8, 3.1 to 3.9, 4.1 to 4.4); `points.length` becomes that of
 /// the end of the step. The volume that `update_material` makes of a gradient is exactly that of the element.
 /// With `update`, block by block while all of it is in the cache, also the new stresses and their forces at
 /// the end of the step: the next `internal_forces` only sums them. Until then nothing but `move_nodes` may

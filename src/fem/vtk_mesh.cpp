@@ -131,11 +131,7 @@ bool is_vtk(const std::filesystem::path& path) {
 }
 
 MeshData read_vtk(const std::filesystem::path& path, double length_unit) {
-  std::ifstream file = regular_file(path);
-  std::ostringstream stream;
-  stream << file.rdbuf();
-  if (!file) throw InputError(fmt::format("{}: cannot be read", path.string()));
-  const std::string text = stream.str();
+  const std::string text = read_text(path);
   const VtkGrid grid = begin_of(text).starts_with(legacy_mark) ? read_legacy_vtk(text, path.string())
                                                                : read_vtu(text, path.string());
   MeshData data;

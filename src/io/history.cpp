@@ -10,6 +10,7 @@
 
 #include "src/core/base/csv.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
 #include "src/io/run_directory.hpp"
 #include "src/io/sealed_file.hpp"
 

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <regex>
 #include <sstream>
 #include <system_error>
@@ -97,16 +96,6 @@ void require_writable(const fs::path& folder) {
 }
 
 }  // namespace
-
-std::string read_text(const fs::path& path) {
-  errno = 0;
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) fail(path, "read the file", errno == 0 ? ENOENT : errno);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (stream.bad() || fs::is_directory(path)) fail(path, "read the file", errno == 0 ? EIO : errno);
-  return std::move(text).str();
-}
 
 std::shared_ptr<const FileLock> lock_run(const fs::path& path) {
   require_folder(path);

@@ -14,9 +14,6 @@ namespace whipple::io {
 
 using whipple::write_text_atomically;
 
-/// @throws InputError naming the file
-std::string read_text(const std::filesystem::path& path);
-
 /// Keeps every other run out of a run directory while it lives.
 /// @throws InputError if there is no such folder, or another run holds it
 std::shared_ptr<const FileLock> lock_run(const std::filesystem::path& path);

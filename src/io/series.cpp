@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
 #include "src/io/run_directory.hpp"
 
 namespace whipple::io {

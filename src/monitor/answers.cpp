@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
 #include "src/io/run_directory.hpp"
 #include "src/run/directory_control.hpp"
 #include "src/run/status.hpp"
@@ -140,7 +141,7 @@ std::string Desk::file_of(const std::string& path, std::string& type) const {
   const fs::path file = (of_view ? view_ : page_) / own;
   if (found == types.end() || !fs::is_regular_file(file)) return {};
   type = found->second;
-  return io::read_text(file);
+  return read_text(file);
 }
 
 std::vector<std::string> Desk::cases() const {

@@ -24,6 +24,9 @@ struct Particles : MaterialPoints {
   /// J/kg, >= 0: kinetic energy that the transfers took from the motion of the grid and that is no heat yet
   /// (docs/theory/dissipation.md, 2); optional
   std::vector<double> unresolved_energy;
+  /// J/kg, >= 0: what of the losses of the transfers may still become heat at once (docs/theory/dissipation.md, 3);
+  /// optional
+  std::vector<double> heat_allowance;
   std::vector<double> closing_rate;      ///< 1/s, -tr L of the last step, 0 in expansion; optional
   std::vector<std::uint8_t> generation;  ///< divisions that the particle comes from (0: as seeded)
 
@@ -38,15 +41,17 @@ struct Particles : MaterialPoints {
                         Field{"affine_velocity", "1/s", &P::affine_velocity, true},
                         Field{"extent", "m^2", &P::extent, true},
                         Field{"unresolved_energy", "J/kg", &P::unresolved_energy, true},
+                        Field{"heat_allowance", "J/kg", &P::heat_allowance, true},
                         Field{"closing_rate", "1/s", &P::closing_rate, true},
                         Field{"generation", "1", &P::generation}));
   }
 };
 
-/// Brings the fields of unresolved energy into use: none so far, and all viscosity heats.
+/// Brings the fields of unresolved energy into use: none so far, no allowance, and all viscosity heats.
 inline void use_stores(Particles& particles) {
   const std::size_t size = particles.size();
   particles.unresolved_energy.resize(size, 0.0);
+  particles.heat_allowance.resize(size, 0.0);
   particles.closing_rate.resize(size, 0.0);
   const std::vector<double>& viscosity = particles.artificial_viscosity;
   std::vector<double>& heating = particles.heating_viscosity;

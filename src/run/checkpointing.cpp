@@ -12,9 +12,12 @@ void for_each_real(State& state, Function&& f) {
   f("time", state.time);
   f("time_step", state.time_step);
   f("unclipped_step", state.unclipped_step);
+  f("largest_step", state.largest_step);
   f("maximum_acceleration", state.maximum_acceleration);
   f("compression_rate", state.compression_rate);
   f("first_touch", state.first_touch);
+  f("releasable_energy", state.releasable_energy);
+  f("reference_speed", state.reference_speed);
   f("squeezed_beside_voids", state.squeezed_beside_voids);
   for_each_number(state.ledger, f);
 }

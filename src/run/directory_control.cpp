@@ -7,12 +7,14 @@
 #include <chrono>
 #include <fstream>
 #include <optional>
+#include <sstream>
 #include <system_error>
 #include <thread>
 #include <vector>
 
 #include "src/core/base/csv.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
 #include "src/core/base/log.hpp"
 #include "src/run/observer.hpp"
 
@@ -39,7 +41,7 @@ std::string replaced_by(const Request& request, const Schedule& schedule) {
 
 /// Finds the answer to the request of a file in the table; nothing if it holds none.
 std::optional<Answer> find_answer(const fs::path& table, const std::string& file) {
-  std::ifstream rows(table, std::ios::binary);
+  std::istringstream rows(fs::exists(table) ? read_text(table) : std::string());
   std::optional<Answer> found;
   for (std::string line; std::getline(rows, line);) {
     const std::vector<std::string> cells = csv_cells(line);

@@ -4,12 +4,13 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <fstream>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "src/core/base/csv.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
 #include "src/run/directory_control.hpp"
 #include "src/run/observer.hpp"
 
@@ -28,7 +29,7 @@ std::int64_t step_of(const std::string& cell) {
 }  // namespace
 
 ReplayControl::ReplayControl(const std::filesystem::path& table) {
-  std::ifstream file(table, std::ios::binary);
+  std::istringstream file(read_text(table));
   std::string line;
   if (!std::getline(file, line) || line != DirectoryControl::header) {
     throw InputError(fmt::format("{}: error: is no steering.csv of a run", table.string()));

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "src/core/base/error.hpp"
+#include "src/core/base/log.hpp"
 #include "src/core/base/resource_error.hpp"
 #include "src/core/parallel/mpi.hpp"
 
@@ -104,6 +105,14 @@ Requests Runner::asked() {
 void Runner::follow(const Request& request) {
   if (request.act == Act::none) return;
   if (request.act == Act::pause || request.act == Act::resume) paused_ = request.act == Act::pause;
+  // Steps end at snapshots: an interval far below a step would cut every step, and fill the disk.
+  constexpr double least_part_of_step = 1e-3;
+  if (const double least = least_part_of_step * simulation_.state().unclipped_step;
+      request.act == Act::snapshot_every && request.value > 0.0 && request.value < least) {
+    log::warning("snapshots every {:.3g} s are refused: at least {:.3g} s, a thousandth of a time step",
+                 request.value, least);
+    return;
+  }
   double Schedule::* const number = entry_of(request.act).changes;
   if (number != nullptr) schedule_.*number = request.value;
   if (request.act == Act::end) schedule_.end = std::max(request.value, simulation_.state().time);

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
 #include "src/io/run_directory.hpp"
 
 namespace whipple::run {
@@ -36,7 +37,7 @@ RunStatus read_status(const std::filesystem::path& run) {
   const std::filesystem::path file = run / "status.json";
   RunStatus status;
   try {
-    const Json json = Json::parse(io::read_text(file));
+    const Json json = Json::parse(read_text(file));
     const auto word = json.at("state").get<std::string>();
     const std::optional<Activity> state = value_of<Activity>(word);
     if (!state) throw InputError(fmt::format("{}: unknown state \"{}\" of a run", file.string(), word));

@@ -7,7 +7,6 @@
 
 #include "src/core/base/vector_math.hpp"
 #include "src/core/parallel/threads.hpp"
-#include "src/io/output_fields.hpp"
 
 namespace whipple::solver {
 
@@ -135,6 +134,11 @@ void Ledger::add(const Ledger& step) {
   friction_impulse += step.friction_impulse;
   converted_mass += step.converted_mass;
   conversion_heat += step.conversion_heat;
+  removed_mass += step.removed_mass;
+  hourglass_work += step.hourglass_work;
+  hourglass_overdrawn += step.hourglass_overdrawn;
+  limited_hourglass += step.limited_hourglass;
+  elements_beyond_range += step.elements_beyond_range;
   clamped_to_cold_curve += step.clamped_to_cold_curve;
   held_at_pressure_floor += step.held_at_pressure_floor;
   limited_volume_changes += step.limited_volume_changes;
@@ -183,44 +187,6 @@ double Ledger::momentum_error(const Totals& now) const {
       std::max({largest_momentum, initial.momentum_scale, now.momentum_scale + outflow.momentum_scale}) +
       external_impulse.norm();
   return error.norm() / std::max(scale, 1e-300);
-}
-
-PhaseMasses& PhaseMasses::operator+=(const PhaseMasses& other) {
-  for (std::size_t i = 0; i < mass.size(); ++i) mass[i] += other.mass[i];
-  failed += other.failed;
-  return *this;
-}
-
-PhaseMasses phase_masses(const MaterialPoints& points, std::size_t first, std::size_t count) {
-  return parallel::sum_of_chunks<PhaseMasses>(count, [&](std::size_t begin, std::size_t end) {
-    std::array<Lanes, 4> mass{};
-    Lanes failed{};
-    for (std::size_t p = first + begin; p < first + end; p += 4) {
-      const std::size_t four = std::min<std::size_t>(4, first + end - p);
-      const Lanes m = load(&points.mass[p], four, 0.0), melted = load(&points.melted_fraction[p], four, 0.0);
-      const std::array<LanesMask, 4> in = io::phases(melted, load(&points.vaporised_fraction[p], four, 0.0));
-      for (std::size_t i = 0; i < 4; ++i) mass[i] += select(in[i], m, Lanes{});
-      for (std::size_t k = 0; k < four; ++k) failed[k] += points.failed[p + k] != 0 ? m[k] : 0.0;
-    }
-    PhaseMasses sum;
-    for (std::size_t i = 0; i < 4; ++i) sum.mass[i] = sum4(mass[i]);
-    sum.failed = sum4(failed);
-    return sum;
-  });
-}
-
-void sum_over_ranks(MPI_Comm communicator, std::vector<PhaseMasses>& by_body) {
-  std::vector<double> numbers;
-  for (const PhaseMasses& body : by_body) {
-    numbers.insert(numbers.end(), body.mass.begin(), body.mass.end());
-    numbers.push_back(body.failed);
-  }
-  parallel::sum(communicator, numbers);
-  auto next = numbers.begin();
-  for (PhaseMasses& body : by_body) {
-    for (double& mass : body.mass) mass = *next++;
-    body.failed = *next++;
-  }
 }
 
 }  // namespace whipple::solver

@@ -25,7 +25,7 @@ struct Totals {
   double affine_kinetic_energy = 0.0;          ///< of their affine fields: m inertia |C|^2 / 2
   double internal_energy = 0.0;
   double unresolved_energy = 0.0;  ///< kinetic, of motion that the cells do not resolve
-  double hourglass_energy = 0.0;   ///< stored in the hourglass modes of elements
+  double hourglass_energy = 0.0;   ///< stored in the hourglass modes of elements, never negative
 
   [[nodiscard]] double energy() const {
     return kinetic_energy + affine_kinetic_energy + unresolved_energy + internal_energy + hourglass_energy;
@@ -123,13 +123,19 @@ struct Ledger {
   double friction_impulse = 0.0;     ///< N s, sum of the tangential impulses
   double converted_mass = 0.0;       ///< kg, of elements that became particles
   double conversion_heat = 0.0;      ///< J, kinetic energy that this took, into internal energy
+  double removed_mass = 0.0;         ///< kg, of elements that were deleted, part of the outflow
+  double hourglass_work = 0.0;       ///< J, against hourglass forces, into hourglass and internal energy
+  double hourglass_overdrawn = 0.0;  ///< J, that these gave beyond what was stored, out of internal energy
+  double limited_hourglass = 0.0;    ///< steps of elements whose hourglass forces their stored energy limited
+  double elements_beyond_range = 0.0;  ///< elements that left their valid range
   double clamped_to_cold_curve =
       0.0;  ///< evaluations below the cold curve (temperature clamped, energy kept)
   double held_at_pressure_floor = 0.0;  ///< evaluations at the least pressure of a modifier `floor`
   double limited_volume_changes = 0.0;  ///< steps of particles whose volume change was limited
   double limited_domains = 0.0;  ///< steps of particles whose domain was larger than its shape function takes
-  double held_pressures = 0.0;   ///< steps of fluid particles that have parted
-  double refused_divisions = 0.0;  ///< beyond `splitting.maximum_particles`
+  double held_pressures =
+      0.0;  ///< steps of fluid particles whose pressure did not act along directions in which they have parted
+  double refused_divisions = 0.0;  ///< divisions of particles beyond `splitting.maximum_particles`
   double limited_densities = 0.0;  ///< steps of particles at their least density
   double limited_compressions =
       0.0;                          ///< steps of particles at the greatest density of their equation of state
@@ -185,6 +191,11 @@ void for_each_number(L& ledger, Function&& f) {
   f("friction_impulse", ledger.friction_impulse);
   f("converted_mass", ledger.converted_mass);
   f("conversion_heat", ledger.conversion_heat);
+  f("removed_mass", ledger.removed_mass);
+  f("hourglass_work", ledger.hourglass_work);
+  f("hourglass_overdrawn", ledger.hourglass_overdrawn);
+  f("limited_hourglass", ledger.limited_hourglass);
+  f("elements_beyond_range", ledger.elements_beyond_range);
   f("clamped_to_cold_curve", ledger.clamped_to_cold_curve);
   f("held_at_pressure_floor", ledger.held_at_pressure_floor);
   f("limited_volume_changes", ledger.limited_volume_changes);
@@ -201,29 +212,6 @@ void for_each_number(L& ledger, Function&& f) {
   f("largest_momentum", ledger.largest_momentum);
 }
 
-/// A bound that material or the time step may run into: its column in history.csv and how it is told.
-struct Limiter {
-  const char* name;
-  double Ledger::* count;
-  const char* meaning;
-};
-/// All of them (docs/manual/output.md).
-inline constexpr auto limiters = std::to_array<Limiter>({
-    {"below_cold_curve", &Ledger::clamped_to_cold_curve, "temperature held at the cold curve, energy kept"},
-    {"at_pressure_floor", &Ledger::held_at_pressure_floor, "pressure held at its floor"},
-    {"limited_volume_changes", &Ledger::limited_volume_changes, "volume change of a step limited"},
-    {"limited_densities", &Ledger::limited_densities, "density limited to its minimum"},
-    {"limited_compressions", &Ledger::limited_compressions,
-     "density limited to the end of the equation of state"},
-    {"limited_void_steps", &Ledger::limited_void_steps, "change of material with a void limited"},
-    {"limited_bulking", &Ledger::limited_bulking, "bulking of crushed brittle material limited"},
-    {"limited_domains", &Ledger::limited_domains, "domain of a particle limited"},
-    {"held_pressures", &Ledger::held_pressures, "pressure of a parted fluid particle held back"},
-    {"refused_divisions", &Ledger::refused_divisions, "division beyond maximum_particles refused"},
-    {"held_time_steps", &Ledger::held_time_steps,
-     "time step kept longer than the volumetric strain-rate limit"},
-});
-
 /// Replaces every number by its sum over all ranks. Collective.
 template <class... Parts>
 void sum_over_ranks(MPI_Comm communicator, Parts&... parts) {
@@ -234,17 +222,5 @@ void sum_over_ranks(MPI_Comm communicator, Parts&... parts) {
   auto next = numbers.begin();
   (for_each_number(parts, [&](const std::string&, double& x) { x = *next++; }), ...);
 }
-
-/// Masses by phase and other figures for the history.
-struct PhaseMasses {
-  std::array<double, 4> mass{};  ///< kg: solid, melting, liquid, vapour
-  double failed = 0.0;           ///< kg
-  PhaseMasses& operator+=(const PhaseMasses& other);
-};
-/// Sums the masses (kg) by phase over the material points [first, first + count); bitwise independent of the
-/// number of threads.
-PhaseMasses phase_masses(const MaterialPoints& points, std::size_t first, std::size_t count);
-/// Collective.
-void sum_over_ranks(MPI_Comm communicator, std::vector<PhaseMasses>& by_body);
 
 }  // namespace whipple::solver

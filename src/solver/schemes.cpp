@@ -74,6 +74,7 @@ void end_step(Stages& s) {
     run.time += run.time_step;
     s.contact.foresee_touches(s.time_step.accurate_step());
     s.balance.require_energy();
+    s.plausibility.require();
   });
 }
 

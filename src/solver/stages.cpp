@@ -19,7 +19,8 @@ Stages::Stages(const cases::Case& setup, MPI_Comm communicator, const RunState& 
       partition(state, carriers, particles, activity),
       elements(state, carriers, particles, hexahedra, partition),
       fill(state),
-      balance(state, carriers) {
+      balance(state, carriers),
+      plausibility(state, carriers) {
   carriers.push_back(&particles);
   for (Carrier* carrier : {static_cast<Carrier*>(&hexahedra), static_cast<Carrier*>(&trusses)}) {
     if (!carrier->empty()) carriers.push_back(carrier);

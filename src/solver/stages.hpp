@@ -12,6 +12,7 @@
 #include "src/solver/stages/fill.hpp"
 #include "src/solver/stages/material.hpp"
 #include "src/solver/stages/partition.hpp"
+#include "src/solver/stages/plausibility.hpp"
 #include "src/solver/stages/time_step.hpp"
 #include "src/solver/stages/transfers.hpp"
 
@@ -40,6 +41,7 @@ struct Stages {
   ElementStage elements;
   FillWatch fill;
   Balance balance;
+  Plausibility plausibility;
 };
 
 /// Makes one step of the scheme of the case; not beyond `until` (s).

@@ -55,12 +55,15 @@ struct RunState {
   double time = 0.0;                  ///< s
   double time_step = 0.0;             ///< s, of the last step; 0 before the first
   double unclipped_step = 0.0;        ///< s, the same if it had not been shortened to meet a time
+  double largest_step = 0.0;          ///< s, in which nothing crossed more than a cell, the longest so far
   double maximum_acceleration = 0.0;  ///< m/s^2, in the last step
   double compression_rate =
       0.0;  ///< 1/s, that all but a thousandth of the material under pressure kept below
   double squeezed_beside_voids = 0.0;  ///< kg, intact, under pressure in cells that it does not fill
   double first_touch = 1e300;  ///< s, at which bodies that have not touched yet next do; 1e300: not in sight
   transfer::FirstTouches::Words touched;  ///< what has
+  double releasable_energy = 0.0;         ///< J, that the materials could set free at the start
+  double reference_speed = 0.0;           ///< m/s, of the start: of what moved, and what that energy can make
   std::int64_t step = 0;
   std::int64_t particles_at_rest = 0;  ///< of all ranks, left as they were by the last step
   Ledger ledger;
@@ -94,6 +97,8 @@ struct State {
   } rates;
   Profile profile;
 
+  /// Returns the shape functions of forces, velocities and their gradients.
+  [[nodiscard]] transfer::ShapeFunctions functions() const { return {shape, setup.transfer.slope_smoothing}; }
   /// Returns the inertia per mass (m^2) of affine fields by this shape function; 0 if it cannot carry them.
   [[nodiscard]] double affine_inertia() const;
   /// Returns the inertia per mass (m^2) of the affine fields that particles of this case carry; 0 without such fields.

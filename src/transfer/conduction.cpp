@@ -18,6 +18,9 @@ using scalars::share;
 constexpr auto particle_kind = BlockGrid::Points::particles;
 
 constexpr double no_capacity = 1e-300;  // J/K; below it the temperature of a node has no meaning
+/// Rate of the mixing within a cell over a/dx^2 (eq. 3): an exchange between particles and nodes at this rate
+/// would conduct with the diffusivity a by itself. Temperatures stay in their range, unlike with twice as much.
+constexpr double mixing_rate = 4.0;
 
 /// Bodies that share nodes share their heat there, as far as they touch.
 void join_fields(BlockGrid& grid, const TouchAtNode& touch) {
@@ -74,19 +77,30 @@ void conduct_heat(Particles& particles, BlockGrid& grid, double dt, std::span<co
   });
   share(grid);
 
-  std::vector<Vector3> flux(particles.size());  // (eq. 2) -V k grad T of the particles
+  struct Flow {
+    Vector3 flux;   // W m, -V k grad T
+    double mixing;  // W, from the particle to its nodes
+  };
+  std::vector<Flow> flows(particles.size());  // (eq. 2, 3)
+  const double dx = grid.geometry().cell_size;
   gather(grid, [&](std::size_t p, auto&& for_nodes) {
     Vector3 gradient = Vector3::Zero();
-    for_nodes([&](const Node& node, double, const Vector3& g) { gradient += node.scalars.sums[1] * g; });
-    flux[p] = -(particles.volume[p] + particles.void_volume[p]) * constants(p).conductivity * gradient;
+    double around = 0.0;
+    for_nodes([&](const Node& node, double n, const Vector3& g) {
+      gradient += node.scalars.sums[1] * g;
+      around += node.scalars.sums[1] * n;
+    });
+    const double conductance = (particles.volume[p] + particles.void_volume[p]) * constants(p).conductivity;
+    flows[p] = {-conductance * gradient,
+                mixing_rate / (dx * dx) * conductance * (particles.temperature[p] - around)};
   });
 
-  parallel::for_each(nodes.size(), [&](std::size_t i) {  // (eq. 3) heat of the nodes
+  parallel::for_each(nodes.size(), [&](std::size_t i) {  // (eq. 4) heat of the nodes
     nodes[i].scalars.kept = nodes[i].scalars.sums;
     nodes[i].scalars.sums = broadcast(0.0);
   });
-  scalars::scatter(particle_kind, grid, [&](Node& node, std::size_t p, double, const Vector3& gradient) {
-    node.scalars.sums += Lanes{gradient.dot(flux[p]), 0.0, 0.0, 0.0};
+  scalars::scatter(particle_kind, grid, [&](Node& node, std::size_t p, double n, const Vector3& gradient) {
+    node.scalars.sums += Lanes{gradient.dot(flows[p].flux) + n * flows[p].mixing, 0.0, 0.0, 0.0};
   });
   fold_and_sum(grid);
   join_fields(grid, touch);
@@ -98,10 +112,11 @@ void conduct_heat(Particles& particles, BlockGrid& grid, double dt, std::span<co
   });
   share(grid);
 
-  gather(grid, [&](std::size_t p, auto&& for_nodes) {  // (eq. 4)
+  gather(grid, [&](std::size_t p, auto&& for_nodes) {  // (eq. 5)
     double rise = 0.0;
     for_nodes([&](const Node& node, double n, const Vector3&) { rise += n * node.scalars.sums[0]; });
-    particles.specific_internal_energy[p] += constants(p).heat_capacity * rise;
+    particles.specific_internal_energy[p] +=
+        constants(p).heat_capacity * rise - dt * flows[p].mixing / particles.mass[p];
   });
 }
 

@@ -22,9 +22,9 @@ using TouchAtNode =
     std::function<bool(std::size_t contact_slot, std::size_t node, std::size_t first, std::size_t second)>;
 
 /// One explicit step of the heat conduction between particles through the grid, with quadratic B-splines
-/// (docs/theory/conduction.md): temperatures to the nodes, Fourier's flux at the particles, heat to the
-/// nodes and back into the specific internal energies. The sum of the heat is zero to round-off; mirror
-/// planes and free surfaces are adiabatic. Particles must be binned; node contents are lost. Collective;
+/// (docs/theory/conduction.md): temperatures to the nodes, Fourier's flux at the particles and what each gives
+/// to the material around it in its cell, heat to the nodes and back into the specific internal energies. The
+/// sum of the heat is zero to round-off; mirror planes and free surfaces are adiabatic. Particles must be binned; node contents are lost. Collective;
 /// bitwise independent of the number of threads.
 /// @param of_body  constants of every body of the case
 /// @param touch    bodies with velocity fields of their own exchange heat where they touch

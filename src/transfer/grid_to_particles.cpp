@@ -109,6 +109,7 @@ template <bool affine, bool planar>
     const double divergence = l[0][0] + l[1][1] + l[2][2];
     booking = book_losses(losses, particles, p, loss, heat_of_contact, viscous_work / mass, divergence, dt);
     particles.unresolved_energy[p] += booking.kept - booking.returned;
+    particles.heat_allowance[p] = booking.allowance;
     particles.closing_rate[p] = std::fmax(-divergence, 0.0);
   }
   particles.specific_internal_energy[p] +=
@@ -201,8 +202,8 @@ TransferBalance gather_particles(BlockGrid& grid, const TakeGradients& take,
 }
 
 template <class Shape, bool affine>
-TransferBalance gather_all(Particles& particles, BlockGrid& grid, double dt, AffineField field,
-                           const Losses& losses, const TakeGradients& take_gradients,
+TransferBalance gather_all(double slope_smoothing, Particles& particles, BlockGrid& grid, double dt,
+                           AffineField field, const Losses& losses, const TakeGradients& take_gradients,
                            std::span<const Vector3> acceleration, const BeforeBorder& before_border) {
   const bool radial = Planar<Shape> && grid.geometry().is_axisymmetric();
   return gather_particles<Shape>(
@@ -221,15 +222,15 @@ TransferBalance gather_all(Particles& particles, BlockGrid& grid, double dt, Aff
           balance += update_particle<affine, Planar<Shape>>(particles, p, dt, advance, field,
                                                             gradients[place], losses, acceleration, radius);
         };
-        Kernels::template gather<Shape>(particles, grid, particle_kind, slot,
+        Kernels::template gather<Shape>(particles, grid, particle_kind, slot, slope_smoothing,
                                         typename Kernels::template Transfer<affine>{field, dt}, take);
       });
 }
 
 template <class Shape>
-TransferBalance update_velocities(Particles& particles, BlockGrid& grid, double dt, double relaxation,
-                                  const TakeGradients& take_gradients, std::span<const Vector3> acceleration,
-                                  const BeforeBorder& before_border) {
+TransferBalance update_velocities(double slope_smoothing, Particles& particles, BlockGrid& grid, double dt,
+                                  double relaxation, const TakeGradients& take_gradients,
+                                  std::span<const Vector3> acceleration, const BeforeBorder& before_border) {
   const bool with_gradient = static_cast<bool>(take_gradients);
   const bool radial = Planar<Shape> && grid.geometry().is_axisymmetric();
   return gather_particles<Shape>(
@@ -257,22 +258,27 @@ TransferBalance update_velocities(Particles& particles, BlockGrid& grid, double 
             balance.external_work += external_work(after, increment, particles.mass[p], acceleration[p], dt);
           }
         };
-        Kernels::template gather<Shape>(particles, grid, particle_kind, slot, typename Kernels::Update{},
-                                        take);
+        Kernels::template gather<Shape>(particles, grid, particle_kind, slot, slope_smoothing,
+                                        typename Kernels::Update{}, take);
       });
 }
 
 }  // namespace
 
-TransferBalance grid_to_particles(ShapeFunction shape, Particles& particles, BlockGrid& grid, double dt,
-                                  AffineField affine, const Losses& losses, const TakeGradients& take,
-                                  std::span<const Vector3> acceleration, const BeforeBorder& before_border) {
+TransferBalance grid_to_particles(const ShapeFunctions& functions, Particles& particles, BlockGrid& grid,
+                                  double dt, AffineField affine, const Losses& losses,
+                                  const TakeGradients& take, std::span<const Vector3> acceleration,
+                                  const BeforeBorder& before_border) {
   using enum AffineField;
-  return with_shape(shape, [&]<class Shape>(Shape) {
-    if (affine == none)
-      return gather_all<Shape, false>(particles, grid, dt, none, losses, take, acceleration, before_border);
+  const double smoothing = functions.slope_smoothing;
+  return with_shape(functions.kind, [&]<class Shape>(Shape) {
+    if (affine == none) {
+      return gather_all<Shape, false>(smoothing, particles, grid, dt, none, losses, take, acceleration,
+                                      before_border);
+    }
     if constexpr (CarriesAffineField<Shape>) {
-      return gather_all<Shape, true>(particles, grid, dt, affine, losses, take, acceleration, before_border);
+      return gather_all<Shape, true>(smoothing, particles, grid, dt, affine, losses, take, acceleration,
+                                     before_border);
     } else {
       throw InternalError("the affine transfer needs B-splines");
       return TransferBalance{};  // the other branch deduces the type
@@ -289,7 +295,8 @@ void TransitionNodes::resize(std::size_t n) {
 namespace {
 
 template <class Shape, bool affine>
-void move_nodes(TransitionNodes& nodes, BlockGrid& grid, double dt, AffineField field) {
+void move_nodes(double slope_smoothing, TransitionNodes& nodes, BlockGrid& grid, double dt,
+                AffineField field) {
   constexpr auto kind = BlockGrid::Points::guests;
   with_kernels<Shape>([&]<class Kernels>(Kernels) {
     parallel::for_each_uneven(grid.slots(), [&](std::size_t slot) {
@@ -302,7 +309,7 @@ void move_nodes(TransitionNodes& nodes, BlockGrid& grid, double dt, AffineField 
         nodes.heat[p] = nodes.mass[p] * advance.heat[0];
         nodes.contact_heat[p] = nodes.mass[p] * advance.increment.value[3];
       };
-      Kernels::template gather<Shape>(nodes, grid, kind, slot,
+      Kernels::template gather<Shape>(nodes, grid, kind, slot, slope_smoothing,
                                       typename Kernels::template Transfer<affine>{field, dt}, take);
     });
   });
@@ -310,26 +317,28 @@ void move_nodes(TransitionNodes& nodes, BlockGrid& grid, double dt, AffineField 
 
 }  // namespace
 
-void grid_to_nodes(ShapeFunction shape, TransitionNodes& nodes, BlockGrid& grid, double dt,
+void grid_to_nodes(const ShapeFunctions& functions, TransitionNodes& nodes, BlockGrid& grid, double dt,
                    AffineField affine) {
   using enum AffineField;
-  with_shape(shape, [&]<class Shape>(Shape) {
+  const double smoothing = functions.slope_smoothing;
+  with_shape(functions.kind, [&]<class Shape>(Shape) {
     if constexpr (Planar<Shape>) {
       throw InternalError("elements need three dimensions");
     } else if constexpr (CarriesAffineField<Shape>) {
-      if (affine == none) return move_nodes<Shape, false>(nodes, grid, dt, none);
-      return move_nodes<Shape, true>(nodes, grid, dt, affine);
+      if (affine == none) return move_nodes<Shape, false>(smoothing, nodes, grid, dt, none);
+      return move_nodes<Shape, true>(smoothing, nodes, grid, dt, affine);
     } else {
       throw InternalError("nodes of elements need B-splines");
     }
   });
 }
 
-TransferBalance update_velocity(ShapeFunction shape, Particles& particles, BlockGrid& grid, double dt,
-                                double relaxation, const TakeGradients& take,
+TransferBalance update_velocity(const ShapeFunctions& functions, Particles& particles, BlockGrid& grid,
+                                double dt, double relaxation, const TakeGradients& take,
                                 std::span<const Vector3> acceleration, const BeforeBorder& before_border) {
-  return with_shape(shape, [&]<class Shape>(Shape) {
-    return update_velocities<Shape>(particles, grid, dt, relaxation, take, acceleration, before_border);
+  return with_shape(functions.kind, [&]<class Shape>(Shape) {
+    return update_velocities<Shape>(functions.slope_smoothing, particles, grid, dt, relaxation, take,
+                                    acceleration, before_border);
   });
 }
 
@@ -338,11 +347,11 @@ namespace {
 /// Takes the sums of the nodes' velocities for every particle: its velocity into `velocity`, unless that is
 /// empty, else its gradient (1/s), which is handed on.
 /// @returns J, plastic work, as `take` reports it
-double gather_first(ShapeFunction shape, const Particles& particles, BlockGrid& grid,
+double gather_first(const ShapeFunctions& functions, const Particles& particles, BlockGrid& grid,
                     std::span<Vector3> velocity, const TakeGradients& take,
                     const BeforeBorder& before_border) {
   const bool radial = grid.geometry().is_axisymmetric();
-  return with_shape(shape, [&]<class Shape>(Shape) {
+  return with_shape(functions.kind, [&]<class Shape>(Shape) {
     return gather_particles<Shape>(
                grid, take, before_border,
                [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance&, Matrix3* gradients) {
@@ -357,7 +366,7 @@ double gather_first(ShapeFunction shape, const Particles& particles, BlockGrid& 
                                          gradients[place] = matrix(l);
                                        };
                  Kernels::template gather<Shape>(particles, grid, particle_kind, slot,
-                                                 typename Kernels::First{}, each);
+                                                 functions.slope_smoothing, typename Kernels::First{}, each);
                })
         .plastic_work;
   });
@@ -365,9 +374,9 @@ double gather_first(ShapeFunction shape, const Particles& particles, BlockGrid& 
 
 }  // namespace
 
-double gather_velocity_gradient(ShapeFunction shape, const Particles& particles, BlockGrid& grid,
+double gather_velocity_gradient(const ShapeFunctions& functions, const Particles& particles, BlockGrid& grid,
                                 const TakeGradients& take, const BeforeBorder& before_border) {
-  return gather_first(shape, particles, grid, {}, take, before_border);
+  return gather_first(functions, particles, grid, {}, take, before_border);
 }
 
 void gather_velocity(ShapeFunction shape, const Particles& particles, BlockGrid& grid,

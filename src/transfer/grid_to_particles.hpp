@@ -62,23 +62,24 @@ using BeforeBorder = std::function<void()>;
 /// @param losses        what becomes of them; if kept, the particles carry unresolved energy and closing rate
 /// @param take          the gradients of the advanced grid velocity; may change its particles
 /// @param acceleration  by external forces, as given to `particles_to_grid`
-TransferBalance grid_to_particles(ShapeFunction shape, Particles& particles, grid::BlockGrid& grid, double dt,
-                                  AffineField affine, const Losses& losses, const TakeGradients& take,
-                                  std::span<const Vector3> acceleration = {},
+TransferBalance grid_to_particles(const ShapeFunctions& functions, Particles& particles,
+                                  grid::BlockGrid& grid, double dt, AffineField affine, const Losses& losses,
+                                  const TakeGradients& take, std::span<const Vector3> acceleration = {},
                                   const BeforeBorder& before_border = {});
 
 /// Gather of the schemes without exact energy (equations 5.1, 5.2): velocity and position.
 /// @param relaxation    towards the grid's velocity: 0 FLIP, 1 PIC
 /// @param take          the gradients of the advanced grid velocity; empty if they are not wanted
 /// @returns external work and largest change
-TransferBalance update_velocity(ShapeFunction shape, Particles& particles, grid::BlockGrid& grid, double dt,
-                                double relaxation, const TakeGradients& take,
+TransferBalance update_velocity(const ShapeFunctions& functions, Particles& particles, grid::BlockGrid& grid,
+                                double dt, double relaxation, const TakeGradients& take,
                                 std::span<const Vector3> acceleration = {},
                                 const BeforeBorder& before_border = {});
 
 /// Velocity gradient of the nodes' velocities (NodeMotion::velocity). @returns J, plastic work, as `take` reports it
-double gather_velocity_gradient(ShapeFunction shape, const Particles& particles, grid::BlockGrid& grid,
-                                const TakeGradients& take, const BeforeBorder& before_border = {});
+double gather_velocity_gradient(const ShapeFunctions& functions, const Particles& particles,
+                                grid::BlockGrid& grid, const TakeGradients& take,
+                                const BeforeBorder& before_border = {});
 
 /// The nodes' velocities (NodeMotion::velocity) at the particles.
 void gather_velocity(ShapeFunction shape, const Particles& particles, grid::BlockGrid& grid,

@@ -14,6 +14,8 @@ namespace whipple::transfer {
 struct Losses {
   bool kept = false;        ///< false: it is heat at once
   double heat_share = 0.0;  ///< f: of the work of the artificial viscosity that heats
+  double allowance_length =
+      0.0;  ///< m, tau dx: the way of sound in which an allowance is forgotten; 0: at once
   double collision_rate =
       0.0;  ///< r: fraction of the unresolved energy per fraction of the volume that closes
   std::span<const double> initial_density;  ///< kg/m^3, of each body
@@ -26,6 +28,7 @@ struct Booking {
   double cooling = 0.0;     ///< of the viscosity: what of its work is not internal but unresolved energy
   double returned = 0.0;    ///< unresolved energy that became internal
   double of_contact = 0.0;  ///< of contact: internal energy
+  double allowance = 0.0;   ///< of the particle from now on
 };
 
 /// Material with gaps, as far as a particle knows: failed, beside a void, in tension, or thinner than at the
@@ -40,8 +43,9 @@ inline bool is_loose(const Particles& particles, std::size_t p, double initial_d
 
 /// Divides the loss of the transfers (J/kg, >= 0 but for round-off) and the work of the artificial viscosity
 /// between internal and unresolved energy (eq. 3 to 5). In material without gaps the loss is heat as far as the
-/// viscosity that heats does work, which measures what of the motion is a shock. Where gaps close, material
-/// collides: all of the loss is heat, and so is the fraction of what had been kept before that the volume loses.
+/// viscosity that heats does work, which measures what of the motion is a shock: a fraction of the work is an allowance,
+/// which is used up or forgotten, since the loss of a steady shock comes in steps in which its viscosity may rest.
+/// Where gaps close, material collides: all of the loss is heat, and so is the fraction of what had been kept before that the volume loses.
 /// Contact heats, but for fragmented material that expands, whose fragments hit those of another body as they hit
 /// one another.
 /// @param contact       J/kg, what contact of bodies and walls took
@@ -58,12 +62,17 @@ inline Booking book_losses(const Losses& losses, const Particles& particles, std
   const double heating = viscosity > 0.0 ? particles.heating_viscosity[p] / viscosity : 1.0;
   const double work = std::fmax(viscous_work, 0.0), heating_work = heating * work,
                cooling = work - heating_work;
-  const double heat = std::fmin(loss, losses.heat_share * heating_work);
+  double allowance = losses.heat_share * heating_work;
+  if (const double before = particles.heat_allowance[p]; before > 0.0 && losses.allowance_length > 0.0) {
+    allowance += before * std::exp(-particles.sound_speed[p] * dt / losses.allowance_length);
+  }
+  const double heat = std::fmin(loss, allowance);
   const double of_contact = loose ? 0.0 : contact;
   return {.heat = heat,
           .kept = loss - heat + cooling + (contact - of_contact),
           .cooling = cooling,
-          .of_contact = of_contact};
+          .of_contact = of_contact,
+          .allowance = allowance - std::fmax(heat, 0.0)};
 }
 
 }  // namespace whipple::transfer

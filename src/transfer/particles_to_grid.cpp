@@ -106,11 +106,13 @@ struct Momentum : OfParticles {
 
 /// @param at_border  called when the border has brought its part (grid::BlockGrid::Region)
 template <class Shape, class What>
-void scatter_all(const What& what, grid::BlockGrid& grid, const std::function<void()>& at_border = {}) {
+void scatter_all(const What& what, grid::BlockGrid& grid, double slope_smoothing,
+                 const std::function<void()>& at_border = {}) {
   const auto scatter = [&](std::size_t slot) {
     grid.progress();
     if (grid.members(What::kind, slot).empty()) return;
-    with_kernels<Shape>([&]<class Kernels>(Kernels) { Kernels::template scatter<Shape>(what, grid, slot); });
+    with_kernels<Shape>(
+        [&]<class Kernels>(Kernels) { Kernels::template scatter<Shape>(what, grid, slot, slope_smoothing); });
   };
   grid.for_each_apart(grid::BlockGrid::Region::border, scatter);
   if (at_border) at_border();
@@ -119,12 +121,13 @@ void scatter_all(const What& what, grid::BlockGrid& grid, const std::function<vo
 
 }  // namespace
 
-void particles_to_grid(ShapeFunction shape, const Particles& particles, grid::BlockGrid& grid,
+void particles_to_grid(const ShapeFunctions& functions, const Particles& particles, grid::BlockGrid& grid,
                        std::span<const Vector3> acceleration, const std::function<void()>& at_border) {
   grid.clear();
-  with_shape(shape, [&]<class Shape>(Shape) {
+  with_shape(functions.kind, [&]<class Shape>(Shape) {
     const bool rings = grid.geometry().is_axisymmetric();
-    scatter_all<Shape>(Everything<Planar<Shape>>{{particles}, acceleration, rings}, grid, at_border);
+    scatter_all<Shape>(Everything<Planar<Shape>>{{particles}, acceleration, rings}, grid,
+                       functions.slope_smoothing, at_border);
   });
 }
 
@@ -139,7 +142,8 @@ double hoop_force(const Particles& particles, const grid::BlockGrid& grid) {
 
 void nodes_to_grid(ShapeFunction shape, const TransitionNodes& nodes, grid::BlockGrid& grid) {
   with_shape(shape, [&]<class Shape>(Shape) {
-    if constexpr (CarriesAffineField<Shape> && !Planar<Shape>) scatter_all<Shape>(OfNodes{nodes}, grid);
+    if constexpr (CarriesAffineField<Shape> && !Planar<Shape>)
+      scatter_all<Shape>(OfNodes{nodes}, grid, no_slopes);
   });
 }
 
@@ -148,7 +152,7 @@ void momentum_to_grid(ShapeFunction shape, const Particles& particles, std::span
   const std::span<grid::Node> nodes = grid.all_nodes();
   parallel::for_each(nodes.size(), [&](std::size_t i) { nodes[i].sums.mass_and_momentum = broadcast(0.0); });
   with_shape(shape, [&]<class Shape>(Shape) {
-    scatter_all<Shape>(Momentum{{particles}, velocity}, grid, at_border);
+    scatter_all<Shape>(Momentum{{particles}, velocity}, grid, no_slopes, at_border);
   });
 }
 

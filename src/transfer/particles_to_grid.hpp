@@ -15,7 +15,7 @@ namespace whipple::transfer {
 /// result is bitwise independent of the number of threads.
 /// @param acceleration by external forces (m/s^2), one per particle; empty: none
 /// @param at_border    called when what other ranks wait for is complete (grid::BlockGrid::Region)
-void particles_to_grid(ShapeFunction shape, const Particles& particles, grid::BlockGrid& grid,
+void particles_to_grid(const ShapeFunctions& functions, const Particles& particles, grid::BlockGrid& grid,
                        std::span<const Vector3> acceleration = {},
                        const std::function<void()>& at_border = {});
 

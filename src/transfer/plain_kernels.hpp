@@ -22,35 +22,35 @@ inline std::array<Lanes, 3> columns(const Matrix3& m) {
   return {lanes(m.col(0)), lanes(m.col(1)), lanes(m.col(2))};
 }
 
-/// Shape function N of a node at a point, its gradient (1/m) and the vector r from the point to the node (m).
+/// Shape function N of a node at a point, its slopes S (1/m) and the vector r from the point to the node (m).
 struct AtNode {
   double n;
   Vector3 gradient, r;
 };
 
-/// Returns N, dN/dx and r of the nodes that a point reaches along a direction.
+/// Returns N, S and r of the nodes that a point reaches along a direction.
 template <class Shape, class Points>
 AxisWeights<Shape::count> along_axis(const Points& points, std::size_t p, const grid::PlaceInStencil& place,
-                                     std::size_t direction, double cell_size) {
+                                     std::size_t direction, const Cells& cells) {
   if constexpr (Planar<Shape>) {
     if (direction == 2) return {.weight = {1.0}, .derivative = {}, .distance = {}};
   }
   const double from_first = place.from_first(direction);
   if constexpr (Sized<Shape>) {
-    const Vector3 h = half_sizes(points.extent[p], cell_size);
-    return Shape::weights(from_first, h[static_cast<Eigen::Index>(direction)], cell_size);
+    const Vector3 h = half_sizes(points.extent[p], cells.size);
+    return Shape::weights(from_first, h[static_cast<Eigen::Index>(direction)], cells);
   } else {
-    return Shape::weights(from_first, cell_size);
+    return Shape::weights(from_first, cells.along(direction));
   }
 }
 
 /// Calls f(node, AtNode) for the nodes of a point.
 template <class Shape, class Points, class Function>
-void for_each_node(const Points& points, std::size_t p, const grid::PlaceInStencil& place, double cell_size,
+void for_each_node(const Points& points, std::size_t p, const grid::PlaceInStencil& place, const Cells& cells,
                    narrow::DirectAccess<Shape>& access, Function&& f) {
-  const auto x = along_axis<Shape>(points, p, place, 0, cell_size);
-  const auto y = along_axis<Shape>(points, p, place, 1, cell_size);
-  const auto z = along_axis<Shape>(points, p, place, 2, cell_size);
+  const auto x = along_axis<Shape>(points, p, place, 0, cells);
+  const auto y = along_axis<Shape>(points, p, place, 1, cells);
+  const auto z = along_axis<Shape>(points, p, place, 2, cells);
   const auto nodes = access.stencil(place.first_node());
   for (std::size_t i = 0; i < Shape::count; ++i) {
     for (std::size_t j = 0; j < Shape::count; ++j) {
@@ -169,30 +169,30 @@ struct Kernels {
 
   template <class Shape, class Sums, class Points, class Take>
   static void gather(const Points& points, grid::BlockGrid& grid, grid::BlockGrid::Points kind,
-                     std::size_t slot, const Sums& sums, const Take& take) {
+                     std::size_t slot, double slope_smoothing, const Sums& sums, const Take& take) {
     const std::span<const grid::PlaceInStencil> places = grid.places(kind);
     const std::uint32_t* const list = grid.members(kind, slot).data();
-    const double cell_size = grid.cell_size(slot);
+    const Cells cells(grid, slot, slope_smoothing);
     grid.for_each_field(kind, slot, [&](std::span<const std::uint32_t> members, unsigned field) {
       narrow::DirectAccess<Shape> access(grid, slot, field);
       for (const std::uint32_t& p : members) {
         take(static_cast<std::size_t>(&p - list), p,
-             sums.template of<Shape>(points, p, cell_size, [&](auto&& f) {
-               for_each_node<Shape>(points, p, places[p], cell_size, access, f);
+             sums.template of<Shape>(points, p, cells.size, [&](auto&& f) {
+               for_each_node<Shape>(points, p, places[p], cells, access, f);
              }));
       }
     });
   }
 
   template <class Shape, class What>
-  static void scatter(const What& what, grid::BlockGrid& grid, std::size_t slot) {
+  static void scatter(const What& what, grid::BlockGrid& grid, std::size_t slot, double slope_smoothing) {
     const std::span<const grid::PlaceInStencil> places = grid.places(What::kind);
-    const double cell_size = grid.cell_size(slot);
+    const Cells cells(grid, slot, slope_smoothing);
     grid.for_each_field(What::kind, slot, [&](std::span<const std::uint32_t> members, unsigned field) {
       narrow::DirectAccess<Shape> access(grid, slot, field);
       for (const std::uint32_t p : members) {
         const auto load = what.template load<CarriesAffineField<Shape>>(p);
-        for_each_node<Shape>(what.points, p, places[p], cell_size, access,
+        for_each_node<Shape>(what.points, p, places[p], cells, access,
                              [&](grid::Node& node, const AtNode& at) { add(load, at, node); });
       }
     });

@@ -32,6 +32,15 @@ constexpr std::array<Word<ShapeFunction>, 5> words(ShapeFunction) {
            {ShapeFunction::linear, "linear"}}};
 }
 
+/// Shape functions of the transfers of momentum: their kind, and how smooth the slopes of quadratic ones are.
+struct ShapeFunctions {
+  // NOLINTNEXTLINE(google-explicit-constructor): a kind alone has the derivatives of N as slopes
+  constexpr ShapeFunctions(ShapeFunction of_kind, double smoothing = 0.0)
+      : kind(of_kind), slope_smoothing(smoothing) {}
+  ShapeFunction kind;
+  double slope_smoothing;  ///< a1 of quadratic B-splines (docs/theory/mpm.md, 2.9); 0: the derivatives of N
+};
+
 /// The kind that reaches nodes of the plane z = lower only.
 constexpr ShapeFunction in_plane(ShapeFunction kind) {
   constexpr auto first = static_cast<std::uint8_t>(ShapeFunction::planar_linear);

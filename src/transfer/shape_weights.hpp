@@ -47,14 +47,14 @@ template <int Count>
 template <class Shape, class Points>
 [[gnu::always_inline]] inline Weights<Shape::count> weights_at(const Points& points, std::size_t p,
                                                                const grid::PlaceInStencil& place,
-                                                               double cell_size) {
+                                                               const Cells& cells) {
   const Lanes from_first = place.from_first();
   if constexpr (Sized<Shape>) {
-    const Vector3 h = half_sizes(points.extent[p], cell_size);
+    const Vector3 h = half_sizes(points.extent[p], cells.size);
     Weights<Shape::count> all{};
     all.first_node = place.first_node();
     for (int a = 0; a < 3; ++a) {
-      const AxisWeights<Shape::count> axis = Shape::weights(from_first[a], h[a], cell_size);
+      const AxisWeights<Shape::count> axis = Shape::weights(from_first[a], h[a], cells);
       for (std::size_t i = 0; i < Shape::count; ++i) {
         all.weight[i][a] = axis.weight[i];
         all.derivative[i][a] = axis.derivative[i];
@@ -64,11 +64,11 @@ template <class Shape, class Points>
     if constexpr (Planar<Shape>) set_flat(all);
     return all;
   } else if constexpr (Planar<Shape>) {
-    Weights<Shape::count> all{Shape::weights(from_first, cell_size), place.first_node()};
+    Weights<Shape::count> all{Shape::weights(from_first, cells), place.first_node()};
     set_flat(all);
     return all;
   } else {
-    return {Shape::weights(from_first, cell_size), place.first_node()};
+    return {Shape::weights(from_first, cells), place.first_node()};
   }
 }
 

@@ -5,8 +5,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 
 #include "src/core/base/error.hpp"
+#include "src/core/base/simd.hpp"
 #include "src/grid/block_grid.hpp"
 #include "src/transfer/shape_kind.hpp"
 
@@ -14,13 +16,43 @@
 /// product of three of them. Equations: docs/theory/mpm.md, section 2.
 namespace whipple::transfer {
 
-/// Weights, derivatives and distances of the nodes that a particle reaches along one direction, from its
+/// Cells of the grid as the shape functions see them.
+struct Cells {
+  // NOLINTNEXTLINE(google-explicit-constructor): a size alone has the derivatives of N as slopes
+  constexpr Cells(double edge, double smoothing = 0.0)
+      : size(edge), slope_smoothing{smoothing, smoothing, smoothing, smoothing} {}
+  /// Those of a grid. Along the radius of rings the slopes are the derivatives of N: with the hoop terms N/r they keep a
+  /// uniform pressure in equilibrium at the axis.
+  Cells(const grid::BlockGrid& grid, std::size_t slot, double smoothing)
+      : Cells(grid.cell_size(slot), smoothing) {
+    if (grid.geometry().is_axisymmetric()) slope_smoothing[1] = 0.0;
+  }
+  /// Returns the smoothing of a direction, of three directions at once in their lanes.
+  template <class Number>
+  [[nodiscard, gnu::always_inline]] Number smoothing() const {
+    if constexpr (std::is_floating_point_v<Number>) {
+      return slope_smoothing[0];
+    } else {
+      return slope_smoothing;
+    }
+  }
+  /// Returns the cells along one direction.
+  [[nodiscard]] Cells along(std::size_t direction) const { return {size, slope_smoothing[direction]}; }
+
+  double size;            ///< m
+  Lanes slope_smoothing;  ///< of each direction, as of ShapeFunctions
+};
+
+/// In the place of a smoothing, where nothing is weighted with slopes.
+inline constexpr double no_slopes = 0.0;
+
+/// Weights, slopes and distances of the nodes that a particle reaches along one direction, from its
 /// distance to the first of them in cells: `shift` to `shift` + 1 of the stencil.
 /// @tparam Number double, or Lanes for the three directions at once (lane = direction)
 template <int Count, class Number = double>
 struct AxisWeights {
   std::array<Number, Count> weight;      ///< N
-  std::array<Number, Count> derivative;  ///< dN/dx, 1/m
+  std::array<Number, Count> derivative;  ///< S: dN/dx, or its smoother form, 1/m
   std::array<Number, Count> distance;    ///< node position minus particle position, m
 };
 
@@ -31,19 +63,20 @@ struct Linear {
   static constexpr grid::Stencil stencil{.shift = 0.0, .count = count};
 
   template <class Number>
-  static AxisWeights<count, Number> weights(Number f, double cell_size) {
+  static AxisWeights<count, Number> weights(Number f, const Cells& cells) {
     AxisWeights<count, Number> w;
     const Number zero{};
-    const double per_cell = 1.0 / cell_size;
+    const double per_cell = 1.0 / cells.size;
     w.weight = {1.0 - f, f};
     w.derivative = {zero - per_cell, zero + per_cell};
-    w.distance = {-f * cell_size, (1.0 - f) * cell_size};
+    w.distance = {-f * cells.size, (1.0 - f) * cells.size};
     return w;
   }
 };
 
 /// Quadratic B-splines: three nodes per direction, continuous gradients (Steffen, Kirby & Berzins, IJNME 76
-/// (2008) 922). Sum of N r r^T is dx^2/4 everywhere, which the affine transfer relies on.
+/// (2008) 922). Sum of N r r^T is dx^2/4 everywhere, which the affine transfer relies on. Slopes may be smoother than
+/// the derivatives of N (2.9).
 struct QuadraticBSpline {
   static constexpr auto kind = ShapeFunction::quadratic_bspline;
   static constexpr int count = 3;
@@ -52,12 +85,13 @@ struct QuadraticBSpline {
   static constexpr double second_moment = 1.0 / 4.0;
 
   template <class Number>
-  static AxisWeights<count, Number> weights(Number g, double cell_size) {
+  [[gnu::always_inline]] static AxisWeights<count, Number> weights(Number g, const Cells& cells) {
     AxisWeights<count, Number> w;
-    const double per_cell = 1.0 / cell_size;
+    const double per_cell = 1.0 / cells.size;
+    const Number y = g - 1.0, slope = y + (cells.smoothing<Number>() * y) * (0.25 - y * y);
     w.weight = {0.5 * (1.5 - g) * (1.5 - g), 0.75 - (g - 1.0) * (g - 1.0), 0.5 * (g - 0.5) * (g - 0.5)};
-    w.derivative = {(g - 1.5) * per_cell, (g - 1.0) * (-2.0 * per_cell), (g - 0.5) * per_cell};
-    w.distance = {-g * cell_size, (1.0 - g) * cell_size, (2.0 - g) * cell_size};
+    w.derivative = {(slope - 0.5) * per_cell, slope * (-2.0 * per_cell), (slope + 0.5) * per_cell};
+    w.distance = {-g * cells.size, (1.0 - g) * cells.size, (2.0 - g) * cells.size};
     return w;
   }
 };
@@ -71,15 +105,15 @@ struct CubicBSpline {
   static constexpr double second_moment = 1.0 / 3.0;
 
   template <class Number>
-  static AxisWeights<count, Number> weights(Number from_first, double cell_size) {
+  static AxisWeights<count, Number> weights(Number from_first, const Cells& cells) {
     AxisWeights<count, Number> w;
     const Number f = from_first - 1.0, b = 1.0 - f;
-    const double per_cell = 1.0 / cell_size;
+    const double per_cell = 1.0 / cells.size;
     w.weight = {b * b * b / 6.0, 2.0 / 3.0 - f * f * (1.0 - 0.5 * f), 2.0 / 3.0 - b * b * (1.0 - 0.5 * b),
                 f * f * f / 6.0};
     w.derivative = {-0.5 * b * b * per_cell, f * (1.5 * f - 2.0) * per_cell, -b * (1.5 * b - 2.0) * per_cell,
                     0.5 * f * f * per_cell};
-    w.distance = {-(1.0 + f) * cell_size, -f * cell_size, b * cell_size, (1.0 + b) * cell_size};
+    w.distance = {-(1.0 + f) * cells.size, -f * cells.size, b * cells.size, (1.0 + b) * cells.size};
     return w;
   }
 };
@@ -116,8 +150,8 @@ struct Gimp {
   static constexpr grid::Stencil stencil{.shift = 0.5, .count = count};
   static constexpr double largest_half_size = 0.5;
 
-  static AxisWeights<count> weights(double from_first, double half_size, double cell_size) {
-    return averaged_linear_weights<count>(from_first, half_size, cell_size);
+  static AxisWeights<count> weights(double from_first, double half_size, const Cells& cells) {
+    return averaged_linear_weights<count>(from_first, half_size, cells.size);
   }
 };
 
@@ -130,8 +164,8 @@ struct ConvectedGimp {
   static constexpr grid::Stencil stencil{.shift = 1.0, .count = count};
   static constexpr double largest_half_size = 1.0;
 
-  static AxisWeights<count> weights(double from_first, double half_size, double cell_size) {
-    return averaged_linear_weights<count>(from_first, std::min(half_size, largest_half_size), cell_size);
+  static AxisWeights<count> weights(double from_first, double half_size, const Cells& cells) {
+    return averaged_linear_weights<count>(from_first, std::min(half_size, largest_half_size), cells.size);
   }
 };
 

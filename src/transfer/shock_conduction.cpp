@@ -149,7 +149,7 @@ double conduct_in_shocks(ShapeFunction shape, Particles& particles, BlockGrid& g
     grid.for_each_apart([&](std::size_t slot) {
       if (taking_part[slot] == 0 || grid.particles_in(slot).empty()) return;
       with_kernels<Shape>([&]<class Kernels>(Kernels) {
-        Kernels::template scatter<Shape>(Capacity{particles, exchange}, grid, slot);
+        Kernels::template scatter<Shape>(Capacity{particles, exchange}, grid, slot, no_slopes);
       });
     });
     scalars::fold_and_sum(grid, false);
@@ -175,8 +175,8 @@ double conduct_in_shocks(ShapeFunction shape, Particles& particles, BlockGrid& g
           particles.specific_internal_energy[p] += gain;
           sum += particles.mass[p] * std::max(gain, 0.0);
         };
-        Kernels::template gather<Shape>(particles, grid, Capacity::kind, slot, typename Kernels::First{},
-                                        take);
+        Kernels::template gather<Shape>(particles, grid, Capacity::kind, slot, no_slopes,
+                                        typename Kernels::First{}, take);
       });
       taken_up[slot] = sum;
     });

@@ -41,7 +41,7 @@ void nodes_to_grid(ShapeFunction shape, const TransitionNodes& nodes, grid::Bloc
 /// equations 4.3 to 4.5, 4.8; docs/theory/afemp.md, 2), and what their elements need of the grid. B-splines
 /// only.
 /// @param affine as of `grid_to_particles`
-void grid_to_nodes(ShapeFunction shape, TransitionNodes& nodes, grid::BlockGrid& grid, double dt,
+void grid_to_nodes(const ShapeFunctions& functions, TransitionNodes& nodes, grid::BlockGrid& grid, double dt,
                    AffineField affine);
 
 }  // namespace whipple::transfer

@@ -77,12 +77,12 @@ void fill(std::string& html, std::string_view mark, std::string_view text) {
 
 /// The page but for its clouds.
 std::string empty_page(const analysis::Run& run, const fs::path& viewer) {
-  std::string html = io::read_text(viewer / "page.html");
+  std::string html = read_text(viewer / "page.html");
   const std::string script = joined_modules(viewer / "main.js");
   if (script.find("</script") != std::string::npos)
     throw InternalError("the viewer's modules end their own script");
   fill(html, "@TITLE@", escaped(run.title.empty() ? run.folder.filename().string() : run.title));
-  fill(html, "@STYLE@", io::read_text(viewer / "style.css"));
+  fill(html, "@STYLE@", read_text(viewer / "style.css"));
   fill(html, "@SCRIPT@", script);
   return html;
 }
@@ -90,7 +90,7 @@ std::string empty_page(const analysis::Run& run, const fs::path& viewer) {
 void append_module(const fs::path& file, std::set<fs::path>& done, std::string& script) {
   if (!done.insert(file).second) return;
   static const std::regex import_line(R"(import \{[^}]*\} from '\./([a-z_]+\.js)';)");
-  std::istringstream lines(io::read_text(file));
+  std::istringstream lines(read_text(file));
   std::string own;
   for (std::string line; std::getline(lines, line);) {
     std::smatch found;

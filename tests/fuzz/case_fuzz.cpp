@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <random>
 #include <string>
 #include <vector>
@@ -146,7 +145,7 @@ TEST(CaseFuzz, IsReadOrRefusedAndRunsOrEndsWithAStateError) {
   int run = 0;
   const fuzz::Outcomes outcomes = fuzz::try_inputs("case", 120, [&](fuzz::Random& random) {
     const fs::path& file = files[fuzz::any(random, files.size())];  // materials are looked up beside it
-    const cases::Case setup = cases::read_case_text(Mutator(random())(io::read_text(file)), file.string());
+    const cases::Case setup = cases::read_case_text(Mutator(random())(read_text(file)), file.string());
     if (cases::expected_memory(setup) >= small) return;
     solver::Simulation simulation(setup, parallel::world());
     for (int step = 0; step < 2 && simulation.state().time < setup.time.end; ++step) {
@@ -169,7 +168,7 @@ TEST_F(MaterialFuzz, IsReadOrRefusedAndHasStates) {
   const fs::path file = folder_ / "material.toml";
   fuzz::try_inputs("material", 100, [&](fuzz::Random& random) {
     const fs::path& from = files[fuzz::any(random, files.size())];
-    std::ofstream(file, std::ios::binary) << Mutator(random())(io::read_text(from));
+    std::ofstream(file, std::ios::binary) << Mutator(random())(read_text(from));
     const Material material = read_material(file, from.parent_path());
     require_usable(material);
     const eos::EquationOfState& eos = *material.eos;

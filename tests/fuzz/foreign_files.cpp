@@ -3,7 +3,6 @@
 // no crash, no hang, no memory for what a file only declares (tests/fuzz/trials.hpp).
 #include <gmock/gmock.h>
 
-#include <fstream>
 #include <functional>
 
 #include "eos/experiments/comparison.hpp"
@@ -12,6 +11,7 @@
 #include "src/analysis/run.hpp"
 #include "src/case/case.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/hdf5/hdf5.hpp"
 #include "src/decks/import.hpp"
@@ -48,7 +48,7 @@ class ForeignFiles : public FolderTest {
   /// Reads changed copies of a sound file. It must be right often enough to reach what lies behind its first line.
   static void try_all(const char* kind, const fs::path& path, const Change& change,
                       const std::function<void()>& read) {
-    const std::string whole = io::read_text(path);
+    const std::string whole = read_text(path);
     read();
     fuzz::try_inputs(kind, 40, [&](Random& random) {
       std::ofstream(path, std::ios::binary) << change(whole, random);
@@ -84,7 +84,7 @@ TEST_F(ForeignFiles, CheckpointsThatWereSealedAgain) {
     const std::string bytes = whole.substr(0, io::seal_size) + damaged(whole.substr(io::seal_size), random);
     std::ofstream(path, std::ios::binary) << bytes;
     io::seal(path);
-    return io::read_text(path);
+    return read_text(path);
   };
   try_all("checkpoint", path, sealed, [&] {
     const io::Checkpoint checkpoint = io::read_checkpoint(path, MPI_COMM_SELF);
@@ -112,7 +112,7 @@ TEST_F(ForeignFiles, Snapshots) {
   // Each array shorter than the others.
   for (const std::string name : {"Points", "PointData/velocity", "PointData/mass", "PointData/body",
                                  "PointData/pressure", "PointData/phase"}) {
-    const std::string whole = io::read_text(path);
+    const std::string whole = read_text(path);
     hdf5::File file = hdf5::File::open(path, hdf5::File::Access::modify);
     {
       const hdf5::Group vtk = file.root.open_group("VTKHDF");

@@ -77,10 +77,10 @@ Sums sums(const fem::Mesh& mesh, const Particles& q) {
 
 enum class Field { strain, rotation, shock, random };
 
-class Conserves : public testing::TestWithParam<std::tuple<fem::Quadrature, Field, double>> {};
+class Conserves : public testing::TestWithParam<std::tuple<fem::Quadrature, Field, double, Arrangement>> {};
 
 TEST_P(Conserves, MassMomentumAngularMomentumAndEnergy) {
-  const auto [quadrature, field, distortion] = GetParam();
+  const auto [quadrature, field, distortion, arrangement] = GetParam();
   fem::Mesh mesh = random_mesh(quadrature, dx, distortion, 5);
   std::mt19937 random(9);
   std::normal_distribution<double> normal;
@@ -106,7 +106,7 @@ TEST_P(Conserves, MassMomentumAngularMomentumAndEnergy) {
     for (std::size_t e = 0; e < chosen.size(); ++e) m += chosen[e] ? fem::mass(mesh, e) : 0.0;
     return m;
   }();
-  const ConversionBalance balance = convert_elements(mesh, chosen, inertia, particles);
+  const ConversionBalance balance = convert_elements(mesh, chosen, inertia, particles, arrangement);
   const Sums after = sums(mesh, particles);
 
   EXPECT_EQ(balance.elements, count);
@@ -135,7 +135,8 @@ INSTANTIATE_TEST_SUITE_P(Motions, Conserves,
                          testing::Combine(testing::Values(fem::Quadrature::one_point, fem::Quadrature::b_bar),
                                           testing::Values(Field::strain, Field::rotation, Field::shock,
                                                           Field::random),
-                                          testing::Values(0.0, 0.15)));
+                                          testing::Values(0.0, 0.15),
+                                          testing::Values(Arrangement::regular, Arrangement::layered)));
 
 // In a linear field particles in a cube of one cell take C = 3/4 of the gradient, and 3/64 h^2 |G|^2 / 2 of
 // kinetic energy per mass becomes heat (docs/theory/afemp.md, 3.7).

@@ -22,7 +22,8 @@ namespace {
 
 struct NodeSums {
   double mass = 0;
-  Vector3 momentum = Vector3::Zero(), force = Vector3::Zero(), angular = Vector3::Zero();
+  Vector3 momentum = Vector3::Zero(), force = Vector3::Zero(), angular = Vector3::Zero(),
+          torque = Vector3::Zero();
 };
 
 NodeSums node_sums(grid::BlockGrid& grid) {
@@ -38,6 +39,7 @@ NodeSums node_sums(grid::BlockGrid& grid) {
       sums.momentum += momentum;
       sums.force += node.sums.force();
       sums.angular += x.cross(momentum);
+      sums.torque += x.cross(node.sums.force());
     }
   }
   return sums;
@@ -52,7 +54,7 @@ TYPED_TEST(Transfer, MassAndMomentumArriveOnTheGridAndForcesSumToZero) {
   const Particles q = random_particles(500, Vector3(-1.2, -0.3, 4), Vector3(8, 6.5, 11.8), 1);
   grid::BlockGrid grid(geometry(), parallel::world());
   bin<TypeParam>(grid, q);
-  particles_to_grid(TypeParam::kind, q, grid);
+  particles_to_grid(smoothed<TypeParam>(), q, grid);
   const NodeSums sums = node_sums(grid);
   double mass = 0;
   Vector3 momentum = Vector3::Zero();
@@ -74,7 +76,7 @@ TYPED_TEST(AffineTransfer, AngularMomentumWithTheAffineFieldsArrivesOnTheGrid) {
   const Particles q = random_particles(500, Vector3(-1.2, -0.3, 4), Vector3(8, 6.5, 11.8), 2);
   grid::BlockGrid grid(geometry(), parallel::world());
   bin<TypeParam>(grid, q);
-  particles_to_grid(TypeParam::kind, q, grid);
+  particles_to_grid(smoothed<TypeParam>(), q, grid);
   Vector3 angular = Vector3::Zero();
   for (std::size_t p = 0; p < q.size(); ++p) {
     const Matrix3& c = q.affine_velocity[p];
@@ -95,12 +97,13 @@ double total_energy(const Particles& q, ShapeFunction shape) {
 }
 
 /// One symplectic transfer cycle; checks the exact identities of section 4 of docs/theory/mpm.md.
-/// @param bonded  as of BlockGrid::bond_at_planes
+/// @param bonded     as of BlockGrid::bond_at_planes
+/// @param smoothing  of the slopes
 /// @returns heat of the contact with images, as a fraction of the energies
 template <class Shape>
 double check_energy_identities(const Relaxation& relaxation, AffineField affine,
                                std::array<grid::Boundary, 6> boundary, const Vector3& lower,
-                               const std::array<std::uint64_t, 6>* bonded = nullptr) {
+                               const std::array<std::uint64_t, 6>* bonded = nullptr, double smoothing = 1.3) {
   Particles q = random_particles(700, lower, Vector3(8, 6.5, 11.8), 3);
   if (affine == AffineField::none) {
     for (Matrix3& c : q.affine_velocity) c.setZero();
@@ -110,7 +113,7 @@ double check_energy_identities(const Relaxation& relaxation, AffineField affine,
   bool meets_images = false;
   for (std::size_t face = 0; face < 6; ++face) meets_images = meets_images || grid.is_apart_at(face);
   bin<Shape>(grid, q);
-  particles_to_grid(Shape::kind, q, grid);
+  particles_to_grid(smoothed<Shape>(smoothing), q, grid);
   GridUpdate update;
   constexpr double dt = 0.05;
   update.mirror_contact().find_surfaces(Shape::kind, q, {}, grid, dt);
@@ -120,7 +123,8 @@ double check_energy_identities(const Relaxation& relaxation, AffineField affine,
   const GridBalance balance = update.advance(grid, dt, relaxation);
   std::vector<Matrix3> gradient(q.size());
   const std::vector<double> energy = q.specific_internal_energy;
-  const TransferBalance transfer = grid_to_particles(Shape::kind, q, grid, dt, affine, {}, into(gradient));
+  const TransferBalance transfer =
+      grid_to_particles(smoothed<Shape>(smoothing), q, grid, dt, affine, {}, into(gradient));
   for (std::size_t p = 0; p < q.size(); ++p) momentum_after += q.mass[p] * q.velocity[p];
 
   const double scale = std::abs(before) + balance.kinetic_energy_before;
@@ -145,6 +149,25 @@ TYPED_TEST(Transfer, EnergyAndMomentumAreExactForEveryMemberOfTheFamily) {
       if (affine != none && !CarriesAffineField<TypeParam>) continue;
       check_energy_identities<TypeParam>(relaxation, affine, {}, Vector3(-1.2, -0.3, 4));
     }
+  }
+}
+
+// Force and work with the same slopes, whatever these are; so does the torque of a force that is symmetric.
+TEST(SmoothSlopes, KeepEnergyMomentumAndAngularMomentumForAnySmoothing) {
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> any(0.0, 2.0);
+  const Particles q = random_particles(500, Vector3(-1.2, -0.3, 4), Vector3(8, 6.5, 11.8), 1);
+  for (const double smoothing : {0.0, any(random), any(random), 2.0}) {
+    check_energy_identities<QuadraticBSpline>({}, AffineField::deformed, {}, Vector3(-1.2, -0.3, 4), nullptr,
+                                              smoothing);
+    check_energy_identities<QuadraticBSpline>({}, AffineField::turned, {grid::Boundary::symmetry},
+                                              Vector3(-2, -1, 3), nullptr, smoothing);
+    grid::BlockGrid grid(geometry(), parallel::world());
+    bin<QuadraticBSpline>(grid, q);
+    particles_to_grid(smoothed<QuadraticBSpline>(smoothing), q, grid);
+    const NodeSums sums = node_sums(grid);
+    EXPECT_LT(sums.force.norm(), 1e-10) << smoothing;
+    EXPECT_LT(sums.torque.norm(), 1e-9) << smoothing;
   }
 }
 
@@ -183,14 +206,15 @@ TYPED_TEST(AffineTransfer, NodesMoveLikeParticlesUnderTheSameForce) {
     grid.activate(q.position, q.velocity, 0.0, TypeParam::stencil, count);
     ASSERT_TRUE(grid.bin(particles.position, TypeParam::stencil,
                          guests ? std::span<const Vector3>(guests->position) : std::span<const Vector3>()));
-    particles_to_grid(TypeParam::kind, particles, grid, std::span(acceleration).first(particles.size()));
+    particles_to_grid(smoothed<TypeParam>(), particles, grid,
+                      std::span(acceleration).first(particles.size()));
     if (guests) nodes_to_grid(TypeParam::kind, *guests, grid);
     GridUpdate update;
     update.advance(grid, dt, {.kappa = 0.7});
     std::vector<Matrix3> gradient(particles.size());
-    grid_to_particles(TypeParam::kind, particles, grid, dt, AffineField::deformed, {}, into(gradient),
+    grid_to_particles(smoothed<TypeParam>(), particles, grid, dt, AffineField::deformed, {}, into(gradient),
                       std::span(acceleration).first(particles.size()));
-    if (guests) grid_to_nodes(TypeParam::kind, *guests, grid, dt, AffineField::deformed);
+    if (guests) grid_to_nodes(smoothed<TypeParam>(), *guests, grid, dt, AffineField::deformed);
   };
   step(q, nullptr);
   step(alone, &nodes);
@@ -278,9 +302,9 @@ TYPED_TEST(Transfer, MirrorPlaneEqualsATransferOfRealImages) {
   std::vector<Matrix3> half_gradient(half.size()), full_gradient(full.size());
   const auto cycle = [&](Particles& q, grid::BlockGrid& g, std::vector<Matrix3>& gradient) {
     bin<TypeParam>(g, q);
-    particles_to_grid(TypeParam::kind, q, g);
+    particles_to_grid(smoothed<TypeParam>(), q, g);
     GridUpdate().advance(g, dt, {});
-    grid_to_particles(TypeParam::kind, q, g, dt, carried, {}, into(gradient));
+    grid_to_particles(smoothed<TypeParam>(), q, g, dt, carried, {}, into(gradient));
   };
   cycle(half, grid, half_gradient);
   cycle(full, full_grid, full_gradient);
@@ -339,9 +363,9 @@ TYPED_TEST(Transfer, PlanesOneCellApartEqualRealImages) {
   std::vector<Matrix3> gradient(thin.size()), full_gradient(full.size());
   const auto cycle = [&](Particles& q, grid::BlockGrid& g, std::vector<Matrix3>& l) {
     bin<TypeParam>(g, q);
-    particles_to_grid(TypeParam::kind, q, g);
+    particles_to_grid(smoothed<TypeParam>(), q, g);
     const GridBalance balance = GridUpdate().advance(g, dt, {});
-    grid_to_particles(TypeParam::kind, q, g, dt, carried, {}, into(l));
+    grid_to_particles(smoothed<TypeParam>(), q, g, dt, carried, {}, into(l));
     return balance;
   };
   const GridBalance balance = cycle(thin, grid, gradient);
@@ -401,9 +425,9 @@ TYPED_TEST(Transfer, IsGalileanInvariant) {
   const auto cycle = [](Particles& q, std::vector<Matrix3>& gradient) {
     grid::BlockGrid grid(geometry(), parallel::world());
     bin<TypeParam>(grid, q);
-    particles_to_grid(TypeParam::kind, q, grid);
+    particles_to_grid(smoothed<TypeParam>(), q, grid);
     GridUpdate().advance(grid, 0.02, {});
-    return grid_to_particles(TypeParam::kind, q, grid, 0.02, carried, {}, into(gradient));
+    return grid_to_particles(smoothed<TypeParam>(), q, grid, 0.02, carried, {}, into(gradient));
   };
   const TransferBalance b1 = cycle(at_rest, g1);
   const TransferBalance b2 = cycle(moving, g2);

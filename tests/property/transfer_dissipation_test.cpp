@@ -162,6 +162,30 @@ TEST(Losses, InTightMatterHeatAsFarAsTheViscosityThatHeatsDoesWork) {
   EXPECT_EQ(opening.kept, 30.0);
 }
 
+// The losses of a steady shock come in steps in which its viscosity rests: its work counts for a while.
+TEST(Losses, TakeWhatEarlierViscosityAllowedUntilItIsUsedUpOrForgotten) {
+  Losses with_memory = losses;
+  with_memory.allowance_length = 4.0;  // m
+  Particles q = one_particle(1100.0, 1e9);
+  q.sound_speed[0] = 200.0;
+  const Booking shock = book_losses(with_memory, q, 0, 0.5, 0.0, 80.0, -5.0, 0.01);
+  EXPECT_DOUBLE_EQ(shock.heat, 0.5);
+  EXPECT_DOUBLE_EQ(shock.allowance, 1.5);
+  q.heat_allowance[0] = shock.allowance;
+  const double kept = std::exp(-200.0 * 0.01 / 4.0);
+  const Booking rest = book_losses(with_memory, q, 0, 0.5, 0.0, 0.0, -5.0, 0.01);
+  EXPECT_DOUBLE_EQ(rest.heat, 0.5);
+  EXPECT_DOUBLE_EQ(rest.allowance, 1.5 * kept - 0.5);
+  EXPECT_EQ(rest.kept, 0.0);
+  const Booking too_much = book_losses(with_memory, q, 0, 30.0, 0.0, 0.0, -5.0, 0.01);
+  EXPECT_DOUBLE_EQ(too_much.heat, 1.5 * kept);
+  EXPECT_EQ(too_much.allowance, 0.0);
+  const Booking without = book_losses(losses, q, 0, 0.5, 0.0, 0.0, -5.0, 0.01);
+  EXPECT_EQ(without.heat, 0.0);
+  q.pressure[0] = -1e6;  // gaps that close have none
+  EXPECT_EQ(book_losses(with_memory, q, 0, 0.5, 0.0, 80.0, -5.0, 0.01).allowance, 0.0);
+}
+
 TEST(Losses, WhereGapsCloseAllHeatsAndTheStoreReturnsWithTheVolume) {
   for (const bool thin : {true, false}) {
     Particles q = one_particle(thin ? 900.0 : 1100.0, thin ? 1e9 : -1e6);

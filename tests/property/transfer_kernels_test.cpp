@@ -30,7 +30,7 @@ TYPED_TEST(TransferKernels, GradientsComeOnceEachAndRight) {
   grid::BlockGrid grid(geometry(), parallel::world());
   bin<TypeParam>(grid, q);
   const Matrix3 field{{0.3, -1.0, 0.2}, {0.7, 0.1, -0.4}, {-0.6, 0.5, 0.9}};
-  particles_to_grid(TypeParam::kind, q, grid);  // for the masses
+  particles_to_grid(smoothed<TypeParam>(), q, grid);  // for the masses
   GridUpdate().advance(grid, 0.0, {});
   for (std::size_t s = 0; s < grid.slots(); ++s) {
     for (int i = 0; i < grid::nodes_per_block; ++i) {
@@ -54,12 +54,12 @@ TYPED_TEST(TransferKernels, GradientsComeOnceEachAndRight) {
     }
     return 0.0;
   };
-  gather_velocity_gradient(TypeParam::kind, q, grid, take);
+  gather_velocity_gradient(smoothed<TypeParam>(), q, grid, take);
   EXPECT_TRUE(std::ranges::all_of(taken, [](int times) { return times == 1; }));
   EXPECT_GT(stretches, 3U);
   EXPECT_LT(worst, 1e-12);
 
-  const TransferBalance flip = update_velocity(TypeParam::kind, q, grid, 0.05, 0.0, take);
+  const TransferBalance flip = update_velocity(smoothed<TypeParam>(), q, grid, 0.05, 0.0, take);
   EXPECT_TRUE(std::ranges::all_of(taken, [](int times) { return times == 2; }));
   EXPECT_LT(worst, 1e-12);
   EXPECT_NEAR(flip.squared_change, 9.0, 1e-11);
@@ -100,24 +100,25 @@ std::vector<double> numbers_after_all_transfers(KernelSet set, AffineField affin
     }
   };
   const auto advance = [&] {
-    particles_to_grid(Shape::kind, q, grid);
+    particles_to_grid(smoothed<Shape>(), q, grid);
     if (nodes.size() > 0) nodes_to_grid(Shape::kind, nodes, grid);
     take(grid.all_nodes());
     GridUpdate().advance(grid, dt, {.kappa = 0.7});
   };
   std::vector<Matrix3> gradient(q.size());
   advance();
-  take(std::array{update_velocity(Shape::kind, q, grid, dt, 0.1, into(gradient)).external_work});
+  take(std::array{update_velocity(smoothed<Shape>(), q, grid, dt, 0.1, into(gradient)).external_work});
   momentum_to_grid(Shape::kind, q, q.velocity, grid);
   take(grid.all_nodes());
-  gather_velocity_gradient(Shape::kind, q, grid, into(gradient));
+  gather_velocity_gradient(smoothed<Shape>(), q, grid, into(gradient));
   take(gradient);
   std::vector<Vector3> at_particles(q.size());
   gather_velocity(Shape::kind, q, grid, at_particles);
   take(at_particles);
   advance();
-  const TransferBalance balance = grid_to_particles(
-      Shape::kind, q, grid, dt, CarriesAffineField<Shape> ? affine : AffineField::none, {}, into(gradient));
+  const TransferBalance balance =
+      grid_to_particles(smoothed<Shape>(), q, grid, dt,
+                        CarriesAffineField<Shape> ? affine : AffineField::none, {}, into(gradient));
   take(std::array{balance.work, balance.heat});
   take(gradient);
   take(q.position);
@@ -125,7 +126,7 @@ std::vector<double> numbers_after_all_transfers(KernelSet set, AffineField affin
   take(q.affine_velocity);
   take(q.specific_internal_energy);
   if (nodes.size() > 0) {
-    grid_to_nodes(Shape::kind, nodes, grid, dt, affine);
+    grid_to_nodes(smoothed<Shape>(), nodes, grid, dt, affine);
     take(nodes.velocity);
     take(nodes.affine_velocity);
     take(nodes.new_velocity);

@@ -69,6 +69,36 @@ TYPED_TEST(ShapeFunctions, ShapeFunctionsArePartitionsOfUnityWithConsistentGradi
   }
 }
 
+// The slopes of quadratic functions (docs/theory/mpm.md, 2.8), whatever the smoothing.
+TEST(SmoothSlopes, AreThoseOfLinearFieldsAndMeetFromCellToCell) {
+  for (const double a1 : {0.0, 0.7, 1.5, 2.0}) {
+    for (double g = 0.5; g <= 1.5; g += 0.0137) {
+      const double y = g - 1.0, w = y + a1 * y * (0.25 - y * y);
+      const auto at = QuadraticBSpline::weights(g, {dx, a1});
+      EXPECT_NEAR(at.derivative[0], (w - 0.5) / dx, 1e-14);
+      EXPECT_NEAR(at.derivative[1], -2.0 * w / dx, 1e-14);
+      EXPECT_NEAR(at.derivative[2], (w + 0.5) / dx, 1e-14);
+      double sum = 0.0, linear = 0.0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        sum += at.derivative[i];
+        linear += at.derivative[i] * at.distance[i];
+        const double inertia = QuadraticBSpline::second_moment * dx * dx;
+        if (a1 == 2.0) {  // those of the affine field
+          EXPECT_NEAR(at.derivative[i], at.weight[i] * at.distance[i] / inertia, 1e-13);
+        }
+      }
+      EXPECT_NEAR(sum, 0.0, 1e-14);
+      EXPECT_NEAR(linear, 1.0, 1e-14);
+    }
+    const auto end = QuadraticBSpline::weights(1.5, {dx, a1}),
+               next = QuadraticBSpline::weights(0.5, {dx, a1});
+    EXPECT_NEAR(end.derivative[0], 0.0, 1e-14);
+    EXPECT_NEAR(end.derivative[1], next.derivative[0], 1e-14);
+    EXPECT_NEAR(end.derivative[2], next.derivative[1], 1e-14);
+    EXPECT_NEAR(next.derivative[2], 0.0, 1e-14);
+  }
+}
+
 template <class Shape>
 class SizedFunction : public testing::Test {};
 using SizedShapes = testing::Types<Gimp, ConvectedGimp>;

@@ -27,6 +27,12 @@ inline SymmetricTensor random_stress(std::mt19937& random) {
   return {normal(random), normal(random), normal(random), normal(random), normal(random), normal(random)};
 }
 
+/// Functions of a shape, quadratic ones with slopes smoothed by some share: every identity holds for any.
+template <class Shape>
+ShapeFunctions smoothed(double smoothing = 1.3) {
+  return {Shape::kind, smoothing};
+}
+
 /// Takes gradients into an array with one per particle.
 inline auto into(std::vector<Matrix3>& all) {
   return [&all](std::span<const std::uint32_t> particles, std::span<const Matrix3> gradients) {

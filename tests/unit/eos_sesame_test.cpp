@@ -264,7 +264,7 @@ TEST_F(SesameFiles, that_are_bad_are_refused_with_file_and_line) {
   put(good);
   EXPECT_THAT(refusal(78), AllOf(HasSubstr(file), HasSubstr("holds no material 78; it holds 77")));
   fs::remove(path_);
-  EXPECT_THAT(refusal(), HasSubstr("does not exist"));
+  EXPECT_THAT(refusal(), HasSubstr("there is no such file"));
 }
 
 TEST_F(SesameFiles, of_several_materials_need_a_number) {

@@ -153,7 +153,7 @@ TEST_F(RunDirectoryTest, a_text_is_replaced_as_a_whole) {
   EXPECT_THAT(message_of<InputError>([&] { write_text_atomically(folder_ / "none" / "text", "x"); }),
               HasSubstr((folder_ / "none" / "text").string()));
   EXPECT_THAT(message_of<InputError>([&] { (void)read_text(folder_ / "none"); }),
-              AllOf(HasSubstr((folder_ / "none").string()), HasSubstr("No such file")));
+              AllOf(HasSubstr((folder_ / "none").string()), HasSubstr("no such file")));
 }
 
 }  // namespace

@@ -158,6 +158,22 @@ TEST(PairStyle, ErrorsNameWhatIsAccepted) {
   EXPECT_NE(fault_of({"lj/cut 6.0", {"* * 0.0 2.3"}}, "Cu").find("binds no crystal"), std::string::npos);
 }
 
+TEST(PairStyle, WhatMayRunCodeIsRefused) {
+  for (const PairStyle& pair :
+       {PairStyle{"python 6.0", {"* * evil._Cls Cu"}},
+        PairStyle{"hybrid/overlay eam/alloy python 6.0",
+                  {"* * eam/alloy Cu_zhou.eam.alloy Cu", "* * python a._B Cu"}},
+        PairStyle{"kim EAM_Dynamo_FoilesBaskesDaw_1986universal3_Cu__MO_666348409573_004", {"* * Cu"}}}) {
+    const std::string fault = fault_of(pair, "Cu");
+    EXPECT_NE(fault.find("is refused: it may run code"), std::string::npos) << fault;
+    EXPECT_NE(fault.find("meam/spline"), std::string::npos) << fault;
+  }
+  EXPECT_EQ(fault_of({"hybrid/overlay eam/alloy zbl 1.0 2.0",
+                      {"* * eam/alloy Cu_zhou.eam.alloy Cu", "* * zbl 29 29"}},
+                     "Cu"),
+            "no InputError");
+}
+
 TEST(PairStyle, IsPartOfThePlanAndOfTheKeys) {
   auto document = input::Document::from_text(
       "element = \"Ni\"\npotential = \"mishin_2005\"\npair_style = \"adp\"\npair_coeff = [\"* * Ni.adp "

@@ -68,16 +68,25 @@ def digests_follow_the_files(work):
     stale, older, _ = page.outdated(stored, [run.case])
     require(not stale and older == [("case", "only")], f"{stale}, {older}")
 
-    source = work / "src"
-    source.mkdir()
-    (source / "a.cpp").write_text("int a;")
-    first = provenance.digest_of_sources(work)
-    provenance.digest_of_sources.cache_clear()
-    (source / "note.md").write_text("no code")
-    require(provenance.digest_of_sources(work) == first, "what is no code does not count")
-    provenance.digest_of_sources.cache_clear()
-    (source / "a.cpp").write_text("int b;")
-    require(provenance.digest_of_sources(work) != first, "code counts")
+    def digest():
+        provenance.digest_of_sources.cache_clear()
+        return provenance.digest_of_sources(work)
+
+    solver, page_of_runs = work / "src" / "solver", work / "src" / "monitor"
+    for folder in (solver, page_of_runs):
+        folder.mkdir(parents=True)
+    (solver / "a.cpp").write_text('int a;  // a number\nauto b = "// c";\n')
+    first = digest()
+    (solver / "note.md").write_text("no code")
+    require(digest() == first, "what is no code does not count")
+    (page_of_runs / "a.cpp").write_text("int a;")
+    require(digest() == first, "what computes nothing does not count")
+    (solver / "a.cpp").write_text('/* of a run */ int a;\n\nauto b = "// c";')
+    require(digest() == first, "comments and layout do not count")
+    (solver / "a.cpp").write_text('int a;\nauto b = "// d";')
+    require(digest() != first, "what is no comment counts")
+    (solver / "a.cpp").write_text('int b;\nauto b = "// c";')
+    require(digest() != first, "code counts")
 
 
 def departures_need_a_reason(work):

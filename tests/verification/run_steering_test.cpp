@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/io/run_directory.hpp"
@@ -402,7 +403,7 @@ TEST_F(Steering, TheStatusOfARunThatNoProcessHoldsIsLost) {
   EXPECT_EQ(read.time_left, std::nullopt);
   const auto lock = io::lock_run(temporary_.path());
   EXPECT_EQ(read_status(temporary_.path()).state, Activity::running);
-  const std::string text = io::read_text(temporary_.path() / "status.json");
+  const std::string text = read_text(temporary_.path() / "status.json");
   EXPECT_THAT(text, HasSubstr("\"state\": \"running\""));
   std::ofstream(temporary_.path() / "status.json")
       << std::regex_replace(text, std::regex("running"), "asleep");

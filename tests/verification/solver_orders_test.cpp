@@ -91,8 +91,13 @@ TEST(Order, OfTheParticleUpdateIsOneForPicAndTwoForTheFullMassMatrix) {
   Method fmpm = method("usl", "quadratic_bspline", "fmpm");
   fmpm.fmpm_order = 4;
   EXPECT_NEAR(order(bar, fmpm, 32), 2.0, 0.1);
-  EXPECT_LT(motion_error(bar, fmpm, 64),
-            0.02 * motion_error(bar, method("usl", "quadratic_bspline", "flip"), 64));
+  // On the bar lumped masses make most of the error, which the full matrix takes away; what is left is that of the
+  // slopes, larger where they are smoother than the derivatives of N.
+  const Method flip = method("usl", "quadratic_bspline", "flip");
+  EXPECT_LT(motion_error(bar, fmpm, 64), 0.1 * motion_error(bar, flip, 64));
+  Method with_derivatives = fmpm;
+  with_derivatives.options = "slope_smoothing = 0\n";
+  EXPECT_LT(motion_error(bar, with_derivatives, 64), 0.02 * motion_error(bar, flip, 64));
 }
 
 }  // namespace

@@ -50,6 +50,18 @@ std::optional<Site> partial_site(const Case& setup, const Body& body, const Latt
   return Site{point + center, count / all, SymmetricTensor::from(extent)};
 }
 
+/// Whether the material of a body goes on at a point beside one of it along an axis: beyond a plane with which it is
+/// continuous it does.
+bool goes_on(const Case& setup, const Body& body, const Vector3& point, int axis) {
+  const auto is_continuous = [&](int face) {
+    const grid::Boundary kind = setup.geometry.boundary[static_cast<std::size_t>(face)];
+    return kind == grid::Boundary::symmetry || kind == grid::Boundary::no_slip;
+  };
+  if (point[axis] < setup.geometry.lower[axis]) return is_continuous(2 * axis);
+  if (point[axis] > setup.geometry.upper(axis)) return is_continuous(2 * axis + 1);
+  return setup.holds(body, point);
+}
+
 }  // namespace
 
 bool is_mirror(const Case& setup, int face) {
@@ -106,6 +118,26 @@ Lattice lattice_of(const Case& setup, const Body& body) {
     lattice.spacing[axis] = length / static_cast<double>(n);
   }
   return lattice;
+}
+
+Vector3 place_of_particle(const Case& setup, const Body& body, const Lattice& lattice, const Site& site) {
+  if (body.discretization.lattice == Arrangement::regular || site.fraction < 1.0) return site.position;
+  const bool planar = setup.geometry.is_planar();
+  const int axes = planar ? 2 : 3;
+  std::size_t part = 0;
+  for (int a = 0; a < axes; ++a) {
+    const long i = std::lround((site.position[a] - lattice.lower[a]) / lattice.spacing[a] - 0.5);
+    part += (i % 2 != 0 ? std::size_t{1} : std::size_t{0}) << a;
+  }
+  Vector3 offset = (planar ? planar_layer_offset(part) : layer_offset(part)).cwiseProduct(lattice.spacing);
+  for (int a = 0; a < axes; ++a) {
+    Vector3 step = Vector3::Zero();
+    step[a] = lattice.spacing[a];
+    if (!goes_on(setup, body, site.position - step, a) || !goes_on(setup, body, site.position + step, a)) {
+      offset[a] = 0.0;
+    }
+  }
+  return site.position + offset;
 }
 
 std::optional<Site> site_at(const Case& setup, const Body& body, const Lattice& lattice,

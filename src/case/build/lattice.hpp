@@ -59,6 +59,10 @@ Lattice lattice_of(const Case& setup, const Body& body);
 std::optional<Site> site_at(const Case& setup, const Body& body, const Lattice& lattice,
                             const Vector3& point);
 
+/// Returns the place of the particle of a site: that of the site, or in a layered body beside it, but not across a
+/// face of the body, whose outermost layer stays flat.
+Vector3 place_of_particle(const Case& setup, const Body& body, const Lattice& lattice, const Site& site);
+
 /// Returns whether f(site) holds for some particle of the body inside the domain. Only those in and near a box are tried,
 /// up to the first one.
 template <class Function>

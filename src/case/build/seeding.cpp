@@ -104,8 +104,9 @@ Seeding seed(const Case& setup, int rank, int ranks) {
       particles.id[p] = first_id + number;
       particles.body[p] = static_cast<std::uint32_t>(b);
       particles.mass[p] = mass_of_site * allotment.fraction(site);
-      particles.position[p] = setup.geometry.is_axisymmetric() ? centre_of_mass(site) : site.position;
-      particles.velocity[p] = body.velocity + spin * (site.position - center);
+      const Vector3 place = place_of_particle(setup, body, lattice, site);
+      particles.position[p] = setup.geometry.is_axisymmetric() ? centre_of_mass(site) : place;
+      particles.velocity[p] = body.velocity + spin * (place - center);
       particles.affine_velocity[p] = spin;
       particles.extent[p] = site.extent;
       particles.generation[p] = 0;

@@ -58,6 +58,29 @@ const fs::path& regular_file(const fs::path& path, std::uintmax_t most) {
   return path;
 }
 
+std::string read_text(const fs::path& path, std::uintmax_t most) {
+  const auto refuse = [&](const std::string& why) {
+    throw InputError(fmt::format("{}: error: {}", path.string(), why));
+  };
+  const int file = ::open(regular_file(path, most).c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) {
+    refuse(errno == ENOENT ? "there is no such file"
+                           : fmt::format("cannot open the file: {}", std::strerror(errno)));
+  }
+  std::string text;
+  int error = 0;
+  for (std::string piece(std::size_t{1} << 16, '\0');;) {
+    const ssize_t count = ::read(file, piece.data(), piece.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) error = errno;
+    if (count <= 0) break;
+    text.append(piece, 0, static_cast<std::size_t>(count));
+  }
+  ::close(file);
+  if (error != 0) refuse(fmt::format("cannot read the file: {}", std::strerror(error)));
+  return text;
+}
+
 void require_new_file(const fs::path& path, bool force) {
   if (!path.empty() && fs::exists(path) && !force) {
     throw InputError(fmt::format("'{}' exists; --force overwrites it", path.string()));

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <string>
 #include <string_view>
 
 namespace whipple {
@@ -14,6 +15,12 @@ namespace whipple {
 /// @throws InputError if it is a folder, a device, a pipe, or larger
 const std::filesystem::path& regular_file(const std::filesystem::path& path,
                                           std::uintmax_t most = std::numeric_limits<std::uintmax_t>::max());
+
+/// Reads a whole file. An error of the device is never taken for the end of the file.
+/// @param most bytes
+/// @throws InputError naming the file, the call and the reason of the system; for what `regular_file` refuses
+std::string read_text(const std::filesystem::path& path,
+                      std::uintmax_t most = std::numeric_limits<std::uintmax_t>::max());
 
 /// Nothing is overwritten unless asked for. An empty path (no file wanted) passes.
 /// @throws InputError if the file exists and `force` is not set

@@ -7,7 +7,6 @@
 #include <array>
 #include <bit>
 #include <charconv>
-#include <fstream>
 #include <iterator>
 
 #include "src/core/base/error.hpp"
@@ -71,11 +70,7 @@ std::string sha256(std::string_view bytes) {
   return text;
 }
 
-std::string sha256_of_file(const std::filesystem::path& path) {
-  std::ifstream file(regular_file(path), std::ios::binary);
-  if (!file) throw InputError(fmt::format("cannot read {}", path.string()));
-  return sha256(std::string(std::istreambuf_iterator<char>(file), {}));
-}
+std::string sha256_of_file(const std::filesystem::path& path) { return sha256(read_text(path)); }
 
 std::int64_t seed_from(std::string_view hexadecimal) {
   std::uint64_t number = 0;

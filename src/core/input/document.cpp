@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <set>
 #include <sstream>
@@ -245,16 +244,7 @@ Document::~Document() = default;
 
 Document Document::from_file(const std::filesystem::path& path) {
   constexpr std::uintmax_t most_bytes = 16'000'000;  // of text: minutes of reading, and no case is so long
-  std::ifstream file(regular_file(path, most_bytes));
-  if (!file) {
-    std::error_code fault;
-    const bool missing = !std::filesystem::exists(path, fault);
-    throw InputError(fmt::format("{}: error: {}", path.string(),
-                                 missing ? "there is no such file" : "cannot open the file"));
-  }
-  std::ostringstream text;
-  text << file.rdbuf();
-  std::unique_ptr<State> state = parse(text.str(), path);
+  std::unique_ptr<State> state = parse(read_text(path, most_bytes), path);
   state->needs_units = true;
   return Document(std::move(state));
 }

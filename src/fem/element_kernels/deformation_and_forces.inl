@@ -12,7 +12,8 @@ struct OnePoint {
     if (const std::size_t first = group.first; group.lane == 0) {
       prefetch(first + prefetch_distance, points.mass, points.pressure, points.artificial_viscosity,
                points.deviatoric_stress, points.sound_speed, points.plastic_strain, points.length,
-               points.specific_internal_energy, elements.hourglass_energy, elements.returned_plastic_strain);
+               points.specific_internal_energy, elements.hourglass_energy, elements.hourglass_lead,
+               elements.returned_plastic_strain);
       for (const auto component : Elements::hourglass_components()) {
         prefetch(first + prefetch_distance, elements.*component);
       }
@@ -62,29 +63,46 @@ struct OnePoint {
     for (std::size_t m = 0; m < 4; ++m) add_dyad(carried, q[m], x.*hourglass_modes[m]);
     const Vector hourglass_work = (root8 * dt) * (hourglass_rate - per_eighth * contraction(carried, mean));
 
-    // Hourglass forces of the next step (eq. 3.3, 3.4).
+    // Hourglass forces of the next step (eq. 3.3 to 3.9).
     const Vector sound_speed = group.load(points.sound_speed), rate = sound_speed * per_volume;
     const Vector frequency_squared = 8.0 * beta.squared_norm() * rate * rate;  // eq. 5.1
     const double coefficient = 0.125 * root8 * step.hourglass.coefficient;
     const Vector mass = group.load(points.mass);
     const Vector resistance = mass * (viscous ? 2.0 * coefficient * root(frequency_squared)
                                               : (coefficient * dt) * frequency_squared);
+    const auto end_rate = [&](std::size_t m)
+                              WHIPPLE_INLINE { return end_modes[m] - l * (x.*hourglass_modes[m]); };
     Vector heat = hourglass_work;
-    if constexpr (!viscous) {
+    if constexpr (viscous) {
+      for (std::size_t m = 0; m < 4; ++m) q[m] = resistance * end_rate(m);
+    } else {
       const Vector returned =
           return_factor(group, elements, points, deviator, mass * per_volume * sound_speed * sound_speed);
-      const Vector stored = group.load(elements.hourglass_energy) + hourglass_work;
-      heat = (1.0 - returned * returned) * maximum(stored, Vector{});
-      group.store(elements.hourglass_energy, stored - heat);
-      for (Triple<Vector>& force : q) force = returned * force;
-    }
-    for (std::size_t m = 0; m < 4; ++m) {
-      const auto mode = hourglass_modes[m];
-      if constexpr (viscous) {
-        q[m] = resistance * (end_modes[m] - l * (x.*mode));
-      } else {
-        q[m] += resistance * end_modes[m] + l * (dt * q[m] - resistance * (x.*mode));
+      const Vector half = 0.5 * resistance;
+      Vector rate_squared{}, force_squared{};
+      std::array<Triple<Vector>, 4> advance;  // of half a step
+      for (std::size_t m = 0; m < 4; ++m) {
+        const Triple<Vector> mode_rate = end_rate(m);
+        rate_squared += dot(mode_rate, mode_rate);
+        advance[m] = half * mode_rate;
+        q[m] = returned * (q[m] + dt * (l * q[m]) + advance[m]);
+        force_squared += dot(q[m], q[m]);
       }
+      const Vector before = group.load(elements.hourglass_energy);
+      const Vector lead = (dt / root8) * resistance * rate_squared;
+      const Vector booked = before + hourglass_work + (lead - group.load(elements.hourglass_lead));
+      const Vector stored = returned * returned * maximum(booked, Vector{});
+      heat = hourglass_work - (stored - before);
+      group.store(elements.hourglass_energy, stored);
+      group.store(elements.hourglass_lead, lead);
+      // No spring holds more than what is stored.
+      const Vector most = (2.0 / (root8 * dt)) * resistance * stored;
+      const Vector kept = most < force_squared ? root(most / force_squared) : in_all(1.0);
+      for (std::size_t m = 0; m < 4; ++m) q[m] = kept * q[m] + advance[m];
+      const Vector round_off =
+          (negligible_energy * 2.0 / (root8 * dt)) * resistance * mass * sound_speed * sound_speed;
+      tally.add_limits(group, maximum(-booked, Vector{}),
+                       (1.0 - negligible_cut) * force_squared > most + round_off ? in_all(1.0) : Vector{});
     }
     for_each_hourglass_component(q, [&](const Vector& force, const auto component)
                                         WHIPPLE_INLINE { group.store(elements.*component, force); });

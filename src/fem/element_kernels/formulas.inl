@@ -119,12 +119,18 @@ constexpr std::array<Triple<Vector> Modes<Vector>::*, 4> hourglass_modes = {
 
 /// The report of a block in the making: sums of each lane of the groups.
 struct Tally {
-  std::array<Vector, ElementGroup::size / width> work{}, hourglass_work{};
+  std::array<Vector, ElementGroup::size / width> work{}, hourglass_work{}, overdrawn{}, limited{};
   DeformationReport inverted;
 
   WHIPPLE_INLINE void add(const Group& group, Vector work_done, Vector hourglass_work_done) {
     work[group.lane / width] += first_lanes(work_done, group.count);
     hourglass_work[group.lane / width] += first_lanes(hourglass_work_done, group.count);
+  }
+  /// @param overdrawn_energy  J, that hourglass forces gave beyond what was stored
+  /// @param cut               1 where the forces were limited to what the stored energy allows
+  WHIPPLE_INLINE void add_limits(const Group& group, Vector overdrawn_energy, Vector cut) {
+    overdrawn[group.lane / width] += first_lanes(overdrawn_energy, group.count);
+    limited[group.lane / width] += first_lanes(cut, group.count);
   }
   WHIPPLE_INLINE void count_inverted(const Group& group, Vector volume) {
     if (all_positive(volume)) return;
@@ -140,13 +146,15 @@ struct Tally {
       for (std::size_t l = 0; l < width; ++l) {
         report.work += work[part][l];
         report.hourglass_work += hourglass_work[part][l];
+        report.hourglass_overdrawn += overdrawn[part][l];
+        report.limited_hourglass += limited[part][l];
       }
     }
     return report;
   }
 };
 
-/// Returns the factor by which the plastic strain since the last step reduces the hourglass forces (eq. 3.7),
+/// Returns the factor by which the plastic strain since the last step reduces the hourglass forces (eq. 3.9),
 /// and marks it as applied.
 /// @param modulus  rho c^2
 WHIPPLE_INLINE inline Vector return_factor(const Group& group, Elements& elements, const GaussPoints& points,

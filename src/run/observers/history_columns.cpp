@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "src/core/parallel/mpi.hpp"
+#include "src/solver/limiters.hpp"
 
 namespace whipple::run {
 namespace {
@@ -118,6 +119,12 @@ const auto of_elements = std::to_array<Column>({
      [](const Source& s) { return s.ledger.conversion_heat; }},
     {"hourglass_energy", "J", "energy stored in hourglass modes",
      [](const Source& s) { return s.totals.hourglass_energy; }},
+    {"hourglass_work", "J", "work against hourglass forces, into hourglass and internal energy",
+     [](const Source& s) { return s.ledger.hourglass_work; }},
+    {"hourglass_overdrawn", "J", "work that hourglass forces gave beyond what was stored, taken from internal energy",
+     [](const Source& s) { return s.ledger.hourglass_overdrawn; }},
+    {"removed_mass", "kg", "mass of elements deleted beyond their valid range, part of outflow_mass",
+     [](const Source& s) { return s.ledger.removed_mass; }},
 });
 
 const auto of_cold_work = std::to_array<Column>({

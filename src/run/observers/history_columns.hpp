@@ -9,6 +9,7 @@
 
 #include "src/case/case.hpp"
 #include "src/io/history.hpp"
+#include "src/solver/phase_masses.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple::run {

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "src/core/base/files.hpp"
 #include "src/run/material_copies.hpp"
 
 namespace whipple::run {
@@ -13,7 +14,7 @@ void InputRecord::after_step(const Moment& moment) {
   ranks_.on_root([&] {
     cases::Case setup = moment.simulation.setup();
     moment.schedule.write_to(setup);
-    const std::string former = io::read_text(directory_.input_file());
+    const std::string former = read_text(directory_.input_file());
     const std::size_t provenance = former.rfind("\n[provenance]");
     directory_.write_input(cases::to_toml(setup, material_copies(setup)) +
                            (provenance == std::string::npos ? "" : former.substr(provenance)));

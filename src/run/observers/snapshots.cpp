@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "src/core/base/files.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/parallel/threads.hpp"
 
@@ -21,7 +22,7 @@ constexpr const char* next_name = "snapshots";  // in checkpoints
 
 /// Returns the run's input without the time of its start, so that a run that is repeated writes the same bytes.
 std::string input_without_start(const fs::path& file) {
-  std::string text = io::read_text(file);
+  std::string text = read_text(file);
   constexpr std::string_view key = "\nstarted = ";
   if (const std::size_t begin = text.rfind(key); begin != std::string::npos) {
     text.erase(begin, text.find('\n', begin + 1) - begin);

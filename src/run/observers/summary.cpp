@@ -14,6 +14,7 @@
 #include "src/core/parallel/threads.hpp"
 #include "src/material/fluid.hpp"
 #include "src/solver/carriers/domains.hpp"
+#include "src/solver/limiters.hpp"
 
 namespace whipple::run {
 namespace {

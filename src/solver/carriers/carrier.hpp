@@ -11,6 +11,7 @@
 
 #include "src/fem/bars.hpp"
 #include "src/fem/mesh.hpp"
+#include "src/solver/phase_masses.hpp"
 #include "src/solver/state.hpp"
 
 namespace whipple::solver {
@@ -37,6 +38,13 @@ struct Figures {
   double stored_cold_work = 0.0;                           ///< J
   double chemical_energy = 0.0;                            ///< J, of unburnt explosive
   double bars = 0.0, broken_bars = 0.0, bar_energy = 0.0;  ///< numbers, and J
+};
+
+/// Energy that material can set free: what it holds above the zero of its equation of state, that of unburnt
+/// explosive included, and four times the elastic energy of its pressure.
+struct Releasable {
+  double energy = 0.0;   ///< J, in all
+  double largest = 0.0;  ///< J/kg
 };
 
 /// A particle, or a node of elements.
@@ -92,6 +100,10 @@ class Carrier {
   virtual void add_totals(Totals& sum) = 0;
   virtual void add_phases(std::span<PhaseMasses> of_body) const = 0;
   virtual void add_figures(Figures& figures) const = 0;
+  /// Returns the largest speed (m/s) of a particle or node relative to a velocity (m/s).
+  [[nodiscard]] virtual double largest_speed(const Vector3& frame) const = 0;
+  /// Adds what its material can set free.
+  virtual void add_releasable(Releasable& /*sum*/) const {}
   [[nodiscard]] virtual std::size_t particle_count() const { return 0; }
   [[nodiscard]] virtual std::size_t element_count() const { return 0; }
   /// Returns the largest id of a particle that is there, or that an element may become.

@@ -21,39 +21,84 @@ afemp::Thresholds thresholds(const cases::Conversion& control) {
           .failed = control.failed};
 }
 
+afemp::ElementRange range(const cases::ElementRange& control) {
+  return {.jacobian = control.jacobian,
+          .time_step_ratio = control.time_step_ratio,
+          .hourglass_share = control.hourglass_share,
+          .speed = control.speed};
+}
+
 }  // namespace
 
 void Hexahedra::convert(ParticleCarrier& particles, double grid_step) {
-  double converted = 0.0;
+  std::array<double, 2> counts = {0.0, 0.0};  // of elements that became particles, that were deleted
+  std::string error;
   for (fem::Mesh& mesh : meshes_) {
     const cases::Body& body = state_.setup.bodies[mesh.body];
-    if (!body.discretization.converts()) continue;
-    const std::vector<std::uint8_t> distorted = afemp::distorted_elements(
-        mesh, thresholds(body.conversion), viscosity(state_.setup.viscosity_of(mesh.body)), grid_step);
-    const auto count = static_cast<double>(std::ranges::count(distorted, 1));
-    if (state_.run.step == 0) {
-      std::array<double, 2> counts = {count, static_cast<double>(distorted.size())};
-      parallel::sum(state_.communicator, counts);
-      if (counts[0] > 0.0 && counts[0] == counts[1]) {
-        log::warning(
-            "body \"{}\": its thresholds turn all of its {} elements into particles in the first step",
-            body.name, static_cast<std::size_t>(counts[0]));
-      }
+    const fem::ViscosityCoefficients viscosities = viscosity(state_.setup.viscosity_of(mesh.body));
+    if (body.discretization.converts()) {
+      const std::vector<std::uint8_t> distorted =
+          afemp::distorted_elements(mesh, thresholds(body.conversion), viscosities, grid_step);
+      warn_of_all(mesh, distorted);
+      counts[0] += static_cast<double>(convert(mesh, distorted));
     }
+    const std::vector<afemp::RangeFault> faults =
+        afemp::range_faults(mesh, range(body.element_range), viscosities, grid_step);
+    std::vector<std::uint8_t> beyond(faults.size());
+    std::ranges::transform(faults, beyond.begin(),
+                           [](afemp::RangeFault fault) { return fault != afemp::RangeFault::none ? 1 : 0; });
+    const auto count = static_cast<double>(std::ranges::count(beyond, 1));
     if (count == 0.0) continue;
-    const afemp::ConversionBalance balance =
-        afemp::convert_elements(mesh, distorted, state_.particle_affine_inertia(), state_.particles);
-    converted += count;
-    state_.booked.converted_mass += balance.mass;
-    state_.booked.conversion_heat += balance.kinetic_heat;
+    state_.booked.elements_beyond_range += count;
+    std::vector<std::string> told;
+    for (std::size_t e = 0; e < faults.size(); ++e) {
+      if (beyond[e] == 0) continue;
+      told.push_back(
+          describe(mesh, e * fem::points_per_element(mesh.quadrature), std::string(word_of(faults[e]))));
+    }
+    switch (body.element_range.beyond) {
+      case cases::BeyondRange::particles:
+        for (const std::string& text : told) log::detail("{}\n  it becomes particles", text);
+        counts[0] += static_cast<double>(convert(mesh, beyond));
+        break;
+      case cases::BeyondRange::remove:
+        for (const std::string& text : told) log::info("{}\n  it is deleted", text);
+        state_.booked.removed_mass += remove(mesh, beyond);
+        counts[1] += count;
+        break;
+      case cases::BeyondRange::stop:
+        if (error.empty()) error = told.front();
+        break;
+    }
   }
-  parallel::sum(state_.communicator, std::span(&converted, 1));
-  if (converted == 0.0) return;
+  parallel::throw_together(state_.communicator, error);
+  parallel::sum(state_.communicator, std::span(counts));
+  if (counts[0] + counts[1] == 0.0) return;
   if (state_.keeps_losses()) use_stores(state_.particles);
-  state_.particle_count += 8 * static_cast<std::size_t>(converted);
-  state_.element_count -= static_cast<std::size_t>(converted);
+  state_.particle_count += 8 * static_cast<std::size_t>(counts[0]);
+  state_.element_count -= static_cast<std::size_t>(counts[0] + counts[1]);
   elements_removed();
   particles.reallocated();
+}
+
+/// @returns how many elements became particles
+std::size_t Hexahedra::convert(fem::Mesh& mesh, std::span<const std::uint8_t> chosen) {
+  const afemp::ConversionBalance balance =
+      afemp::convert_elements(mesh, chosen, state_.particle_affine_inertia(), state_.particles,
+                              state_.setup.bodies[mesh.body].discretization.lattice);
+  state_.booked.converted_mass += balance.mass;
+  state_.booked.conversion_heat += balance.kinetic_heat;
+  return balance.elements;
+}
+
+void Hexahedra::warn_of_all(const fem::Mesh& mesh, std::span<const std::uint8_t> distorted) const {
+  if (state_.run.step != 0) return;
+  std::array<double, 2> counts = {static_cast<double>(std::ranges::count(distorted, 1)),
+                                  static_cast<double>(distorted.size())};
+  parallel::sum(state_.communicator, counts);
+  if (counts[0] == 0.0 || counts[0] != counts[1]) return;
+  log::warning("body \"{}\": its thresholds turn all of its {} elements into particles in the first step",
+               state_.setup.bodies[mesh.body].name, static_cast<std::size_t>(counts[0]));
 }
 
 void Hexahedra::mark_transition() {

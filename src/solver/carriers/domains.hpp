@@ -28,7 +28,7 @@ std::size_t deform(State& state, std::span<const std::uint32_t> particles,
                    std::span<const Matrix3> gradients);
 
 /// Takes the pressure of fluid particles of a body off the directions along which they have parted from their
-/// neighbours (2.8); after the material update, which sets the stress.
+/// neighbours (2.8); after the material update, which makes the stress again.
 /// @returns how many have
 std::size_t hold_back_pressure(Particles& particles, std::span<const std::uint32_t> list, const State& state,
                                std::size_t body);

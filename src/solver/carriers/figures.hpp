@@ -13,10 +13,27 @@
 /// Sums and greatest values that the carriers have in common.
 namespace whipple::solver {
 
+/// Returns the largest speed (m/s) relative to a velocity (m/s).
+inline double largest_speed_of(const std::vector<Vector3>& velocity, const Vector3& frame) {
+  return std::sqrt(parallel::maximum(velocity.size(), 0.0,
+                                     [&](std::size_t p) { return (velocity[p] - frame).squaredNorm(); }));
+}
+
+/// Adds what material points can set free.
+inline void add_releasable_of(const MaterialPoints& points, Releasable& sum) {
+  const auto of_mass = [&](std::size_t p) {
+    const double c = points.sound_speed[p], work = points.pressure[p] * points.volume[p] / points.mass[p];
+    return std::max(points.specific_internal_energy[p], 0.0) +
+           (c > 0.0 ? 2.0 * (work / c) * (work / c) : 0.0);
+  };
+  sum.energy +=
+      parallel::sum<double>(points.mass.size(), [&](std::size_t p) { return points.mass[p] * of_mass(p); });
+  sum.largest = parallel::maximum(points.mass.size(), sum.largest, of_mass);
+}
+
 /// Raises the greatest speed.
 inline void add_speeds(const std::vector<Vector3>& velocity, Figures& figures) {
-  figures.speed = std::sqrt(parallel::maximum(velocity.size(), figures.speed * figures.speed,
-                                              [&](std::size_t p) { return velocity[p].squaredNorm(); }));
+  figures.speed = std::max(figures.speed, largest_speed_of(velocity, Vector3::Zero()));
 }
 
 /// Adds the state of material points.

@@ -128,6 +128,9 @@ std::string Hexahedra::deform(std::size_t m, bool heated, SqueezedPoints& squeez
   const fem::DeformationReport report =
       fem::deform(mesh, motions_[m], state_.run.time_step, hourglass(body.discretization), gradient, update);
   state_.booked.work += report.work;
+  state_.booked.hourglass_work += report.hourglass_work;
+  state_.booked.hourglass_overdrawn += report.hourglass_overdrawn;
+  state_.booked.limited_hourglass += report.limited_hourglass;
   Clock::duration in_material{};  // of all threads
   MaterialReport sum;
   for (std::size_t i = 0; i < reports.size(); ++i) {
@@ -144,12 +147,13 @@ std::string Hexahedra::deform(std::size_t m, bool heated, SqueezedPoints& squeez
   const std::string of_material = book(state_, sum, material, of_point);
   squeezed.add(mesh.body, sum, of_point);
   if (report.inverted == 0) return of_material;
-  return describe(
-      mesh, report.first_inverted * rows,
-      body.discretization.converts()
-          ? "is inverted: raise conversion.jacobian or conversion.time_step_ratio, or lower "
-            "conversion.plastic_strain, so that it becomes particles earlier"
-          : "is inverted: discretization.method = \"adaptive\" turns such elements into particles");
+  return describe(mesh, report.first_inverted * rows,
+                  body.discretization.converts()
+                      ? "is inverted: raise conversion.jacobian or conversion.time_step_ratio, or lower "
+                        "conversion.plastic_strain, so that it becomes particles earlier"
+                      : "is inverted: raise element_range.jacobian or element_range.time_step_ratio, so that "
+                        "it leaves its "
+                        "valid range earlier");
 }
 
 /// Elements that lie outside of the domain as a whole are gone, and their contributions to the nodes.
@@ -177,17 +181,25 @@ void Hexahedra::remove_outside() {
       removed[e] = std::ranges::all_of(mesh.elements.corners[e], is_outside);
     }
     if (std::ranges::count(removed, 1) == 0) continue;
-    const Totals before = totals_of(mesh, state_.particle_affine_inertia());
-    for (std::size_t e = 0; e < removed.size(); ++e) {
-      for (const std::uint32_t a : mesh.elements.corners[e]) {
-        if (removed[e] != 0) mesh.nodes.on_surface[a] = 1;
-      }
-    }
-    fem::remove_elements(mesh, removed);
+    remove(mesh, removed);
     gone_any = true;
-    state_.book_outflow(mesh.body, before, totals_of(mesh, state_.particle_affine_inertia()));
   }
   if (parallel::any(state_.communicator, gone_any)) elements_removed();
+}
+
+/// Deletes elements of a mesh; what they had is outflow.
+/// @returns kg
+double Hexahedra::remove(fem::Mesh& mesh, std::span<const std::uint8_t> removed) {
+  const Totals before = totals_of(mesh, state_.particle_affine_inertia());
+  for (std::size_t e = 0; e < removed.size(); ++e) {
+    for (const std::uint32_t a : mesh.elements.corners[e]) {
+      if (removed[e] != 0) mesh.nodes.on_surface[a] = 1;
+    }
+  }
+  fem::remove_elements(mesh, removed);
+  const Totals after = totals_of(mesh, state_.particle_affine_inertia());
+  state_.book_outflow(mesh.body, before, after);
+  return before.mass - after.mass;
 }
 
 std::string Hexahedra::describe(const fem::Mesh& mesh, std::size_t point, const std::string& reason) const {

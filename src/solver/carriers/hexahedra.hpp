@@ -26,8 +26,10 @@ class Hexahedra : public Carrier {
   /// Returns the faces of each mesh that belong to one element of all ranks only. Collective.
   [[nodiscard]] const std::vector<std::vector<fem::Facet>>& free_facets();
 
-  /// Turns distorted elements into particles. Collective.
+  /// Turns distorted elements into particles, and deals with those that have left their valid range as the case says.
+  /// Collective.
   /// @param grid_step  s, that the grid allows
+  /// @throws StateError on all ranks, if one has left its range on any and is to stop the run
   void convert(ParticleCarrier& particles, double grid_step);
   /// Marks the nodes at particles or at other bodies: they move with the grid. Collective.
   void mark_transition();
@@ -44,6 +46,8 @@ class Hexahedra : public Carrier {
   void add_totals(Totals& sum) override;
   void add_phases(std::span<PhaseMasses> of_body) const override;
   void add_figures(Figures& figures) const override;
+  [[nodiscard]] double largest_speed(const Vector3& frame) const override;
+  void add_releasable(Releasable& sum) const override;
   [[nodiscard]] std::size_t element_count() const override;
   [[nodiscard]] std::uint64_t largest_particle_id() const override;
   [[nodiscard]] std::size_t bytes() const override;
@@ -66,6 +70,9 @@ class Hexahedra : public Carrier {
   [[nodiscard]] std::string describe(const fem::Mesh& mesh, std::size_t point,
                                      const std::string& reason) const;
   void elements_removed();
+  double remove(fem::Mesh& mesh, std::span<const std::uint8_t> removed);
+  void warn_of_all(const fem::Mesh& mesh, std::span<const std::uint8_t> distorted) const;
+  [[nodiscard]] std::size_t convert(fem::Mesh& mesh, std::span<const std::uint8_t> chosen);
 
   const Loads& loads_;
   std::vector<fem::Mesh> meshes_;

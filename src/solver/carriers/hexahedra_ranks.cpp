@@ -131,6 +131,17 @@ void Hexahedra::add_figures(Figures& figures) const {
   }
 }
 
+void Hexahedra::add_releasable(Releasable& sum) const {
+  for (const fem::Mesh& mesh : meshes_) add_releasable_of(mesh.points, sum);
+}
+
+double Hexahedra::largest_speed(const Vector3& frame) const {
+  double largest = 0.0;
+  for (const fem::Mesh& mesh : meshes_)
+    largest = std::max(largest, largest_speed_of(mesh.nodes.velocity, frame));
+  return largest;
+}
+
 std::size_t Hexahedra::element_count() const {
   std::size_t count = 0;
   for (const fem::Mesh& mesh : meshes_) count += mesh.elements.size();

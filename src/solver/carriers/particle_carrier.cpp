@@ -92,6 +92,12 @@ void ParticleCarrier::add_figures(Figures& figures) const {
   figures.chemical_energy += Explosives(state_).chemical_energy();
 }
 
+void ParticleCarrier::add_releasable(Releasable& sum) const { add_releasable_of(state_.particles, sum); }
+
+double ParticleCarrier::largest_speed(const Vector3& frame) const {
+  return largest_speed_of(state_.particles.velocity, frame);
+}
+
 std::uint64_t ParticleCarrier::largest_particle_id() const {
   return state_.particles.size() == 0 ? 0 : std::ranges::max(state_.particles.id);
 }

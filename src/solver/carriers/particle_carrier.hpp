@@ -34,6 +34,8 @@ class ParticleCarrier : public Carrier {
   void add_totals(Totals& sum) override;
   void add_phases(std::span<PhaseMasses> of_body) const override;
   void add_figures(Figures& figures) const override;
+  [[nodiscard]] double largest_speed(const Vector3& frame) const override;
+  void add_releasable(Releasable& sum) const override;
   [[nodiscard]] std::size_t particle_count() const override { return state_.particles.size(); }
   [[nodiscard]] std::uint64_t largest_particle_id() const override;
   [[nodiscard]] std::size_t bytes() const override;

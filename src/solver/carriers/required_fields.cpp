@@ -23,6 +23,7 @@ void ParticleCarrier::require_fields(bool extent) const {
   if (extent) needed.extent.resize(state_.particles.size());
   if (state_.keeps_losses()) {
     needed.unresolved_energy.resize(state_.particles.size());
+    needed.heat_allowance.resize(state_.particles.size());
     needed.closing_rate.resize(state_.particles.size());
     needed.heating_viscosity.resize(state_.particles.size());
   }

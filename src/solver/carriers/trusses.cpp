@@ -124,6 +124,13 @@ void Trusses::add_figures(Figures& figures) const {
   }
 }
 
+double Trusses::largest_speed(const Vector3& frame) const {
+  double largest = 0.0;
+  for (const fem::Bars& bars : bars_)
+    largest = std::max(largest, largest_speed_of(bars.nodes.velocity, frame));
+  return largest;
+}
+
 std::size_t Trusses::bytes() const {
   std::size_t bytes = 0;
   for (const fem::Bars& bars : bars_) bytes += bytes_of(bars.nodes) + bytes_of(bars.elements);

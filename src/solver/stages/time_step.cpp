@@ -18,6 +18,9 @@ namespace {
 /// Keeps accuracy of a few particles of thin material from reducing the time step below this part of the stable one.
 constexpr double least_share_for_accuracy = 0.125;
 
+/// A step below this part of the longest one so far is none that a run ends with.
+constexpr double least_share_of_longest = 1e-9;
+
 }  // namespace
 
 double grid_time_step(const State& state, ParticleCarrier& particles) {
@@ -39,6 +42,7 @@ void TimeStep::limit(double bound, TimeStepBound by) {
 double TimeStep::accurate() {
   const cases::TimeControl& control = state_.setup.time;
   step_ = grid_time_step(state_, particles_);  // NaN stays, and is reported
+  cell_step_ = step_ / control.courant;
   by_ = TimeStepBound::sound_speed;
   limit(diffusive_bound(), TimeStepBound::diffusion);
   limit(element_bound(), TimeStepBound::elements);
@@ -73,6 +77,7 @@ void TimeStep::begin(double until) {
       limit(std::max(state_.run.first_touch - state_.run.time, first_step), TimeStepBound::first_touch);
     }
     require_positive();
+    require_progress();
     if (!compression_is_followed_ && parallel::rank(state_.communicator) == 0) {
       state_.booked.held_time_steps += 1.0;
     }
@@ -102,6 +107,31 @@ void TimeStep::require_positive() const {
   throw StateError(fmt::format("step {}, t = {} s: {}", state_.run.step, state_.run.time, reason));
 }
 
+/// Ends a run whose steps have become so short that it would never end.
+void TimeStep::require_progress() {
+  RunState& run = state_.run;
+  run.largest_step = std::max(run.largest_step, std::isfinite(cell_step_) ? cell_step_ : accurate_step_);
+  if (run.time + step_ > run.time && step_ >= least_share_of_longest * run.largest_step) return;
+  const std::string reason = fmt::format(
+      "the time step has collapsed to {:.3g} s, the longest that a cell allowed was {:.3g} s; its bound: {}",
+      step_, run.largest_step, word_of(by_));
+  const Particles& particles = state_.particles;
+  std::size_t fastest = particles.size();
+  double speed = 0.0;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const double of_particle = particles.sound_speed[p] + particles.velocity[p].cwiseAbs().maxCoeff();
+    if (of_particle > speed) {
+      speed = of_particle;
+      fastest = p;
+    }
+  }
+  if (fastest == particles.size()) {
+    throw StateError(fmt::format("step {}, t = {} s: {}", run.step + 1, run.time, reason));
+  }
+  throw StateError(state_.describe_particle(
+      fastest, run.time, fmt::format("{}; the fastest: {:.6g} m/s with its sound speed", reason, speed)));
+}
+
 double TimeStep::element_bound() const {
   double dt = std::numeric_limits<double>::infinity();
   for (const Carrier* carrier : carriers_) dt = std::min(dt, carrier->critical_time_step());
@@ -110,22 +140,24 @@ double TimeStep::element_bound() const {
 
 /// Explicit diffusion of momentum and of heat is stable below dx^2 / (9 a), a the diffusivity, whatever the
 /// particles: the squares of the gradients of quadratic B-splines over their values add up to 18/dx^2 at most
-/// (docs/theory/conduction.md, eq. 5).
+/// (docs/theory/conduction.md, eq. 6).
 double TimeStep::diffusive_bound() const {
   const double dx = state_.setup.domain.cell_size;
   const Particles& particles = state_.particles;
   double diffusivity = 0.0;
   for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
     const Material& material = *state_.setup.materials[b];
-    double per_volume = material.strength->viscosity();
-    if (state_.setup.heat.conduction && material.conductivity > 0.0) {
-      per_volume = std::max(per_volume, material.conductivity / material.reference.heat_capacity);
-    }
-    if (!(per_volume > 0.0)) continue;
+    const double viscosity = material.strength->viscosity();
+    const double conduction = state_.setup.heat.conduction && material.conductivity > 0.0
+                                  ? material.conductivity / material.reference.heat_capacity
+                                  : 0.0;
+    if (!(std::max(viscosity, conduction) > 0.0)) continue;
     const cases::BodySummary& body = state_.bodies[b];
     diffusivity = std::max(diffusivity, parallel::maximum(body.count, 0.0, [&](std::size_t i) {
                              const std::size_t p = body.first + i;
-                             return per_volume * particles.volume[p] / particles.mass[p];
+                             const double with_voids = particles.volume[p] + particles.void_volume[p];
+                             return std::max(viscosity * particles.volume[p], conduction * with_voids) /
+                                    particles.mass[p];
                            }));
   }
   diffusivity = parallel::maximum(state_.communicator, diffusivity);

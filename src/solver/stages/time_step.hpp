@@ -19,7 +19,7 @@ class TimeStep {
   /// Computes the time step (s) that the state allows, whatever the step before it was. Collective.
   double accurate();
   /// Sets the time step; not beyond `until` (s). Collective.
-  /// @throws StateError without material in the domain, or if there is no positive time step
+  /// @throws StateError without material in the domain, if there is no positive time step, or if it has collapsed
   void begin(double until);
   /// Takes the largest rates of the step for the bounds of the next one. Collective.
   void take_rates();
@@ -34,12 +34,15 @@ class TimeStep {
   [[nodiscard]] double element_bound() const;
   [[nodiscard]] double compression_rate_of_most(double largest) const;
   void require_positive() const;
+  void require_progress();
 
   State& state_;
   const Carriers& carriers_;
   ParticleCarrier& particles_;
   double step_ = 0.0;                       // s, the least of the bounds so far
   TimeStepBound by_ = TimeStepBound::none;  // that it is
+  double cell_step_ =
+      0.0;  // s, in which nothing crosses more than a cell; infinite if nothing moves with the grid
   double accurate_step_ = 0.0;
   bool compression_is_followed_ = true;  // by that step, as `time.compression_limit` asks
 };

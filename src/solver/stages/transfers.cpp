@@ -48,6 +48,7 @@ Transfers::Transfers(State& state, const Loads& loads, const Activity& activity)
   }
   losses_ = {.kept = control.keeps_losses(),
              .heat_share = control.heat_share,
+             .allowance_length = control.allowance_time * state_.setup.domain.cell_size,
              .collision_rate = control.collision_rate,
              .initial_density = state_.initial_density};
 }
@@ -84,7 +85,7 @@ void Transfers::conduct_heat(const transfer::TouchAtNode& touch) {
 void Transfers::to_grid(const std::function<void()>& send) {
   state_.profile.time("particles to grid", [&] {
     const bool with_nodes = state_.transition.size() > 0;
-    transfer::particles_to_grid(state_.shape, state_.particles, state_.grid, acceleration_,
+    transfer::particles_to_grid(state_.functions(), state_.particles, state_.grid, acceleration_,
                                 with_nodes ? std::function<void()>() : send);
     if (with_nodes) {
       transfer::nodes_to_grid(state_.shape, state_.transition, state_.grid);
@@ -131,7 +132,7 @@ void Transfers::to_particles(const transfer::TakeGradients& take, const std::fun
   const double dt = state_.run.time_step;
   const transfer::AffineField affine = affine_field(state_.setup.transfer);
   const transfer::TransferBalance balance = transfer::grid_to_particles(
-      state_.shape, state_.particles, state_.grid, dt, affine, losses_, take, acceleration_, receive);
+      state_.functions(), state_.particles, state_.grid, dt, affine, losses_, take, acceleration_, receive);
   Ledger& booked = state_.booked;
   booked.work += balance.work;
   booked.viscous_work += balance.viscous_work;
@@ -142,7 +143,7 @@ void Transfers::to_particles(const transfer::TakeGradients& take, const std::fun
   booked.external_work += balance.external_work;
   state_.rates.squared_change = balance.squared_change;
   if (state_.transition.size() > 0) {
-    transfer::grid_to_nodes(state_.shape, state_.transition, state_.grid, dt, affine);
+    transfer::grid_to_nodes(state_.functions(), state_.transition, state_.grid, dt, affine);
   }
   fly();
   if (!losses_.kept) return;
@@ -152,7 +153,7 @@ void Transfers::to_particles(const transfer::TakeGradients& take, const std::fun
 void Transfers::velocity_to_particles(const transfer::TakeGradients& take,
                                       const std::function<void()>& receive) {
   const transfer::TransferBalance balance =
-      transfer::update_velocity(state_.shape, state_.particles, state_.grid, state_.run.time_step,
+      transfer::update_velocity(state_.functions(), state_.particles, state_.grid, state_.run.time_step,
                                 relaxation(state_.setup.transfer).fixed, take, acceleration_, receive);
   state_.booked.external_work += balance.external_work;
   state_.booked.plastic_work += balance.plastic_work;
@@ -163,7 +164,7 @@ void Transfers::velocity_to_particles(const transfer::TakeGradients& take,
 void Transfers::gradient_to_particles(const transfer::TakeGradients& take,
                                       const std::function<void()>& receive) {
   state_.booked.plastic_work +=
-      transfer::gather_velocity_gradient(state_.shape, state_.particles, state_.grid, take, receive);
+      transfer::gather_velocity_gradient(state_.functions(), state_.particles, state_.grid, take, receive);
 }
 
 /// Moves the particles that fly without the grid.

@@ -9,17 +9,18 @@ struct Kernels {
   using First = FirstSums;
 
   /// Calls take(place, point, what it gets) for the points of a slot; `place` counts along its list.
-  /// @param sums  Transfer, Update or First
+  /// @param slope_smoothing  as of ShapeFunctions
+  /// @param sums             Transfer, Update or First
   template <class Shape, class Sums, class Points, class Take>
   WHIPPLE_WHOLE_KERNEL static void gather(const Points& points, grid::BlockGrid& grid,
-                                          grid::BlockGrid::Points kind, std::size_t slot, const Sums& sums,
-                                          const Take& take) {
-    const double cell_size = grid.cell_size(slot);
+                                          grid::BlockGrid::Points kind, std::size_t slot,
+                                          double slope_smoothing, const Sums& sums, const Take& take) {
+    const Cells cells(grid, slot, slope_smoothing);
     const std::span<const grid::PlaceInStencil> places = grid.places(kind);
     const std::uint32_t* const list = grid.members(kind, slot).data();
     read_nodes<Shape, typename Sums::Content>(grid, kind, slot, [&](const auto& members, auto& access) {
       if constexpr (std::is_same_v<Shape, Linear> && !requires { typename Sums::Sum; }) {
-        const double per_cell = 1.0 / cell_size;
+        const double per_cell = 1.0 / cells.size;
         std::int32_t first_node = places[members.front()].first_node();
         auto stencil = access.stencil(first_node);
         for (const std::uint32_t& p : members) {
@@ -59,24 +60,25 @@ struct Kernels {
           for (std::size_t g = 0; g < groups; ++g) {
             const Group group = group_at(g);
             point[g] = group.point;
-            sum[g] = sums.of(points, group, cell_size);
+            sum[g] = sums.of(points, group, cells);
           }
           for (std::size_t g = 0; g < groups; ++g) {
-            result[g] = sums.template advance<Shape>(points, point[g], sum[g], cell_size);
+            result[g] = sums.template advance<Shape>(points, point[g], sum[g], cells.size);
           }
           for (std::size_t g = 0; g < groups; ++g) give(g, result[g]);
         } else {
-          for (std::size_t g = 0; g < groups; ++g) give(g, sums.of(points, group_at(g), cell_size));
+          for (std::size_t g = 0; g < groups; ++g) give(g, sums.of(points, group_at(g), cells));
         }
       };
-      for_some<Shape, with_weights>(points, places, cell_size, members, gather_some);
+      for_some<Shape, with_weights>(points, places, cells, members, gather_some);
     });
   }
 
   /// Adds what the points of a slot bring to the nodes.
   template <class Shape, class What>
-  WHIPPLE_WHOLE_KERNEL static void scatter(const What& what, grid::BlockGrid& grid, std::size_t slot) {
-    const double cell_size = grid.cell_size(slot);
+  WHIPPLE_WHOLE_KERNEL static void scatter(const What& what, grid::BlockGrid& grid, std::size_t slot,
+                                           double slope_smoothing) {
+    const Cells cells(grid, slot, slope_smoothing);
     const std::span<const grid::PlaceInStencil> places = grid.places(What::kind);
     const auto load = [&](std::size_t p) WHIPPLE_INLINE {
       if (prefetches(p)) {
@@ -88,7 +90,7 @@ struct Kernels {
     add_to_nodes<Shape, typename What::Content>(
         grid, What::kind, slot, [&](const auto& members, auto& access) {
           if constexpr (std::is_same_v<Shape, Linear>) {
-            const double per_cell = 1.0 / cell_size;
+            const double per_cell = 1.0 / cells.size;
             NodesOfCell<typename What::Content> cell;
             std::int32_t first_node = places[members.front()].first_node();
             for (const std::uint32_t p : members) {
@@ -100,12 +102,11 @@ struct Kernels {
             }
             cell.hand_over(access.stencil(first_node));
           } else {
-            for_some<Shape>(
-                what.points, places, cell_size, members, [&](const auto& some, const auto& weights) {
-                  for (std::size_t m = 0; m < some.size(); ++m) {
-                    add_payload<Shape>(load(some[m]), weights[m], access.stencil(weights[m].first_node));
-                  }
-                });
+            for_some<Shape>(what.points, places, cells, members, [&](const auto& some, const auto& weights) {
+              for (std::size_t m = 0; m < some.size(); ++m) {
+                add_payload<Shape>(load(some[m]), weights[m], access.stencil(weights[m].first_node));
+              }
+            });
           }
         });
   }

@@ -3,13 +3,13 @@
 
 /// D = a_p(x_i) - v_i is the difference of the particle's affine field and the grid's velocity at node i.
 template <bool affine, class Group>
-WHIPPLE_INLINE inline Moments<Vector> moments(const Group& group, double cell_size, Vector v,
+WHIPPLE_INLINE inline Moments<Vector> moments(const Group& group, const Cells& cells, Vector v,
                                               const std::array<Vector, 3>& c) {
   using InPlaneOrSpace = Along<typename Group::Shape>;
   using AcrossPlane = AlongZ<typename Group::Shape>;
   constexpr std::size_t n = InPlaneOrSpace::n, n_z = AcrossPlane::n;
-  const InPlaneOrSpace x(group, 0, cell_size), y(group, 1, cell_size);
-  const AcrossPlane z(group, 2, cell_size);
+  const InPlaneOrSpace x(group, 0, cells), y(group, 1, cells);
+  const AcrossPlane z(group, 2, cells);
   NodeSums<InPlaneOrSpace, Slopes::derivatives> velocity, increment;
   NodeSums<InPlaneOrSpace, Slopes::moments> change;
   std::array<Vector, n> loss;
@@ -56,12 +56,13 @@ WHIPPLE_INLINE inline Moments<Vector> moments(const Group& group, double cell_si
 
 /// Sums of one vector per node, value(i, j, k).
 template <class Group, class Value>
-WHIPPLE_INLINE inline ValueAndGradient<Vector> sums_of(const Group& group, double cell_size, Value&& value) {
+WHIPPLE_INLINE inline ValueAndGradient<Vector> sums_of(const Group& group, const Cells& cells,
+                                                       Value&& value) {
   using InPlaneOrSpace = Along<typename Group::Shape>;
   using AcrossPlane = AlongZ<typename Group::Shape>;
   constexpr std::size_t n = InPlaneOrSpace::n, n_z = AcrossPlane::n;
-  const InPlaneOrSpace x(group, 0, cell_size), y(group, 1, cell_size);
-  const AcrossPlane z(group, 2, cell_size);
+  const InPlaneOrSpace x(group, 0, cells), y(group, 1, cells);
+  const AcrossPlane z(group, 2, cells);
   NodeSums<InPlaneOrSpace, Slopes::derivatives> planes;
 #pragma GCC unroll 4
   for (std::size_t i = 0; i < n; ++i) {
@@ -142,9 +143,8 @@ struct TransferSums {
   }
 
   template <class Points, class Group>
-  WHIPPLE_INLINE Moments<Vector> of(const Points& points, const Group& group, double cell_size) const {
-    return moments<affine>(group, cell_size, velocity(points, group.point),
-                           affine_field(points, group.point));
+  WHIPPLE_INLINE Moments<Vector> of(const Points& points, const Group& group, const Cells& cells) const {
+    return moments<affine>(group, cells, velocity(points, group.point), affine_field(points, group.point));
   }
   template <class Shape, class Points>
   WHIPPLE_INLINE Advance<Vector> advance(const Points& points, const PointsOfGroup& p,
@@ -225,10 +225,10 @@ struct UpdateSums {
     return update;
   }
   template <class Points, class Group>
-  WHIPPLE_INLINE VelocityUpdate<Vector> of(const Points&, const Group& group, double cell_size) const {
+  WHIPPLE_INLINE VelocityUpdate<Vector> of(const Points&, const Group& group, const Cells& cells) const {
     const auto after = [&](auto... node) { return group.first(node...) + group.second(node...); };
-    return {sums_of(group, cell_size, after),
-            sums_of(group, cell_size, [&](auto... node) { return group.second(node...); }).value};
+    return {sums_of(group, cells, after),
+            sums_of(group, cells, [&](auto... node) { return group.second(node...); }).value};
   }
 };
 /// Sums of the first registers.
@@ -243,8 +243,8 @@ struct FirstSums {
         broadcast(per_cell), node);
   }
   template <class Points, class Group>
-  WHIPPLE_INLINE ValueAndGradient<Vector> of(const Points&, const Group& group, double cell_size) const {
-    return sums_of(group, cell_size, [&](auto... node) { return group.first(node...); });
+  WHIPPLE_INLINE ValueAndGradient<Vector> of(const Points&, const Group& group, const Cells& cells) const {
+    return sums_of(group, cells, [&](auto... node) { return group.first(node...); });
   }
 };
 

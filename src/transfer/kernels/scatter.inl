@@ -8,13 +8,14 @@ constexpr std::size_t ahead = 8;
 /// @tparam with_weights  else they are left open
 template <class Shape, bool with_weights = true, class Points, class Function>
 WHIPPLE_INLINE inline void for_some(const Points& points, std::span<const grid::PlaceInStencil> places,
-                                    double cell_size, std::span<const std::uint32_t> members, Function&& f) {
+                                    const Cells& cells, std::span<const std::uint32_t> members,
+                                    Function&& f) {
   std::array<Weights<Shape::count>, ahead> weights;
   for (std::size_t first = 0; first < members.size(); first += ahead) {
     const std::span<const std::uint32_t> some =
         members.subspan(first, std::min(ahead, members.size() - first));
     for (std::size_t m = 0; with_weights && m < some.size(); ++m) {
-      weights[m] = weights_at<Shape>(points, some[m], places[some[m]], cell_size);
+      weights[m] = weights_at<Shape>(points, some[m], places[some[m]], cells);
     }
     f(some, weights);
   }
@@ -47,7 +48,7 @@ WHIPPLE_INLINE inline std::array<Both, n> shares(const std::array<Both, n>& weig
 }
 
 /// Adds what a point brings to its nodes (equation 4.1 and the forces): node += N P_0 + sum over directions
-/// of S_a P_a, with S_a = N r_a in the first register and dN/dx_a in the second.
+/// of S_a P_a, with S_a = N r_a in the first register and the slope of N in the second.
 template <class Shape, class Stencil>
 WHIPPLE_INLINE inline void add_payload(const Payload& load, const Weights<Shape::count>& w,
                                        const Stencil& nodes) {

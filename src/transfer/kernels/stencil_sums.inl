@@ -22,7 +22,7 @@ struct Group {
 };
 
 /// One direction of the stencils of a group: of values at its nodes the sum with N, and with it the sum with
-/// slopes: the derivatives of N (`derivatives` of them make 1/m), or N r, whose sums over the nodes vanish.
+/// slopes: those of N (`derivatives` of them make 1/m), or N r, whose sums over the nodes vanish.
 template <class Shape>
 class Direction {
  public:
@@ -31,7 +31,7 @@ class Direction {
   Values distance;  ///< r, m
 
   template <class Group>
-  WHIPPLE_INLINE Direction(const Group& group, std::size_t a, double) {
+  WHIPPLE_INLINE Direction(const Group& group, std::size_t a, const Cells&) {
     const auto& w = group.weights;
     for (std::size_t k = 0; k < n; ++k) {
       weight_[k] = spread([&](std::size_t m) -> const Lanes& { return w[m]->weight[k]; }, a);
@@ -74,8 +74,8 @@ class Direction {
   Values weight_, derivative_, moment_;  // N, dN/dx, N r
 };
 
-/// Quadratic B-splines: with a = x - 3/2, x in cells from the first node, N_0 = a^2/2, N_2 = (a + 1)^2/2 and
-/// dx dN/dx = {a, -2 a - 1, a + 1}, so that the sum with the derivatives serves in the one with N.
+/// Quadratic B-splines: with y in cells from the middle node, N_0 = (y - 1/2)^2/2, N_2 = (y + 1/2)^2/2 and the slopes
+/// times dx {a, -2 a - 1, a + 1}, a = w(y) - 1/2.
 template <>
 class Direction<QuadraticBSpline> {
  public:
@@ -84,17 +84,16 @@ class Direction<QuadraticBSpline> {
   Values distance;
 
   template <class Group>
-  WHIPPLE_INLINE Direction(const Group& group, std::size_t a, double cell_size) {
+  WHIPPLE_INLINE Direction(const Group& group, std::size_t a, const Cells& cells) {
     const Vector x = of_group([&](std::size_t m) { return broadcast(group.place[m]->from_first(a)); });
-    a_ = x - 1.5;
-    half_a_ = 0.5 * a_;
-    half_c_ = half_a_ + 0.5;
-    before_ = half_a_ * a_;
-    behind_ = half_c_ * (a_ + 1.0);
-    distance = {-cell_size * x, cell_size * (1.0 - x), cell_size * (2.0 - x)};
+    const Vector y = x - 1.0, to_first = y - 0.5, to_last = y + 0.5;
+    a_ = multiply_add(cells.slope_smoothing[a] * y, 0.25 - y * y, to_first);  // (2.9)
+    before_ = 0.5 * to_first * to_first;
+    behind_ = 0.5 * to_last * to_last;
+    distance = {-cells.size * x, cells.size * (1.0 - x), cells.size * (2.0 - x)};
     moment_before_ = before_ * distance[0];
     moment_behind_ = behind_ * distance[2];
-    per_cell_ = 1.0 / cell_size;
+    per_cell_ = 1.0 / cells.size;
   }
   WHIPPLE_INLINE Vector sum(const Values& f) const {
     return multiply_add(behind_, f[2] - f[1], multiply_add(before_, f[0] - f[1], f[1]));
@@ -102,7 +101,7 @@ class Direction<QuadraticBSpline> {
   WHIPPLE_INLINE void with_derivatives(const Values& f, Vector& of_weight, Vector& of_derivatives) const {
     const Vector before = f[0] - f[1], behind = f[2] - f[1];
     of_derivatives = multiply_add(a_, before + behind, behind);
-    of_weight = multiply_add(half_a_, of_derivatives, multiply_add(half_c_, behind, f[1]));
+    of_weight = multiply_add(behind_, behind, multiply_add(before_, before, f[1]));
   }
   WHIPPLE_INLINE void with_moments(const Values& f, Vector& of_weight, Vector& of_moments) const {
     const Vector before = f[0] - f[1], behind = f[2] - f[1];
@@ -112,7 +111,7 @@ class Direction<QuadraticBSpline> {
   WHIPPLE_INLINE Vector derivatives(Vector sum) const { return per_cell_ * sum; }
 
  private:
-  Vector a_, half_a_, half_c_;            // a, a/2, (a + 1)/2
+  Vector a_;                              // dx times the slope of N_0
   Vector before_, behind_;                // N_0, N_2
   Vector moment_before_, moment_behind_;  // N_0 r_0, N_2 r_2
   double per_cell_;
@@ -125,7 +124,7 @@ struct FlatDirection {
   Values distance{};
 
   template <class Group>
-  WHIPPLE_INLINE FlatDirection(const Group&, std::size_t, double) {}
+  WHIPPLE_INLINE FlatDirection(const Group&, std::size_t, const Cells&) {}
   WHIPPLE_INLINE static Vector sum(const Values& f) { return f[0]; }
   WHIPPLE_INLINE static void with_derivatives(const Values& f, Vector& of_weight, Vector& of_derivatives) {
     of_weight = f[0];

@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -24,10 +26,11 @@ inline std::string& options_of_all_cases() {
 /// @param end   s
 /// @param text  domain and bodies
 /// @param more  tables of options, if not the defaults
-inline cases::Case default_case(double end, const std::string& text, const std::string& more = {}) {
-  char time[64];
-  std::snprintf(time, sizeof time, "[time]\nend = %.9g\n", end);
-  return cases::read_case_text(time + options_of_all_cases() + more + text, "exact.toml");
+/// @param time  further keys of the table of the time
+inline cases::Case default_case(double end, const std::string& text, const std::string& more = {},
+                                const std::string& time = {}) {
+  const std::string until = fmt::format("[time]\nend = {:.9g}\n", end);
+  return cases::read_case_text(until + time + options_of_all_cases() + more + text, "exact.toml");
 }
 
 /// Writes the material of an ideal gas whose temperatures lie well within the range of the model.

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A queue of computations: order by value, what is current is left out, what does not fit is left for another call."""
+import types
+import unittest
+from unittest import mock
+
+from studies.validation import comparison, execution, provenance, queue
+
+
+def run_of(name, *, headline=True, sensitivity=False, decided_by=""):
+    return types.SimpleNamespace(name=name, headline=headline, sensitivity=sensitivity, decided_by=decided_by,
+                                 cell_size={"normal": "1 mm"})
+
+
+def entry_of(run, source, seconds=10.0):
+    record = {"source": source, "cell_size": "1 mm", "wall_time": seconds, "threads": 1}
+    return {"name": run.name, "inputs": "inputs", "records": {"normal": record}}
+
+
+class Queue(unittest.TestCase):
+    def setUp(self):
+        self.case = types.SimpleNamespace(name="case")
+        variant = types.SimpleNamespace(name="normal", resolution="normal")
+        for target, of, value in ((queue, "variants_of", lambda run, band: [variant]),
+                                  (comparison, "extra_grids", lambda run: []),
+                                  (execution, "state_of", lambda *_: (None, provenance.MISSING)),
+                                  (execution, "folder_of", lambda *_: None),
+                                  (provenance, "inputs_of", lambda run: "inputs"),
+                                  (provenance, "digest_of_sources", lambda: "now")):
+            patch = mock.patch.object(target, of, value)
+            patch.start()
+            self.addCleanup(patch.stop)
+
+    def planned(self, *entries):
+        runs = [run for run, _ in entries]
+        results = {"cases": {"case": {"runs": [entry for _, entry in entries if entry]}}}
+        return queue.plan(results, [(self.case, run) for run in runs])
+
+    def test_order_is_by_rank_then_by_cost_and_what_is_current_is_left_out(self):
+        runs = {"sensitivity": run_of("sensitivity", sensitivity=True), "decided": run_of("decided", decided_by="cheap"),
+                "dear": run_of("dear"), "cheap": run_of("cheap"), "plain": run_of("plain", headline=False),
+                "current": run_of("current")}
+        never = run_of("never")
+        jobs = self.planned((never, None), *((run, entry_of(run, "now" if name == "current" else "former",
+                                             500.0 if name == "dear" else 10.0)) for name, run in runs.items()))
+        self.assertEqual([job.run.name for job in jobs], ["cheap", "dear", "plain", "decided", "sensitivity", "never"])
+
+    def test_another_input_or_cell_size_is_not_current(self):
+        run = run_of("run")
+        for change in ({"inputs": "others"}, {"records": {"normal": entry_of(run, "now")["records"]["normal"] | {"cell_size": "2 mm"}}}):
+            self.assertEqual(len(self.planned((run, entry_of(run, "now") | change))), 1)
+        self.assertEqual(self.planned((run, None))[0].cost, queue.UNKNOWN_COST)
+
+    def test_writes_what_is_done_and_leaves_what_does_not_fit(self):
+        quick, slow, broken = (run_of(name) for name in ("quick", "slow", "broken"))
+        jobs = self.planned((quick, entry_of(quick, "former", 1.0)), (slow, entry_of(slow, "former", 1e6)),
+                            (broken, entry_of(broken, "former", 1.0)))
+        written = []
+        with mock.patch.object(execution, "execute", lambda whipple, case, run, *_: run is not broken), \
+                mock.patch.object(execution, "analyse", lambda *_: True), mock.patch("builtins.print"):
+            failed, left = queue.work_off(jobs, "whipple", 1.0, 2, written.append)
+        self.assertEqual(([job.run.name for job in failed], [job.run.name for job in left]), (["broken"], ["slow"]))
+        self.assertEqual(written, [[(self.case, quick)]])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Elements in the solver whose material loses its strength, and elements that leave their valid range: what
+// their energies are, and what becomes of them.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "src/core/base/error.hpp"
+#include "tests/verification/solver_problems.hpp"
+
+namespace whipple::verification {
+namespace {
+
+using solver::Simulation;
+
+/// A rod on a plate at 1 km/s, both of elements and of a material that fails in tension.
+/// @param more  further keys of both bodies
+cases::Case rod_on_plate(const std::string& more) {
+  const std::string failing = aluminium("range_failing", "0.3 GPa",
+                                        "[[failure]]\nmodel = \"principal_stress\"\nsource = \"test\"\n"
+                                        "tensile_strength = \"1.2 GPa\"\n");
+  return cases::read_case_text(fmt::format(R"(
+[domain]
+lower = ["-6 mm", "-6 mm", "-8 mm"]
+upper = ["6 mm", "6 mm", "8 mm"]
+cell_size = "1 mm"
+[time]
+end = "10 us"
+[contact]
+method = "multi_field"
+[[body]]
+name = "rod"
+material = "{0}"
+velocity = ["0 m/s", "0 m/s", "1 km/s"]
+discretization = {{ method = "finite_elements" }}
+shape = {{ box = {{ lower = ["-1 mm", "-1 mm", "-5 mm"], upper = ["1 mm", "1 mm", "-1 mm"] }} }}
+{1}
+[[body]]
+name = "plate"
+material = "{0}"
+discretization = {{ method = "finite_elements" }}
+shape = {{ box = {{ lower = ["-5 mm", "-5 mm", "0 mm"], upper = ["5 mm", "5 mm", "2 mm"] }} }}
+{1}
+)",
+                                           failing, more),
+                               "range.toml");
+}
+
+TEST(ElementsThatFail, KeepTheirEnergiesPossible) {
+  Simulation simulation(rod_on_plate(""), parallel::world());
+  const double initial = simulation.totals().energy();
+  double failed = 0.0;
+  run_to(simulation, 10e-6, [&](const Simulation& s) {
+    for (const fem::Mesh& mesh : s.meshes()) {
+      for (const double energy : mesh.elements.hourglass_energy) ASSERT_GE(energy, 0.0);
+      for (const Vector3& v : mesh.nodes.velocity) ASSERT_LT(v.norm(), 3e3);
+      for (const auto flag : mesh.points.failed) failed += flag != 0 ? 1.0 : 0.0;
+    }
+    ASSERT_LE(s.totals().kinetic_energy, 1.001 * initial);
+  });
+  const solver::Ledger& ledger = simulation.state().ledger;
+  EXPECT_GT(failed, 0.0);
+  EXPECT_LT(std::abs(ledger.energy_error(simulation.totals())), 1e-12);
+  EXPECT_GT(ledger.hourglass_work, 0.0);
+  EXPECT_LT(ledger.hourglass_overdrawn, 1e-3 * ledger.hourglass_work);
+}
+
+TEST(ElementsBeyondTheirRange, BecomeParticlesAreDeletedOrStopTheRun) {
+  const auto beyond = [](const std::string& word) {  // (a bound that many elements of the rod pass)
+    return fmt::format("element_range = {{ beyond = \"{}\", jacobian = 0.7 }}", word);
+  };
+  Simulation become(rod_on_plate(beyond("particles")), parallel::world());
+  const std::size_t elements = become.element_count();
+  const double mass = become.totals().mass;
+  run_to(become, 4e-6);
+  const solver::Ledger& converted = become.state().ledger;
+  EXPECT_GT(converted.elements_beyond_range, 0.0);
+  EXPECT_EQ(become.element_count(), elements - static_cast<std::size_t>(converted.elements_beyond_range));
+  EXPECT_EQ(become.particle_count(), 8 * (elements - become.element_count()));
+  EXPECT_NEAR(become.totals().mass, mass, 1e-12 * mass);
+  EXPECT_LT(std::abs(converted.energy_error(become.totals())), 1e-12);
+
+  testing::internal::CaptureStderr();
+  Simulation remove(rod_on_plate(beyond("remove")), parallel::world());
+  run_to(remove, 4e-6);
+  EXPECT_THAT(
+      testing::internal::GetCapturedStderr(),
+      testing::AllOf(testing::HasSubstr("body \"rod\", element "), testing::HasSubstr("it is deleted")));
+  const solver::Ledger& deleted = remove.state().ledger;
+  EXPECT_GT(deleted.elements_beyond_range, 0.0);
+  EXPECT_EQ(remove.particle_count(), 0U);
+  EXPECT_GT(deleted.removed_mass, 0.0);
+  EXPECT_NEAR(deleted.removed_mass, deleted.outflow.mass, 1e-12 * mass);
+  EXPECT_NEAR(remove.totals().mass, mass - deleted.removed_mass, 1e-12 * mass);
+  EXPECT_LT(std::abs(deleted.energy_error(remove.totals())), 1e-12);
+  EXPECT_LT(deleted.momentum_error(remove.totals()), 1e-12);
+
+  Simulation stop(rod_on_plate(beyond("stop")), parallel::world());
+  try {
+    run_to(stop, 4e-6);
+    FAIL() << "nothing stopped";
+  } catch (const StateError& error) {
+    EXPECT_THAT(error.what(), testing::ContainsRegex("body \"rod\", element [0-9]+: is distorted"));
+  }
+}
+
+TEST(ElementsBeyondTheirRange, AreFoundBySpeedAndByHourglassEnergy) {
+  for (const std::string bound : {"speed = \"1100 m/s\"", "hourglass_share = 1e-6"}) {
+    Simulation simulation(rod_on_plate("element_range = { beyond = \"stop\", " + bound + " }"),
+                          parallel::world());
+    EXPECT_THROW(run_to(simulation, 4e-6), StateError) << bound;
+  }
+}
+
+}  // namespace
+}  // namespace whipple::verification
