@@ -11,11 +11,13 @@
 #include <fstream>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <string_view>
 #include <unordered_map>
 
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
+#include "src/core/base/words.hpp"
 
 namespace whipple::fem {
 namespace {
@@ -61,6 +63,12 @@ constexpr std::array types = {Type{"C3D8", hexahedron_kind},
                               Type{"R3D3", 2},
                               Type{"SFM3D4", 3},
                               Type{"MASS", 15}};
+
+/// Coordinates of nodes.
+enum class System { cartesian, cylindrical };
+constexpr std::array<Word<System>, 2> words(System /*of*/) {
+  return {{{System::cartesian, "R"}, {System::cylindrical, "C"}}};
+}
 
 /// What a keyword is to a mesh.
 enum class Meaning {
@@ -252,19 +260,20 @@ class AbaqusReader {
   }
 
   /// The place of a node, from coordinates in the system of the keyword.
-  Vector3 place(const Vector3& x, bool cylindrical) const {
-    if (!cylindrical) return unit_ * x;
+  Vector3 place(const Vector3& x, System system) const {
+    if (system == System::cartesian) return unit_ * x;
     const double angle = x[1] * std::numbers::pi / 180.0;
     return unit_ * Vector3(x[0] * std::cos(angle), x[0] * std::sin(angle), x[2]);
   }
 
   void nodes() {
-    const std::string system = upper(parameters_["SYSTEM"]);
-    if (!system.empty() && system != "R" && system != "C") {
+    const std::string& name = parameters_["SYSTEM"];
+    const std::optional<System> system = name.empty() ? System::cartesian : value_of<System>(upper(name));
+    if (!system) {
       fail(fmt::format(
           "nodes in the system \"{}\" are not read: write them in Cartesian (SYSTEM=R) or cylindrical "
           "coordinates (SYSTEM=C)",
-          system));
+          name));
     }
     for_each_line([&](const std::vector<std::string_view>& cells) {
       const std::uint64_t tag = number(cells.front(), "the number of a node");
@@ -276,7 +285,7 @@ class AbaqusReader {
       if (!node_.emplace(tag, static_cast<std::uint32_t>(data_.nodes.size())).second) {
         fail(fmt::format("node {} is defined twice", tag));
       }
-      data_.nodes.push_back(place(x, system == "C"));
+      data_.nodes.push_back(place(x, *system));
     });
   }
 
