@@ -92,7 +92,7 @@ class CaseWriter {
     toml_.entry("end", units_.quantity(model_.end, dimension::time));
     toml_.table("[contact]");
     toml_.entry("method", model_.friction ? "\"multi_field\"" : "\"none\"",
-                model_.friction ? "" : "the deck has no *CONTACT");
+                model_.friction ? "" : "the deck has no *CONTACT that is read");
     if (model_.friction) toml_.entry("friction", number(*model_.friction));
     toml_.table("[output]");
     if (model_.snapshots > 0.0)
@@ -203,7 +203,8 @@ class CaseWriter {
       body.method = Method::particles;
       remark(
           Outcome::converted, *part.block,
-          fmt::format("{}: {} become particles that fill their mesh", part.name,
+          fmt::format("{}: {} become particles that fill their mesh; 'whipple check' compares the masses",
+                      part.name,
                       flows ? fmt::format("elements that material flows through (ELFORM = {})", formulation)
                             : "elements of an explosive"));
     } else if (body.material.fails || body.material.fluid) {

@@ -12,6 +12,7 @@
 
 #include "src/decks/dyna_contact.hpp"
 #include "src/decks/dyna_fields.hpp"
+#include "src/decks/dyna_sets.hpp"
 #include "src/decks/unit_system.hpp"
 
 namespace whipple::decks::dyna {
@@ -42,7 +43,6 @@ constexpr std::array harmless = {"KEYWORD",
 /// Keywords that define what others use: if one of those is not read, it is named.
 constexpr std::array used_by_others = {"DEFINE_CURVE",
                                        "DEFINE_TABLE",
-                                       "DEFINE_BOX",
                                        "DEFINE_VECTOR",
                                        "DEFINE_COORDINATE_SYSTEM",
                                        "DEFINE_COORDINATE_VECTOR",
@@ -75,6 +75,7 @@ class ModelReader {
 
   Model read() {
     collect();
+    for (const Block* block : general_sets_) faults_.guarded([&] { general_set(*block); });
     for (const auto& [block, reader] : of_sets_) faults_.guarded([&] { (this->*reader)(*block); });
     for (const Deck::Note& note : deck_.notes)
       import_.remark(Outcome::converted, note.line, note.keyword, note.text);
@@ -156,6 +157,7 @@ class ModelReader {
   void state(const Block& block) { model_.states[first_id(block)] = &block; }
   void node_set(const Block& block) { set(block, node_sets_); }
   void part_set(const Block& block) { set(block, part_sets_); }
+  void general_node_set(const Block& block) { general_sets_.push_back(&block); }
   void title(const Block& block) {
     if (!block.cards.empty()) {
       const std::string& text = block.cards[0].text;
@@ -176,6 +178,7 @@ class ModelReader {
   /// A card for each detonator: part, place, delay.
   void detonation(const Block& block) {
     for (const Card& card : block.cards) {
+      if (is_blank(card)) continue;
       const Fields fields(deck_, block, card);
       model_.detonators.push_back({&block, card.line, fields.id(0),
                                    Vector3(fields.real(1), fields.real(2), fields.real(3)), fields.real(4)});
@@ -184,6 +187,7 @@ class ModelReader {
   }
   void section(const Block& block) {
     for (const Card& card : block.cards) {
+      if (is_blank(card)) continue;
       const Fields fields(deck_, block, card);
       const bool solid = block.keyword == "SECTION_SOLID";
       model_.sections[static_cast<Id>(fields.required(0, "its number"))] = {&block, solid ? fields.id(1) : 0};
@@ -207,6 +211,7 @@ class ModelReader {
   void velocity_by_parts(const Block& block) { of_sets_.emplace_back(&block, &ModelReader::start_generated); }
   void constraint(const Block& block) { of_sets_.emplace_back(&block, &ModelReader::constraints); }
 
+  static bool is_blank(const Card& card) { return trimmed(card.text).empty(); }
   [[nodiscard]] Fields first(const Block& block) const {
     if (block.cards.empty()) fail(block, "has no card");
     return {deck_, block, block.cards[0]};
@@ -217,6 +222,7 @@ class ModelReader {
 
   void nodes(const Block& block) {
     for (const Card& card : block.cards) {
+      if (is_blank(card)) continue;
       faults_.guarded([&] {
         const Fields fields(deck_, block, card, node_widths);
         const auto node = static_cast<Id>(fields.required(0, "the number of a node"));
@@ -267,6 +273,7 @@ class ModelReader {
 
   void solids(const Block& block) {
     for (std::size_t i = 0; i < block.cards.size(); ++i) {
+      if (is_blank(block.cards[i])) continue;
       faults_.guarded([&] {
         const Fields fields(deck_, block, block.cards[i], solid_widths);
         Solid solid{.line = block.cards[i].line};
@@ -317,21 +324,31 @@ class ModelReader {
   }
 
   void set(const Block& block, std::map<Id, std::set<Id>>& sets) {
-    const bool generated = block.keyword.ends_with("_GENERATE");
     std::set<Id>& members = sets[first_id(block)];
-    for (std::size_t i = 1; i < block.cards.size(); ++i) {
-      const Fields fields(deck_, block, block.cards[i]);
-      for (std::size_t k = 0; k < fields.size(); k += generated ? 2 : 1) {
-        const Id from = fields.id(k), to = generated ? fields.id(k + 1) : from;
-        if (from == 0) continue;
-        constexpr Id most = 5'000'000;  // members of a set: what fits into memory
-        if (to < from || to - from + static_cast<Id>(members.size()) > most) {
-          fail(block, fmt::format("the range {} to {} is none", from, to));
-        }
-        for (Id member = from; member <= to; ++member) members.insert(member);
-      }
-    }
+    members.merge(listed_members(deck_, block));
     remark(Outcome::exact, block, fmt::format("{} members", members.size()));
+  }
+  void general_set(const Block& block) {
+    const std::optional<std::set<Id>> nodes = general_nodes(deck_, block, model_, boxes_);
+    if (!nodes) {
+      remark(Outcome::missing, block, "nodes that are chosen by something else than ALL, NODE, PART and BOX");
+      return;
+    }
+    node_sets_[first_id(block)] = *nodes;
+    remark(Outcome::exact, block, fmt::format("{} members", nodes->size()));
+  }
+  void box(const Block& block) {
+    const Fields c = first(block);
+    boxes_[first_id(block)] = {Vector3(c.real(1), c.real(3), c.real(5)),
+                               Vector3(c.real(2), c.real(4), c.real(6))};
+    useful(block);
+  }
+  /// The first value of a parameter stays, as that code does by default.
+  void duplication(const Block& block) {
+    const Id flag = first(block).id(0);
+    const bool first_stays = flag == 0 || flag == 1 || flag == 4;
+    remark(first_stays ? Outcome::exact : Outcome::missing, block,
+           fmt::format("DFLAG = {}: the first value of a parameter stays", flag));
   }
 
   void contact(const Block& block) {
@@ -339,9 +356,8 @@ class ModelReader {
     if (type.kind != ContactKind::pressing) {
       remark(type.kind == ContactKind::output ? Outcome::dropped : Outcome::missing, block,
              type.kind == ContactKind::output ? "output of forces"
-             : type.kind == ContactKind::tied
-                 ? "surfaces that are tied to one another: bodies of the case press and part again"
-                 : "this contact is not read");
+             : type.kind == ContactKind::tied ? "surfaces that are tied to one another"
+                                              : "this contact is not read");
       return;
     }
     const std::size_t card = type.first_card;
@@ -415,6 +431,8 @@ class ModelReader {
   FaultList& faults_;
   Model model_;
   std::map<Id, std::set<Id>> node_sets_, part_sets_;
+  std::map<Id, DeckBox> boxes_;
+  std::vector<const Block*> general_sets_;  ///< read when all nodes and parts are there
   std::vector<std::pair<const Block*, Reader>> of_sets_;
 };
 
@@ -429,6 +447,7 @@ ModelReader::Readers ModelReader::of_keywords() {
        {"SET_NODE", &ModelReader::node_set},
        {"SET_NODE_LIST", &ModelReader::node_set},
        {"SET_NODE_LIST_GENERATE", &ModelReader::node_set},
+       {"SET_NODE_GENERAL", &ModelReader::general_node_set},
        {"SET_PART", &ModelReader::part_set},
        {"SET_PART_LIST", &ModelReader::part_set},
        {"SET_PART_LIST_GENERATE", &ModelReader::part_set},
@@ -450,6 +469,8 @@ ModelReader::Readers ModelReader::of_keywords() {
        {"TITLE", &ModelReader::title},
        {"INCLUDE", &ModelReader::taken},
        {"PARAMETER", &ModelReader::taken},
+       {"DEFINE_BOX", &ModelReader::box},
+       {"PARAMETER_DUPLICATION", &ModelReader::duplication},
        {"PARAMETER_LOCAL", &ModelReader::taken},
        {"PARAMETER_EXPRESSION", &ModelReader::taken},
        {"PARAMETER_EXPRESSION_LOCAL", &ModelReader::taken}});

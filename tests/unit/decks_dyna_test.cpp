@@ -107,6 +107,14 @@ TEST_F(DynaImport, OtherHeldNodesAreNodeConditions) {
   ASSERT_EQ(setup.bodies[0].node_conditions.size(), 1U);
   EXPECT_THAT(setup.bodies[0].node_conditions[0].directions, ::testing::ElementsAre("z"));
   EXPECT_EQ(setup.bodies[1].node_conditions[0].directions.size(), 3U);
+  // The same nodes by boxes and parts, and what chooses them otherwise.
+  const std::string general =
+      "*DEFINE_BOX\n3, -9, 9, -9, 9, 0.9, 9\n*SET_NODE_GENERAL\n6\nBOX, 3\n*BOUNDARY_SPC_SET\n6, 0, 0, 0, "
+      "1\n";
+  EXPECT_THAT(with_keyword(general).report(), HasSubstr("held nodes: plane of symmetry z = 1"));
+  EXPECT_THAT(with_keyword("*SET_NODE_GENERAL\n6\nPART, 1\n").report(), HasSubstr("27 members"));
+  EXPECT_THAT(missing_of(with_keyword("*SET_NODE_GENERAL\n6\nSET_XYZ, 1\n")),
+              HasSubstr("chosen by something else"));
   EXPECT_THAT(missing_of(with_keyword("*BOUNDARY_SPC_NODE\n1, 7, 1, 1, 1\n")),
               HasSubstr("CID = 7: a local coordinate system"));
 }
@@ -137,7 +145,9 @@ TEST(HeldNodes, OfARimAreBoxesWithoutTheInside) {
 }
 
 TEST(HeldNodes, AClampedFaceIsNoSymmetry) {
-  dyna::HeldPart cube{.upper = Vector3::Ones(), .shortest_edge = 1.0};
+  dyna::HeldPart cube;
+  cube.upper = Vector3::Ones();
+  cube.shortest_edge = 1.0;
   for (int i = 0; i < 8; ++i) {
     cube.nodes.emplace_back(i % 2, i / 2 % 2, i / 4);
     const int symmetric = (i % 2 == 0 ? 1 : 0) + (i / 2 % 2 == 0 ? 2 : 0);  // x = 0 and y = 0
