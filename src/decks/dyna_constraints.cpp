@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace whipple::decks::dyna {
 namespace {
@@ -111,17 +112,20 @@ class BoxFinder {
       boxes.push_back(box);
       return boxes.size() <= most_;
     }
-    std::size_t fewest = std::numeric_limits<std::size_t>::max();
+    // The fewest others inside; of equal cuts that which leaves the most points in a box without others.
+    std::pair<std::size_t, std::size_t> best = {std::numeric_limits<std::size_t>::max(), 0};
     Indices best_below, best_above;
     for (int axis = 0; axis < 3; ++axis) {
       for (const double cut : cuts(chosen, axis)) {
         Indices below, above;
         for (const std::size_t i : chosen) (points_[i][axis] < cut ? below : above).push_back(i);
         if (below.empty() || above.empty()) continue;
-        const std::size_t count =
-            those_in(box_of(below), inside).size() + those_in(box_of(above), inside).size();
-        if (count >= fewest) continue;
-        fewest = count;
+        const std::size_t in_lower = those_in(box_of(below), inside).size(),
+                          in_upper = those_in(box_of(above), inside).size();
+        const std::size_t done = (in_lower == 0 ? below.size() : 0) + (in_upper == 0 ? above.size() : 0);
+        const std::pair score = {in_lower + in_upper, chosen.size() - done};
+        if (score >= best) continue;
+        best = score;
         best_below = std::move(below);
         best_above = std::move(above);
       }
