@@ -221,7 +221,7 @@ TEST(DynaParameters, InEveryForm) {
   const auto fault = [&](const std::string& keyword) {
     return message_of<InputError>([&] { static_cast<void>(end(keyword)); });
   };
-  EXPECT_THAT(fault("*PARAMETER_EXPRESSION\nR tend, 2*(3\n"), HasSubstr("deck.k:5:1: error"));
+  EXPECT_THAT(fault("*PARAMETER_EXPRESSION\nR tend, 2*(3\n"), HasSubstr("deck.k:6:1: error"));
   EXPECT_THAT(fault("*PARAMETER_EXPRESSION\nR tend, 2*(3\n"), HasSubstr("')' is missing"));
   EXPECT_THAT(fault("*PARAMETER_EXPRESSION\nR tend, nothing*2\n"),
               HasSubstr("there is no parameter NOTHING"));
