@@ -105,7 +105,9 @@ class BoxFinder {
       : points_(points), margin_(Vector3::Constant(margin)), most_(most) {}
 
   /// False if it takes too many boxes or cannot be done.
-  bool cover(Indices chosen, const Indices& others) {
+  /// @param depth  cuts so far, each of which makes a box more
+  bool cover(Indices chosen, const Indices& others, std::size_t depth = 0) {
+    if (depth > most_) return false;
     const NodeBox box = box_of(chosen);
     const Indices inside = those_in(box, others);
     if (inside.empty()) {
@@ -131,7 +133,7 @@ class BoxFinder {
       }
     }
     if (best_below.empty()) return false;  // points in the same place
-    return cover(std::move(best_below), inside) && cover(std::move(best_above), inside);
+    return cover(std::move(best_below), inside, depth + 1) && cover(std::move(best_above), inside, depth + 1);
   }
 
   std::vector<NodeBox> boxes;

@@ -309,11 +309,13 @@ class ModelReader {
         Part& part = model_.parts[number];
         part.block = &block;
         part.name = name_of(block.cards[i].text);
-        const auto same = [&](const auto& entry) {
-          return entry.first != number && entry.second.name == part.name;
+        const auto is_taken = [&] {
+          return std::ranges::any_of(model_.parts, [&](const auto& entry) {
+            return entry.first != number && entry.second.name == part.name;
+          });
         };
-        if (part.name.empty() || std::ranges::any_of(model_.parts, same))
-          part.name = fmt::format("part_{}", number);
+        if (part.name.empty() || is_taken()) part.name = fmt::format("part_{}", number);
+        while (is_taken()) part.name += "_";
         part.section = fields.id(1);
         part.material = fields.id(2);
         part.state = fields.id(3);

@@ -444,10 +444,29 @@ TEST_F(ImportFolder, HabitsOfOtherEditorsChangeNothing) {
 TEST(Decks, DamagedOnesAreReadOrRefused) {
   const char* wanted = std::getenv("WHIPPLE_FUZZ_TRIALS");
   const int trials = wanted != nullptr ? std::atoi(wanted) : 300;
-  const std::vector<std::string> odd = {"-1",       "1e300",  "-1e300", "0",      "999999999",
-                                        "endi",     "part",   "poin",   "nan",    "!",
-                                        "\n",       "\0",     "sphere", "1e-300", "*NODE",
-                                        "*INCLUDE", "&speed", "1-3",    ",",      "*SET_PART_LIST_GENERATE"};
+  const std::vector<std::string> odd = {"-1",
+                                        "1e300",
+                                        "-1e300",
+                                        "0",
+                                        "999999999",
+                                        "endi",
+                                        "part",
+                                        "poin",
+                                        "nan",
+                                        "!",
+                                        "\n",
+                                        "\0",
+                                        "sphere",
+                                        "1e-300",
+                                        "*NODE",
+                                        "*INCLUDE",
+                                        "&speed",
+                                        "1-3",
+                                        ",",
+                                        "*SET_PART_LIST_GENERATE",
+                                        "*BOUNDARY_SPC_SET",
+                                        "*PARAMETER_EXPRESSION",
+                                        "*SET_NODE_GENERAL"};
   for (int trial = 0; trial < trials; ++trial) {
     std::mt19937_64 random(static_cast<std::uint64_t>(trial));
     const std::size_t which = random() % 4;
