@@ -24,23 +24,24 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Arguments {
-  std::string deck, folder, format, units, cell_size;
+  std::string deck, folder, format, units, cell_size, triaxiality;
   bool allow_missing = false, case_only = false, same_method = false, old_mass = false;
 };
 
+/// The choice that an option names.
+template <class Choice>
+Choice word(const char* option, const std::string& text) {
+  if (const std::optional<Choice> choice = value_of<Choice>(text)) return *choice;
+  const std::vector<std::string> known = word_list<Choice>();
+  throw InputError(fmt::format("{} is \"{}\"{}; known: {}", option, text, did_you_mean(text, known),
+                               fmt::join(known, ", ")));
+}
+
 decks::ImportOptions import_options(const Arguments& arguments) {
   decks::ImportOptions options{.same_method = arguments.same_method, .old_mass = arguments.old_mass};
-  if (!arguments.format.empty()) {
-    std::vector<std::string> known;
-    for (const Word<decks::Format>& format : words(decks::Format{})) {
-      known.emplace_back(format.text);
-      if (format.text == arguments.format) options.format = format.value;
-    }
-    if (!options.format) {
-      throw InputError(fmt::format("--format is \"{}\"{}; known: {}", arguments.format,
-                                   did_you_mean(arguments.format, known), fmt::join(known, ", ")));
-    }
-  }
+  if (!arguments.format.empty()) options.format = word<decks::Format>("--format", arguments.format);
+  if (!arguments.triaxiality.empty())
+    options.triaxiality = word<decks::Triaxiality>("--triaxiality", arguments.triaxiality);
   if (!arguments.units.empty()) {
     options.units = decks::parse_unit_system(arguments.units);
     if (!options.units) {
@@ -93,6 +94,10 @@ void require_readable(const decks::CaseFolder& written, const fs::path& folder) 
 void import_case(const Arguments& arguments) {
   const decks::Import import = decks::import_deck(arguments.deck, import_options(arguments));
   fmt::print("{}", import.report());
+  for (const decks::Remark& remark : import.remarks) {
+    if (remark.doubtful)
+      log::warning("{}:{}: {}: {}", arguments.deck, remark.line, remark.keyword, remark.text);
+  }
   if (!arguments.allow_missing) require_complete(arguments.deck, import);
   if (arguments.case_only) {
     decks::write_case_only(import, arguments.folder);
@@ -119,6 +124,10 @@ void add_import_command(CLI::App& app) {
                       "Units of length, mass and time of the deck, as in 'mm g ms'");
   command->add_option("--cell-size", arguments->cell_size,
                       "Edge of the cells of the grid, for decks without one (LS-DYNA)");
+  command->add_option(
+      "--triaxiality", arguments->triaxiality,
+      "What the stress triaxiality of *MAT_JOHNSON_COOK counts positive: tension (D3 < 0 as by "
+      "Johnson and Cook), pressure (D3 > 0), or inferred: what makes tension break earlier");
   command->add_flag("--allow-missing", arguments->allow_missing,
                     "Write the case though physics of the deck is missing in it");
   command->add_flag("--case-only", arguments->case_only,

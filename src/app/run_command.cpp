@@ -27,6 +27,7 @@
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/process/mpirun.hpp"
 #include "src/core/process/paths.hpp"
+#include "src/decks/import.hpp"
 #include "src/run/restart.hpp"
 #include "src/run/run.hpp"
 #include "src/view/page.hpp"
@@ -78,6 +79,7 @@ run::RunOptions run_options(const Arguments& arguments) {
   } else if (arguments.case_file.empty()) {
     throw InputError("expected a case file (CASE.toml) or --restart DIR");
   }
+  decks::require_no_deck(arguments.case_file);
   for (const std::string& entry : arguments.set) {
     const std::size_t equals = entry.find('=');
     if (equals == std::string::npos || equals == 0) {

@@ -24,10 +24,17 @@ ParameterTable<Detonation> Detonation::parameters() {
       vector("normal", &D::normal, "", range::any(), "normal of the plane, of any length").optional(),
       real("radius", &D::radius, "m", range::non_negative(), "of the sphere").optional(),
       real("velocity", &D::velocity, "m/s", range::non_negative(), "of detonation along the cord").optional(),
-      real("delay", &D::delay, "s", range::non_negative(), "time at which it starts").optional()};
+      real("delay", &D::delay, "s", range::non_negative(), "time at which it starts").optional(),
+      text("body", &D::body, "the only body that it lights, with burn.lighting = \"straight\"; empty: all")
+          .optional()};
 }
 
-void Detonation::check(const Case& /*setup*/, const Faults& faults) const {
+void Detonation::check(const Case& setup, const Faults& faults) const {
+  if (!body.empty() && setup.burn.lighting != LightingRule::straight) {
+    faults.add("body", "a detonator lights one body alone with burn.lighting = \"straight\" only");
+  }
+  const bool there = std::ranges::any_of(setup.bodies, [&](const Body& each) { return lights(each.name); });
+  if (!body.empty() && !there) faults.add("body", fmt::format("there is no body \"{}\"", body));
   const bool is_line = shape == DetonatorShape::line || shape == DetonatorShape::cord;
   if (is_line && !((end - position).norm() > 0.0)) {
     faults.add("end", fmt::format("a {} takes 'end', another place than 'position'", word_of(shape)));

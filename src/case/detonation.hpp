@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
 
 #include "src/case/section.hpp"
 #include "src/core/base/tensor.hpp"
@@ -43,6 +44,9 @@ struct Detonation {
   double radius = 0.0;                 ///< m, of the sphere
   double velocity = 0.0;               ///< m/s, of the detonation along the cord, from `position` on
   double delay = 0.0;                  ///< s
+  std::string body;                    ///< the only one that it lights; empty: all
+
+  [[nodiscard]] bool lights(const std::string& name) const { return body.empty() || body == name; }
 
   static ParameterTable<Detonation> parameters();
   void check(const Case& setup, const Faults& faults) const;

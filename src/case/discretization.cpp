@@ -43,7 +43,7 @@ ParameterTable<Discretization> Discretization::parameters() {
           .optional(),
       text("mesh", &D::mesh,
            "file of Gmsh (2.2 or 4.1), Abaqus or VTK (.vtu, .vtk) with the hexahedra of the body instead of "
-           "a shape")
+           "a shape: its finite elements, or what its particles fill")
           .optional(),
       real("mesh_unit", &D::mesh_unit, "m", range::positive(), "length of a unit of the mesh file")
           .optional(),
@@ -150,9 +150,6 @@ void check_elements(const Discretization& control, const Case& setup, const Faul
                            "elements of at most 2 cells, {} m",
                            size, 2.0 * setup.domain.cell_size));
   }
-  if (control.mesh.empty() && !control.group.empty()) {
-    faults.add("group", "'group' names a group of a mesh file: give 'mesh' as well");
-  }
 }
 
 /// The mass of a ring belongs to its radius, which balances a uniform pressure: it has no place beside it.
@@ -179,8 +176,9 @@ void Discretization::check(const Case& setup, const Faults& faults) const {
   if (lattice == Arrangement::layered) check_layers(*this, setup, faults);
   if (has_elements() || is_bars()) {
     check_elements(*this, setup, faults);
-  } else if (!mesh.empty()) {
-    faults.add("mesh", "'mesh' belongs to bodies with finite elements");
+  }
+  if (mesh.empty() && !group.empty()) {
+    faults.add("group", "'group' names a group of a mesh file: give 'mesh' as well");
   }
 }
 

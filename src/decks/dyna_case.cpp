@@ -2,6 +2,7 @@
 #include "src/decks/dyna_case.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -13,7 +14,9 @@
 
 #include "src/core/base/tensor.hpp"
 #include "src/core/base/text.hpp"
+#include "src/decks/dyna_lighting.hpp"
 #include "src/decks/dyna_material.hpp"
+#include "src/decks/dyna_mesh.hpp"
 #include "src/decks/dyna_model.hpp"
 #include "src/decks/lattice.hpp"
 #include "src/decks/toml_text.hpp"
@@ -21,7 +24,7 @@
 namespace whipple::decks::dyna {
 namespace {
 
-constexpr std::size_t most_boxes_of_points = 400;
+constexpr std::size_t most_boxes_of_points = 400, most_boxes_of_nodes = 400;
 
 class CaseWriter {
  public:
@@ -35,10 +38,16 @@ class CaseWriter {
     model_ = read_model(deck_, import_, faults_);
     faults_.raise();
     head();
-    bodies();
-    detonators();
+    plan();
     faults_.raise();
-    import_.case_text = fmt::format("{}\n{}\n{}{}", head_.text(), domain(), toml_.text(), bodies_);
+    constrain();
+    join();
+    std::string bodies;
+    for (Body& body : bodies_) faults_.guarded([&] { bodies += "\n" + text_of(body); });
+    velocities_left();
+    bodies += "\n" + lighting(model_, explosives_, units_, import_) + gauges();
+    faults_.raise();
+    import_.case_text = fmt::format("{}\n{}\n{}{}", head_.text(), domain(), toml_.text(), bodies);
     std::ranges::stable_sort(import_.remarks, {}, &Remark::line);
     return std::move(import_);
   }
@@ -83,51 +92,32 @@ class CaseWriter {
     toml_.entry("end", units_.quantity(model_.end, dimension::time));
     toml_.table("[contact]");
     toml_.entry("method", model_.friction ? "\"multi_field\"" : "\"none\"",
-                model_.friction ? "" : "the deck has no *CONTACT");
+                model_.friction ? "" : "the deck has no *CONTACT that is read");
     if (model_.friction) toml_.entry("friction", number(*model_.friction));
     toml_.table("[output]");
     if (model_.snapshots > 0.0)
       toml_.entry("snapshot_every", units_.quantity(model_.snapshots, dimension::time));
   }
 
-  void bodies() {
-    const std::vector<Start>& all_starts = model_.starts;
+  /// How the material of a part is made.
+  enum class Method { elements, adaptive, particles, lattice };
+  struct Body {
+    Id id = 0;
+    const Part* part = nullptr;
+    CaseMaterial material;
+    Method method = Method::elements;
+    PartMesh mesh;      ///< of solids
+    std::string shape;  ///< of points
+    std::vector<Id> nodes;
+    HeldPart held;
+    std::string group;  ///< of contact; empty: its own
+  };
+
+  /// Reads materials and geometry of all parts.
+  void plan() {
     std::set<const Block*> used;
     for (auto& [number, part] : model_.parts) {
-      faults_.guarded([&] {
-        const Id id = number;
-        if (part.block == nullptr) {
-          throw InputError(std::vector<InputFault>{
-              {.file = deck_.file.string(),
-               .line = 1,
-               .column = 1,
-               .text = fmt::format("elements are of part {}, which the deck does not define", id)}});
-        }
-        if (part.solids.empty() && part.points.empty()) {
-          remark(Outcome::missing, *part.block, fmt::format("{}: no solid or SPH elements", part.name));
-          return;
-        }
-        const auto material = model_.materials.find(part.material);
-        if (material == model_.materials.end())
-          fail(*part.block, fmt::format("{}: there is no *MAT {}", part.name, part.material));
-        const auto state = model_.states.find(part.state);
-        if (part.state != 0 && state == model_.states.end())
-          fail(*part.block, fmt::format("{}: there is no *EOS {}", part.name, part.state));
-        used.insert(material->second);
-        if (part.state != 0) used.insert(state->second);
-        if (!has_law(*material->second) && part.state == 0) {
-          remark(Outcome::missing, *material->second, fmt::format("{}: this material law", part.name));
-          return;
-        }
-        body(id, part,
-             material_of(deck_, *material->second, part.state != 0 ? state->second : nullptr, part.name,
-                         units_, import_),
-             all_starts);
-      });
-    }
-    for (const Start& start : all_starts) {
-      if (velocities_.insert(start.block).second)
-        remark(Outcome::missing, *start.block, "velocities of some nodes of a part, or of none");
+      faults_.guarded([&] { plan(number, part, used); });
     }
     for (const auto* blocks : {&model_.materials, &model_.states}) {
       for (const auto& [number, block] : *blocks) {
@@ -137,61 +127,276 @@ class CaseWriter {
     }
   }
 
-  void detonators() {
-    for (const Detonator& detonator : model_.detonators) {
-      if (!has_explosive_) {
-        remark(Outcome::dropped, *detonator.block, "no part is an explosive");
-        continue;
-      }
-      TomlText text;
-      text.table("[[detonation]]", fmt::format("line {}", detonator.block->line));
-      text.entry("position", vector(detonator.position, dimension::length));
-      if (detonator.delay > 0.0) text.entry("delay", units_.quantity(detonator.delay, dimension::time));
-      bodies_ += "\n" + text.text();
-      remark(Outcome::exact, *detonator.block, "point of detonation, of all explosives");
+  void plan(Id id, const Part& part, std::set<const Block*>& used) {
+    if (part.block == nullptr) {
+      throw InputError(std::vector<InputFault>{
+          {.file = deck_.file.string(),
+           .line = 1,
+           .column = 1,
+           .text = fmt::format("elements are of part {}, which the deck does not define", id)}});
     }
-  }
-
-  const Vector3& place(const Part& part, Id node) const {
-    const auto found = model_.nodes.find(node);
-    if (found == model_.nodes.end())
-      fail(*part.block, fmt::format("{}: there is no node {}", part.name, node));
-    return found->second;
-  }
-
-  void body(Id id, const Part& part, const CaseMaterial& material, const std::vector<Start>& all_starts) {
-    std::set<Id> members;
-    for (const Solid& solid : part.solids) members.insert(solid.nodes.begin(), solid.nodes.end());
-    for (const SphPoint& point : part.points) members.insert(point.node);
-    for (const Id node : members) {
-      const Vector3& x = place(part, node);
-      lower_ = empty_ ? x : Vector3(lower_.cwiseMin(x));
-      upper_ = empty_ ? x : Vector3(upper_.cwiseMax(x));
-      empty_ = false;
+    if (part.solids.empty() && part.points.empty()) {
+      remark(Outcome::missing, *part.block, fmt::format("{}: no solid or SPH elements", part.name));
+      return;
     }
     if (!part.solids.empty() && !part.points.empty())
       fail(*part.block, fmt::format("{}: solid and SPH elements in one part", part.name));
+    const auto material = model_.materials.find(part.material);
+    if (material == model_.materials.end())
+      fail(*part.block, fmt::format("{}: there is no *MAT {}", part.name, part.material));
+    const auto state = model_.states.find(part.state);
+    if (part.state != 0 && state == model_.states.end())
+      fail(*part.block, fmt::format("{}: there is no *EOS {}", part.name, part.state));
+    used.insert(material->second);
+    if (part.state != 0) used.insert(state->second);
+    if (!has_law(*material->second) && part.state == 0) {
+      remark(Outcome::missing, *material->second, fmt::format("{}: this material law", part.name));
+      return;
+    }
+    Body body;
+    body.id = id;
+    body.part = &part;
+    body.material = material_of(deck_, *material->second, part.state != 0 ? state->second : nullptr,
+                                part.name, units_, options_.triaxiality, import_);
+    body.nodes = nodes_of(part);
+    for (const Id node : body.nodes) {
+      body.held.nodes.push_back(place_of(model_, part, node));
+      const auto held = model_.held.find(node);
+      body.held.held.push_back(held == model_.held.end() ? Directions{0} : held->second);
+    }
+    body.held.lower = body.held.upper = body.held.nodes.front();
+    for (const Vector3& x : body.held.nodes) {
+      body.held.lower = body.held.lower.cwiseMin(x);
+      body.held.upper = body.held.upper.cwiseMax(x);
+    }
+    if (!(part.solids.empty() ? lattice(body) : solids(body))) return;
+    lower_ = bodies_.empty() ? body.held.lower : Vector3(lower_.cwiseMin(body.held.lower));
+    upper_ = bodies_.empty() ? body.held.upper : Vector3(upper_.cwiseMax(body.held.upper));
+    if (body.material.explosive) {
+      explosives_.push_back(
+          {id, part.name, body.material.detonation_velocity, body.material.burn, body.held.nodes});
+    }
+    bodies_.push_back(std::move(body));
+  }
+
+  /// Solid elements: as they are; as elements that become particles where the material fails or flows; as particles.
+  bool solids(Body& body) {
+    const Part& part = *body.part;
+    body.mesh = mesh_of(model_, part);
+    if (body.mesh.odd_line != 0) {
+      remark(Outcome::missing, *part.block,
+             fmt::format("{}: elements that are no hexahedra, the first in line {}", part.name,
+                         body.mesh.odd_line));
+      return false;
+    }
+    body.held.shortest_edge = body.mesh.shortest_edge;
+    const auto section = model_.sections.find(part.section);
+    const Id formulation = section == model_.sections.end() ? 1 : section->second.formulation;
+    constexpr std::array eulerian = {5, 6, 7, 11, 12};
+    constexpr std::array lagrangian = {-18, -2, -1, 0, 1, 2, 3, 4, 9, 10, 13, 14, 15, 16, 17, 18};
+    const bool flows = std::ranges::find(eulerian, formulation) != eulerian.end();
+    if (!flows && std::ranges::find(lagrangian, formulation) == lagrangian.end()) {
+      remark(Outcome::missing, *section->second.block,
+             fmt::format("{}: elements of the formulation ELFORM = {}", part.name, formulation));
+    }
+    if (flows || body.material.explosive) {
+      body.method = Method::particles;
+      remark(
+          Outcome::converted, *part.block,
+          fmt::format("{}: {} become particles that fill their mesh; 'whipple check' compares the masses",
+                      part.name,
+                      flows ? fmt::format("elements that material flows through (ELFORM = {})", formulation)
+                            : "elements of an explosive"));
+    } else if (body.material.fails || body.material.fluid) {
+      body.method = Method::adaptive;
+      remark(Outcome::converted, *part.block,
+             fmt::format("{}: elements become particles where the material {}", part.name,
+                         body.material.fails ? "fails" : "has flowed far"));
+    }
+    if (body.mesh.longest_edge > 2.0 * cell_) {
+      remark(Outcome::converted, *part.block,
+             fmt::format("{}: elements of {} {} need cells of at least half of that", part.name,
+                         number(body.mesh.longest_edge), units_.length));
+    }
+    add_row(body, "hexahedra", part.solids.size(), body.mesh.volume * body.material.density);
+    return true;
+  }
+
+  /// SPH elements on a cubic lattice: boxes.
+  bool lattice(Body& body) {
+    const Part& part = *body.part;
+    body.method = Method::lattice;
+    std::vector<Vector3> places;
+    double least = 0.0, greatest = 0.0, total = 0.0;
+    for (const SphPoint& point : part.points) {
+      const double mass =
+          point.mass < 0.0 ? -point.mass * body.material.density : point.mass;  // negative: its volume
+      least = places.empty() ? mass : std::min(least, mass);
+      greatest = std::max(greatest, mass);
+      total += mass;
+      places.push_back(place_of(model_, part, point.node));
+    }
+    const double spacing = std::cbrt(greatest / body.material.density);
+    const bool alike = least > 0.0 && greatest - least <= 1e-3 * greatest;
+    const auto boxes = alike ? boxes_of_points(places, spacing, most_boxes_of_points) : std::nullopt;
+    if (!boxes) {
+      remark(Outcome::missing, *part.block,
+             fmt::format("{}: {} points that fill no cubic lattice of equal particles", part.name,
+                         places.size()));
+      return false;
+    }
+    std::string list;
+    for (const LatticeBox& box : *boxes) {
+      list += fmt::format("{}{{ box = {{ lower = {}, upper = {} }} }}", list.empty() ? "" : ",\n  ",
+                          vector(box.lower, dimension::length), vector(box.upper, dimension::length));
+    }
+    body.shape = boxes->size() == 1 ? list : fmt::format("{{ union = [{}] }}", list);
+    body.held.lower -= Vector3::Constant(0.5 * spacing);
+    body.held.upper += Vector3::Constant(0.5 * spacing);
+    body.held.shortest_edge = spacing;
+    add_row(body, fmt::format("SPH points of a cubic lattice, {} boxes", boxes->size()), places.size(),
+            total);
+    return true;
+  }
+  void add_row(const Body& body, const std::string& shape, std::size_t count, double mass) {
+    import_.bodies.push_back({body.part->name,
+                              body.method == Method::lattice ? shape : fmt::format("{} {}", count, shape),
+                              static_cast<double>(count), units_.in_si(mass, {.mass = 1})});
+  }
+
+  /// Nodes that are held: planes of symmetry of the domain, then conditions of nodes of elements.
+  void constrain() {
+    if (model_.held.empty()) return;
+    std::vector<HeldPart> parts;
+    for (const Body& body : bodies_) parts.push_back(body.held);
+    mirrors_ = take_mirrors(parts, cell_);
+    std::vector<std::string> became;
+    for (const Mirror& mirror : mirrors_)
+      became.push_back(fmt::format("plane of symmetry {} = {}", "xyz"[mirror.axis], number(mirror.place)));
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      Body& body = bodies_[i];
+      body.held.held = std::move(parts[i].held);
+      const auto left = std::ranges::count_if(body.held.held, [](Directions each) { return each != 0; });
+      if (left == 0) continue;
+      const std::string& name = body.part->name;
+      const bool elements = body.method == Method::elements || body.method == Method::adaptive;
+      const auto boxes = elements ? boxes_of_held_nodes(body.held, most_boxes_of_nodes) : std::nullopt;
+      if (!boxes) {
+        remark(Outcome::missing, *model_.holders.front(),
+               fmt::format("{}: {} nodes that are held {}", name, left,
+                           elements ? "lie among others so that too many boxes are needed"
+                                    : "belong to particles, which have none"));
+        continue;
+      }
+      conditions_[body.id] = *boxes;
+      became.push_back(fmt::format("node conditions of {} ({} nodes{})", name, left,
+                                   body.method == Method::adaptive ? ", until they are of particles" : ""));
+    }
+    for (const Block* block : model_.holders) {
+      remark(became.empty() ? Outcome::dropped : Outcome::converted, *block,
+             became.empty() ? "held nodes are those of no body"
+                            : fmt::format("held nodes: {}", fmt::join(became, "; ")));
+    }
+  }
+
+  /// Parts with nodes in common are bonded: bodies of one group of contact.
+  void join() {
+    if (!model_.friction) return;  // all bodies share one field
+    std::map<Id, std::size_t> owner;
+    std::vector<std::size_t> leader(bodies_.size());
+    const auto leader_of = [&](std::size_t body) {
+      while (leader[body] != body) body = leader[body];
+      return body;
+    };
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      leader[b] = b;
+      for (const Id node : bodies_[b].nodes) {
+        const std::size_t first = owner.try_emplace(node, b).first->second;
+        leader[leader_of(b)] = leader_of(first);
+      }
+    }
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      const std::size_t first = leader_of(b);
+      if (first == b) continue;
+      bodies_[b].group = bodies_[first].group = bodies_[first].part->name;
+      remark(Outcome::converted, *bodies_[b].part->block,
+             fmt::format("{} has nodes in common with {}: bonded by one contact_group", bodies_[b].part->name,
+                         bodies_[first].part->name));
+    }
+  }
+
+  std::string text_of(const Body& body) {
+    const Part& part = *body.part;
+    const CaseMaterial& material = body.material;
     TomlText text;
     text.table("[[body]]", fmt::format("line {}", part.block->line));
     text.text_entry("name", part.name);
     text.entry("material", toml_string(material.file));
-    const Vector3 velocity = velocity_of(id, members, all_starts);
+    const Vector3 velocity = velocity_of(body.id, {body.nodes.begin(), body.nodes.end()}, model_.starts);
     if (velocity != Vector3::Zero()) text.entry("velocity", vector(velocity, dimension::velocity));
     fastest_ = std::max(fastest_, velocity.norm());
-    has_explosive_ = has_explosive_ || material.explosive;
-    if (material.explosive && model_.detonators.empty()) {
+    if (!body.group.empty()) text.text_entry("contact_group", body.group);
+    if (material.explosive && !is_lit(model_, explosives_)) {
       text.entry("detonation", "\"instantaneous\"", "no *INITIAL_DETONATION in the deck");
       remark(Outcome::missing, *part.block,
              fmt::format("{} is lit by nothing: it starts as detonation products", part.name));
+    } else if (material.explosive && material.detonation_velocity > 0.0) {
+      text.entry("detonation_velocity", units_.quantity(material.detonation_velocity, dimension::velocity));
     }
-    const bool written = part.solids.empty() ? points(part, material, text) : mesh(part, material, text);
-    if (!written) return;
+    if (body.method == Method::lattice) {
+      text.entry("shape", body.shape);
+    } else {
+      constexpr std::array<const char*, 3> methods = {"finite_elements", "adaptive", "particles"};
+      const std::string file = fmt::format("meshes/{}.msh", part.name);
+      import_.files.push_back({file, body.mesh.text});
+      text.entry("discretization", fmt::format("{{ method = \"{}\", mesh = \"{}\", mesh_unit = {} }}",
+                                               methods[static_cast<std::size_t>(body.method)], file,
+                                               units_.quantity(1.0, dimension::length)));
+    }
     if (material.initial_pressure != 0.0) {
       text.entry("initial", fmt::format("{{ density = {}, pressure = {} }}",
-                                        units_.quantity(material.density, dimension::density),
+                                        units_.quantity(material.initial_density, dimension::density),
                                         units_.quantity(material.initial_pressure, dimension::pressure)));
     }
-    bodies_ += "\n" + text.text();
+    for (const NodeBox& box : conditions_[body.id]) {
+      text.table("[[body.node_condition]]");
+      text.entry("lower", vector(box.lower, dimension::length));
+      text.entry("upper", vector(box.upper, dimension::length));
+      std::vector<std::string> directions;
+      for (int axis = 0; axis < 3; ++axis) {
+        if ((box.directions & along(axis)) != 0) directions.push_back(fmt::format("\"{}\"", "xyz"[axis]));
+      }
+      text.entry("directions", fmt::format("[{}]", fmt::join(directions, ", ")));
+    }
+    return text.text();
+  }
+
+  void velocities_left() {
+    for (const Start& start : model_.starts) {
+      if (velocities_.insert(start.block).second)
+        remark(Outcome::missing, *start.block, "velocities of some nodes of a part, or of none");
+    }
+  }
+
+  /// Nodes of *DATABASE_HISTORY_NODE.
+  std::string gauges() {
+    TomlText text;
+    std::set<Id> given, of_bodies;
+    for (const Body& body : bodies_) of_bodies.insert(body.nodes.begin(), body.nodes.end());
+    for (const Id node : model_.histories) {
+      if (!of_bodies.contains(node) || !given.insert(node).second) continue;
+      text.table("[[gauge]]");
+      text.text_entry("name", fmt::format("node_{}", node));
+      text.entry("kind", "\"moving\"");
+      text.entry("position", vector(model_.nodes.at(node), dimension::length));
+    }
+    if (model_.histories_block != nullptr) {
+      remark(given.empty() ? Outcome::dropped : Outcome::converted, *model_.histories_block,
+             given.empty()
+                 ? std::string("nodes of no body")
+                 : fmt::format("{} gauges that move with the material next to the nodes", given.size()));
+    }
+    return given.empty() ? std::string() : "\n" + text.text();
   }
 
   /// The last velocity that all nodes of a part get; what only some of them get is missing.
@@ -228,102 +433,29 @@ class CaseWriter {
     return velocity;
   }
 
-  /// Solid elements as a mesh of Gmsh, format 2.2.
-  bool mesh(const Part& part, const CaseMaterial& material, TomlText& text) {
-    std::map<Id, std::size_t> index;
-    std::string elements;
-    double mass = 0.0, longest = 0.0;
-    for (std::size_t i = 0; i < part.solids.size(); ++i) {
-      const std::array<Id, 8>& n = part.solids[i].nodes;
-      if (std::set<Id>(n.begin(), n.end()).size() != 8) {
-        remark(Outcome::missing, *part.block,
-               fmt::format("{}: elements that are no hexahedra, the first in line {}", part.name,
-                           part.solids[i].line));
-        return false;
-      }
-      elements += fmt::format("{} 5 2 1 1", i + 1);
-      for (const Id node : n)
-        elements += fmt::format(" {}", index.try_emplace(node, index.size() + 1).first->second);
-      elements += '\n';
-      const auto x = [&](std::size_t corner) { return place(part, n[corner]); };
-      const Vector3 a = 0.25 * (x(1) + x(2) + x(5) + x(6) - x(0) - x(3) - x(4) - x(7));
-      const Vector3 b = 0.25 * (x(2) + x(3) + x(6) + x(7) - x(0) - x(1) - x(4) - x(5));
-      const Vector3 c = 0.25 * (x(4) + x(5) + x(6) + x(7) - x(0) - x(1) - x(2) - x(3));
-      mass += material.density * a.cross(b).dot(c);
-      longest = std::max({longest, a.norm(), b.norm(), c.norm()});
-    }
-    std::vector<Id> order(index.size());
-    for (const auto& [node, number] : index) order[number - 1] = node;
-    std::string nodes;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      const Vector3& x = place(part, order[i]);
-      nodes += fmt::format("{} {} {} {}\n", i + 1, x[0], x[1], x[2]);
-    }
-    const std::string file = fmt::format("meshes/{}.msh", part.name);
-    import_.files.push_back(
-        {file, fmt::format(
-                   "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 1 \"{}\"\n$EndPhysicalNames\n"
-                   "$Nodes\n{}\n{}$EndNodes\n$Elements\n{}\n{}$EndElements\n",
-                   part.name, order.size(), nodes, part.solids.size(), elements)});
-    text.entry("discretization",
-               fmt::format("{{ method = \"finite_elements\", mesh = \"{}\", mesh_unit = {} }}", file,
-                           units_.quantity(1.0, dimension::length)));
-    if (longest > 2.0 * cell_) {
-      remark(Outcome::converted, *part.block,
-             fmt::format("{}: elements of {} {} need cells of at least half of that", part.name,
-                         number(longest), units_.length));
-    }
-    import_.bodies.push_back({part.name, fmt::format("{} hexahedra", part.solids.size()),
-                              static_cast<double>(part.solids.size()), units_.in_si(mass, {.mass = 1})});
-    return true;
-  }
-
-  /// SPH elements on a cubic lattice as boxes.
-  bool points(const Part& part, const CaseMaterial& material, TomlText& text) {
-    std::vector<Vector3> places;
-    double least = 0.0, greatest = 0.0, total = 0.0;
-    for (const SphPoint& point : part.points) {
-      const double mass =
-          point.mass < 0.0 ? -point.mass * material.density : point.mass;  // negative: its volume
-      least = places.empty() ? mass : std::min(least, mass);
-      greatest = std::max(greatest, mass);
-      total += mass;
-      places.push_back(place(part, point.node));
-    }
-    const double spacing = std::cbrt(greatest / material.density);
-    const bool alike = least > 0.0 && greatest - least <= 1e-3 * greatest;
-    const auto boxes = alike ? boxes_of_points(places, spacing, most_boxes_of_points) : std::nullopt;
-    if (!boxes) {
-      remark(Outcome::missing, *part.block,
-             fmt::format("{}: {} points that fill no cubic lattice of equal particles", part.name,
-                         places.size()));
-      return false;
-    }
-    std::string list;
-    for (const LatticeBox& box : *boxes) {
-      list += fmt::format("{}{{ box = {{ lower = {}, upper = {} }} }}", list.empty() ? "" : ",\n  ",
-                          vector(box.lower, dimension::length), vector(box.upper, dimension::length));
-    }
-    text.entry("shape", boxes->size() == 1 ? list : fmt::format("{{ union = [{}] }}", list));
-    lower_ -= Vector3::Constant(0.5 * spacing);
-    upper_ += Vector3::Constant(0.5 * spacing);
-    import_.bodies.push_back({part.name,
-                              fmt::format("SPH points of a cubic lattice, {} boxes", boxes->size()),
-                              static_cast<double>(places.size()), units_.in_si(total, {.mass = 1})});
-    return true;
-  }
-
   /// The deck has no grid: room around all bodies for the way of the fastest one, at most twice their extent.
   std::string domain() {
     const double extent = (upper_ - lower_).maxCoeff();
     const double margin = std::min(fastest_ * model_.end, 2.0 * extent) + 4.0 * cell_;
     const Vector3 around = Vector3::Constant(cell_ * std::ceil(margin / cell_));
+    Vector3 lower = lower_ - around, upper = upper_ + around;
+    std::vector<std::string> faces;
+    for (const Mirror& mirror : mirrors_) {
+      (mirror.at_upper ? upper : lower)[mirror.axis] = mirror.place;
+      faces.push_back(
+          fmt::format("{}_{} = \"symmetry\"", "xyz"[mirror.axis], mirror.at_upper ? "upper" : "lower"));
+    }
+    for (const Mirror& mirror : mirrors_) {  // whole cells up to an upper plane
+      const int a = mirror.axis;
+      if (mirror.at_upper) lower[a] = upper[a] - cell_ * std::ceil((upper[a] - lower[a]) / cell_ - 1e-6);
+    }
     TomlText text;
     text.table("[domain]",
                "not in the deck: room for the way of the fastest body, at most twice their extent");
-    text.entry("lower", vector(lower_ - around, dimension::length));
-    text.entry("upper", vector(upper_ + around, dimension::length));
+    text.entry("lower", vector(lower, dimension::length));
+    text.entry("upper", vector(upper, dimension::length));
     text.entry("cell_size", units_.quantity(cell_, dimension::length));
+    if (!faces.empty()) text.entry("boundary", fmt::format("{{ {} }}", fmt::join(faces, ", ")));
     import_.remark(
         Outcome::converted, 0, "-",
         fmt::format("domain: the bodies with {} {} around them", number(around[0]), units_.length));
@@ -335,13 +467,15 @@ class CaseWriter {
   Import import_;
   UnitSystem units_;
   Model model_;
-  std::string bodies_;
   TomlText head_, toml_;
   FaultList faults_;
+  std::vector<Body> bodies_;
+  std::vector<Explosive> explosives_;
+  std::vector<Mirror> mirrors_;
+  std::map<Id, std::vector<NodeBox>> conditions_;  ///< by part
   std::set<const Block*> velocities_;
   double cell_ = 0.0, fastest_ = 0.0;
   Vector3 lower_ = Vector3::Zero(), upper_ = Vector3::Zero();
-  bool empty_ = true, has_explosive_ = false;
 };
 
 }  // namespace

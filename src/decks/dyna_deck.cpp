@@ -12,23 +12,13 @@
 #include <sstream>
 
 #include "src/core/base/files.hpp"
+#include "src/decks/dyna_parameters.hpp"
 
 namespace whipple::decks::dyna {
 namespace {
 
 constexpr int deepest_include = 20;
-
-std::string trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r");
-  if (begin == std::string_view::npos) return "";
-  return std::string(text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1));
-}
-
-std::string capitals(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return text;
-}
+constexpr std::size_t most_includes = 1000;  // files that name the next one twice are 2^19 at that depth
 
 /// Typographic dashes and minus signs, which copied cards hold, in UTF-8.
 constexpr std::array dashes = {"\xE2\x80\x90", "\xE2\x80\x91", "\xE2\x80\x92", "\xE2\x80\x93",
@@ -57,6 +47,111 @@ std::string with_exponent(std::string text) {
   return text;
 }
 
+/// Reads the lines of a deck and of the files that it includes.
+class BlockReader {
+ public:
+  explicit BlockReader(Deck& deck) : deck_(deck) {}
+
+  void read(const std::filesystem::path& file, std::string_view text, int depth) {
+    Block block;
+    bool ended = false, title_expected = false;
+    unsigned line = 0;
+    while (!text.empty() && !ended) {
+      const std::size_t end = std::min(text.find('\n'), text.size());
+      std::string content(text.substr(0, end));
+      text.remove_prefix(std::min(end + 1, text.size()));
+      ++line;
+      while (!content.empty() && content.back() == '\r') content.pop_back();
+      if (content.starts_with('$')) continue;
+      if (content.starts_with('*')) {
+        close(block, depth);
+        block.file = file.string();
+        block.line = line;
+        title_expected = begin(block, std::string_view(content).substr(1));
+        ended = block.keyword == "END";
+      } else if (title_expected) {
+        block.title = trimmed(content);
+        title_expected = false;
+      } else if (!block.keyword.empty()) {
+        block.cards.push_back({line, with_plain_minus(std::move(content))});
+      }
+    }
+    close(block, depth);
+  }
+
+ private:
+  /// Takes a keyword with the sign of its layout; returns whether the line of a title follows.
+  bool begin(Block& block, std::string_view line) {
+    const std::string words = capitals(trimmed(line));
+    const std::size_t end = std::min(words.find_first_of(" \t"), words.size());
+    block.keyword = words.substr(0, end);
+    block.behind = trimmed(std::string_view(words).substr(end));
+    block.layout = usual_;
+    const auto take_sign = [&](char sign) {
+      if (sign == '+') block.layout = Layout::wide;
+      if (sign == '-') block.layout = Layout::standard;
+      if (sign == '%') block.layout = Layout::long_ids;
+      return sign == '+' || sign == '-' || sign == '%';
+    };
+    while (!block.keyword.empty() && take_sign(block.keyword.back())) block.keyword.pop_back();
+    while (!block.behind.empty() && take_sign(block.behind.front()))
+      block.behind = trimmed(std::string_view(block.behind).substr(1));
+    if (block.behind.starts_with('$')) block.behind.clear();
+    if (block.keyword.starts_with("KEYWORD")) {
+      if (block.behind.find("I10=Y") != std::string::npos) usual_ = Layout::long_ids;
+      if (block.behind.find("LONG=Y") != std::string::npos) usual_ = Layout::wide;
+    }
+    constexpr std::string_view titled = "_TITLE";
+    const bool title = block.keyword.ends_with(titled);
+    if (title) block.keyword.resize(block.keyword.size() - titled.size());
+    return title;
+  }
+
+  void close(Block& block, int depth) {
+    if (block.keyword.starts_with("INCLUDE")) {
+      include(block, depth);
+    } else {
+      read_parameters(deck_, block);
+    }
+    if (!block.keyword.empty()) deck_.blocks.push_back(std::move(block));
+    block = {};
+  }
+
+  void include(const Block& block, int depth) {
+    if (block.keyword != "INCLUDE")
+      fail(block, "of the keywords *INCLUDE_... none is read: put its file into the deck");
+    if (depth >= deepest_include) fail(block, "files include one another too deeply");
+    for (const Card& card : block.cards) {
+      if (++included_ > most_includes)
+        fail(block, fmt::format("more than {} files are included", most_includes));
+      const std::filesystem::path path = std::filesystem::path(block.file).parent_path() / trimmed(card.text);
+      std::ifstream stream(regular_file(path, std::uintmax_t{1} << 30), std::ios::binary);
+      if (!stream) fail(block, fmt::format("the included file {} cannot be read", path.string()));
+      std::ostringstream content;
+      content << stream.rdbuf();
+      read(path, content.str(), depth + 1);
+    }
+  }
+
+  Deck& deck_;
+  Layout usual_ = Layout::standard;  ///< of keywords without a sign
+  std::size_t included_ = 0;
+};
+
+}  // namespace
+
+std::string trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(" \t\r");
+  if (begin == std::string_view::npos) return "";
+  return std::string(text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1));
+}
+
+std::string capitals(std::string text) {
+  std::ranges::transform(text, text.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
+
 std::optional<double> number_of(const std::string& text) {
   const std::string plain = with_exponent(text);
   double value = 0.0;
@@ -65,97 +160,28 @@ std::optional<double> number_of(const std::string& text) {
   return value;
 }
 
-void read_blocks(Deck& deck, const std::filesystem::path& file, std::string_view text, int depth);
-
-void include(Deck& deck, const Block& block, int depth) {
-  if (block.keyword != "INCLUDE")
-    fail(block, "of the keywords *INCLUDE_... none is read: put its file into the deck");
-  if (depth >= deepest_include) fail(block, "files include one another too deeply");
-  for (const Card& card : block.cards) {
-    const std::filesystem::path path = std::filesystem::path(block.file).parent_path() / trimmed(card.text);
-    std::ifstream stream(regular_file(path, std::uintmax_t{1} << 30), std::ios::binary);
-    if (!stream) fail(block, fmt::format("the included file {} cannot be read", path.string()));
-    std::ostringstream content;
-    content << stream.rdbuf();
-    read_blocks(deck, path, content.str(), depth + 1);
-  }
-}
-
-void parameters(Deck& deck, const Block& block) {
-  for (const Card& card : block.cards) {
-    const Fields fields(deck, block, card);
-    for (std::size_t i = 0; i + 1 < fields.size(); i += 2) {
-      std::string name =
-          capitals(trimmed(std::string_view(card.text).substr(std::min(card.text.size(), 10 * i), 10)));
-      if (const std::size_t comma = card.text.find(','); comma != std::string::npos)
-        name = capitals(trimmed(card.text.substr(0, comma)));
-      if (name.size() < 2) continue;
-      if (name[0] == 'C') continue;  // a text
-      if (const auto value = fields.number(i + 1))
-        deck.parameters[trimmed(name.substr(1))] = *value;  // without R or I
-    }
-  }
-}
-
-void read_blocks(Deck& deck, const std::filesystem::path& file, std::string_view text, int depth) {
-  Block block;
-  bool ended = false, title_expected = false;
-  const auto close = [&] {
-    if (block.keyword.starts_with("INCLUDE")) {
-      include(deck, block, depth);
-    } else if (block.keyword == "PARAMETER") {
-      parameters(deck, block);
-    }
-    if (!block.keyword.empty()) deck.blocks.push_back(std::move(block));
-    block = {};
-  };
-  unsigned line = 0;
-  while (!text.empty() && !ended) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    std::string content(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-    ++line;
-    while (!content.empty() && content.back() == '\r') content.pop_back();
-    if (content.starts_with('$')) continue;
-    if (content.starts_with('*')) {
-      close();
-      block.file = file.string();
-      block.line = line;
-      block.keyword = capitals(trimmed(std::string_view(content).substr(1)));
-      while (!block.keyword.empty() &&
-             (block.keyword.back() == '+' || block.keyword.back() == '%' || block.keyword.back() == ' ')) {
-        block.wide = block.wide || block.keyword.back() == '+';
-        block.keyword.pop_back();
-      }
-      title_expected = block.keyword.ends_with("_TITLE");
-      if (title_expected) block.keyword.resize(block.keyword.size() - 6);
-      ended = block.keyword == "END";
-    } else if (!block.keyword.empty()) {
-      if (title_expected) {
-        block.title = trimmed(content);
-        title_expected = false;
-      } else {
-        block.cards.push_back({line, with_plain_minus(std::move(content))});
-      }
-    }
-  }
-  close();
-}
-
-}  // namespace
-
-void fail(const Block& block, std::string text) {
-  throw InputError(std::vector<InputFault>{{.file = block.file,
-                                            .line = block.line,
-                                            .column = 1,
-                                            .text = fmt::format("*{}: {}", block.keyword, text)}});
+void fail(const Block& block, std::string text) { fail(block, block.line, std::move(text)); }
+void fail(const Block& block, unsigned line, std::string text) {
+  throw InputError(std::vector<InputFault>{
+      {.file = block.file, .line = line, .column = 1, .text = fmt::format("*{}: {}", block.keyword, text)}});
 }
 
 Fields::Fields(const Deck& deck, const Block& block, const Card& card, std::span<const int> widths)
     : deck_(deck), block_(block), line_(card.line) {
-  const std::string_view text = card.text;
+  constexpr std::size_t punched = 80;  // columns of a card; behind them and behind its fields stand remarks
+  std::vector<std::size_t> lengths;
+  std::size_t columns = 0;
+  for (const int width : widths) {
+    const auto usual = static_cast<std::size_t>(width);
+    lengths.push_back(block.layout == Layout::wide                     ? 20
+                      : block.layout == Layout::long_ids && usual == 8 ? 10
+                                                                       : usual);
+    columns += lengths.back();
+  }
+  std::string_view text = card.text;
+  const bool between_commas = text.substr(0, std::max(columns, punched)).find(',') != std::string_view::npos;
   std::size_t at = 0;
-  if (text.find(',') != std::string_view::npos) {
+  if (between_commas) {
     while (at <= text.size()) {
       const std::size_t end = std::min(text.find(',', at), text.size());
       texts_.push_back(trimmed(text.substr(at, end - at)));
@@ -164,13 +190,13 @@ Fields::Fields(const Deck& deck, const Block& block, const Card& card, std::span
     }
     return;
   }
+  text = text.substr(0, columns);
   const std::size_t tab = text.substr(0, text.find_last_not_of(" \t\r") + 1).find('\t');
   if (tab != std::string_view::npos) {
     columns_.push_back(static_cast<unsigned>(tab + 1));
     fail(0, "a tab in a card whose fields are columns: write blanks instead");
   }
-  for (const int width : widths) {
-    const std::size_t length = block.wide ? 20 : static_cast<std::size_t>(width);
+  for (const std::size_t length : lengths) {
     texts_.push_back(at < text.size() ? trimmed(text.substr(at, length)) : "");
     columns_.push_back(static_cast<unsigned>(at + 1));
     at += length;
@@ -189,10 +215,9 @@ std::optional<double> Fields::number(std::size_t field) const {
   const std::string& text = texts_[field];
   const std::size_t name = text.find('&');
   if (name != std::string::npos && name <= 1) {
-    const auto found = deck_.parameters.find(capitals(trimmed(text.substr(name + 1))));
-    if (found == deck_.parameters.end())
-      fail(field, fmt::format("'{}' is no parameter that the deck has given before", text));
-    return text[0] == '-' ? -found->second : found->second;
+    const std::optional<double> found = parameter(deck_, block_.file, text.substr(name + 1));
+    if (!found) fail(field, fmt::format("'{}' is no parameter that the deck has given before", text));
+    return text[0] == '-' ? -*found : *found;
   }
   const std::optional<double> value = number_of(text);
   if (!value) fail(field, fmt::format("'{}' in field {} is no number", text, field + 1));
@@ -231,7 +256,7 @@ bool recognise(std::string_view text) {
 Deck parse(const std::filesystem::path& file, std::string_view text) {
   Deck deck;
   deck.file = file;
-  read_blocks(deck, file, text, 0);
+  BlockReader(deck).read(file, text, 0);
   return deck;
 }
 

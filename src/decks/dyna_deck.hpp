@@ -23,20 +23,37 @@ struct Card {
   std::string text;
 };
 
+/// Widths of the fields of cards.
+enum class Layout : std::uint8_t {
+  standard,
+  long_ids,  ///< numbers of nodes and elements take ten characters instead of eight
+  wide,      ///< every field takes twenty characters
+};
+
 /// A keyword with its cards.
 struct Block {
   std::string keyword;  ///< upper case, without the asterisk and _TITLE
+  std::string behind;   ///< what stands behind the keyword in its line
   std::string file;     ///< the deck or a file that it includes
   unsigned line = 0;
   std::string title;  ///< of a keyword with _TITLE
-  bool wide = false;  ///< long format: fields of twenty characters
+  Layout layout = Layout::standard;
   std::vector<Card> cards;
 };
 
+using Parameters = std::map<std::string, double>;
+
 struct Deck {
+  /// Something that the reader of the deck did with a statement.
+  struct Note {
+    unsigned line = 0;
+    std::string keyword, text;
+  };
   std::filesystem::path file;
   std::vector<Block> blocks;
-  std::map<std::string, double> parameters;  ///< of *PARAMETER, by name in upper case
+  Parameters parameters;                      ///< of *PARAMETER, by name in upper case
+  std::map<std::string, Parameters> of_file;  ///< of *PARAMETER_LOCAL, by the file that they hold in
+  std::vector<Note> notes;
 };
 
 /// Widths of the fields of a card in characters.
@@ -45,7 +62,8 @@ inline constexpr int node_widths[] = {8, 16, 16, 16, 8, 8};
 inline constexpr int solid_widths[] = {8, 8, 8, 8, 8, 8, 8, 8, 8, 8};
 inline constexpr int sph_widths[] = {8, 8, 16, 8};
 
-/// The fields of a card: by columns, or between commas if it has one. Those beyond its end are blank.
+/// The fields of a card: by columns, or between commas if it has one. Those beyond its end are blank; what stands behind
+/// the columns of a card is a remark.
 class Fields {
  public:
   Fields(const Deck& deck, const Block& block, const Card& card, std::span<const int> widths = usual_widths);
@@ -61,6 +79,10 @@ class Fields {
   [[nodiscard]] double real(std::size_t field) const { return number(field).value_or(0.0); }
   /// Returns a field as the number of a node, part, set or the like; 0 where it is blank.
   [[nodiscard]] std::int64_t id(std::size_t field) const;
+  /// Returns what stands in a field, without blanks around it.
+  [[nodiscard]] std::string_view text(std::size_t field) const {
+    return field < texts_.size() ? std::string_view(texts_[field]) : std::string_view();
+  }
   [[nodiscard]] std::size_t size() const { return texts_.size(); }
 
  private:
@@ -73,6 +95,13 @@ class Fields {
   std::vector<unsigned> columns_;
 };
 
+/// Returns a number as decks write them: "1.5-3" is 1.5e-3, "1d3" 1e3; nothing if it is none.
+std::optional<double> number_of(const std::string& text);
+
+/// Returns a text without blanks around it, and one in capital letters.
+std::string trimmed(std::string_view text);
+std::string capitals(std::string text);
+
 /// Returns whether the first keyword of a text is one of LS-DYNA.
 bool recognise(std::string_view text);
 
@@ -80,7 +109,8 @@ bool recognise(std::string_view text);
 /// @throws InputError with all faults
 Deck parse(const std::filesystem::path& file, std::string_view text);
 
-/// Throws the fault of a keyword.
+/// Throws the fault of a keyword, or of one of its lines.
 [[noreturn]] void fail(const Block& block, std::string text);
+[[noreturn]] void fail(const Block& block, unsigned line, std::string text);
 
 }  // namespace whipple::decks::dyna

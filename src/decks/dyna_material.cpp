@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "src/decks/dyna_failure.hpp"
+#include "src/decks/dyna_fields.hpp"
 #include "src/decks/nearest_heat.hpp"
 #include "src/decks/toml_text.hpp"
 
@@ -20,45 +22,47 @@ enum class Law {
   null,
   hydro,
   johnson_cook,
+  piecewise,
   simplified_johnson_cook,
   other
 };
 enum class State { polynomial, jwl, gruneisen, other };
 
-struct LawName {
-  std::string_view name, number;
-  Law law;
-};
-constexpr std::array laws = {LawName{"MAT_ELASTIC", "MAT_001", Law::elastic},
-                             LawName{"MAT_PLASTIC_KINEMATIC", "MAT_003", Law::plastic_kinematic},
-                             LawName{"MAT_HIGH_EXPLOSIVE_BURN", "MAT_008", Law::explosive},
-                             LawName{"MAT_NULL", "MAT_009", Law::null},
-                             LawName{"MAT_ELASTIC_PLASTIC_HYDRO", "MAT_010", Law::hydro},
-                             LawName{"MAT_JOHNSON_COOK", "MAT_015", Law::johnson_cook},
-                             LawName{"MAT_SIMPLIFIED_JOHNSON_COOK", "MAT_098", Law::simplified_johnson_cook}};
-struct StateName {
-  std::string_view name, number;
-  State state;
-};
-constexpr std::array states = {StateName{"EOS_LINEAR_POLYNOMIAL", "EOS_001", State::polynomial},
-                               StateName{"EOS_JWL", "EOS_002", State::jwl},
-                               StateName{"EOS_GRUNEISEN", "EOS_004", State::gruneisen}};
+constexpr std::array<std::pair<std::string_view, Law>, 8> laws = {
+    {{"MAT_ELASTIC", Law::elastic},
+     {"MAT_PLASTIC_KINEMATIC", Law::plastic_kinematic},
+     {"MAT_HIGH_EXPLOSIVE_BURN", Law::explosive},
+     {"MAT_NULL", Law::null},
+     {"MAT_ELASTIC_PLASTIC_HYDRO", Law::hydro},
+     {"MAT_JOHNSON_COOK", Law::johnson_cook},
+     {"MAT_PIECEWISE_LINEAR_PLASTICITY", Law::piecewise},
+     {"MAT_SIMPLIFIED_JOHNSON_COOK", Law::simplified_johnson_cook}}};
+constexpr std::array<std::pair<std::string_view, State>, 3> states = {
+    {{"EOS_LINEAR_POLYNOMIAL", State::polynomial},
+     {"EOS_JWL", State::jwl},
+     {"EOS_GRUNEISEN", State::gruneisen}}};
 
-template <class Names>
-auto named(const Names& names, const std::string& keyword) {
-  return std::ranges::find_if(
-      names, [&](const auto& each) { return each.name == keyword || each.number == keyword; });
+template <class Names, class Kind>
+Kind kind_of(const Names& names, const std::string& keyword, Kind other) {
+  const std::string_view name = by_name(keyword);
+  const auto found = std::ranges::find_if(names, [&](const auto& each) { return each.first == name; });
+  return found == names.end() ? other : found->second;
 }
 
 class MaterialWriter {
  public:
   MaterialWriter(const Deck& deck, const Block& material, const Block* state, const std::string& name,
-                 const UnitSystem& units, Import& import)
-      : deck_(deck), material_(material), state_(state), name_(name), units_(units), import_(import) {}
+                 const UnitSystem& units, Triaxiality triaxiality, Import& import)
+      : deck_(deck),
+        material_(material),
+        state_(state),
+        name_(name),
+        units_(units),
+        triaxiality_(triaxiality),
+        import_(import),
+        law_(kind_of(laws, material.keyword, Law::other)) {}
 
   CaseMaterial write() {
-    const auto law = named(laws, material_.keyword);
-    law_ = law == laws.end() ? Law::other : law->law;
     density_ = card(material_, 0).required(1, "the density");
     if (!(density_ > 0.0)) fail(material_, "the density must be > 0");
     CaseMaterial result{.file = fmt::format("materials/{}.toml", name_),
@@ -74,6 +78,12 @@ class MaterialWriter {
     toml_.table("[strength]");
     strength();
     if (law_ == Law::johnson_cook) johnson_cook_failure();
+    for (const Block* block : {&material_, state_}) {
+      const KeywordRule* const rule = block == nullptr ? nullptr : rule_of(block->keyword);
+      if (rule != nullptr) check_fields(deck_, *block, *rule, import_, name_);
+    }
+    result.fails = fails_;
+    result.fluid = law_ == Law::null;
     import_.files.push_back({result.file, toml_.text()});
     return result;
   }
@@ -114,6 +124,7 @@ class MaterialWriter {
         break;
       case Law::elastic:
       case Law::plastic_kinematic:
+      case Law::piecewise:
       case Law::simplified_johnson_cook:
         young = first.required(2, "Young's modulus");
         poisson = first.real(3);
@@ -154,9 +165,8 @@ class MaterialWriter {
       elastic_volume();
       return;
     }
-    const auto found = named(states, state_->keyword);
     const Fields c = card(*state_, 0), d = card(*state_, 1);
-    switch (found == states.end() ? State::other : found->state) {
+    switch (kind_of(states, state_->keyword, State::other)) {
       case State::gruneisen:
         begin("mie_gruneisen", *state_);
         density();
@@ -170,10 +180,11 @@ class MaterialWriter {
         heat_capacity("mie_gruneisen");
         room_temperature();
         result.initial_pressure = c.real(5) * c.real(7);
-        initial_volume(d.real(0));
+        result.initial_density = density_;
         remark(Outcome::exact, *state_, "mie_gruneisen");
         break;
       case State::polynomial:
+        if (is_gas(c)) return ideal_gas(c, d, result);
         begin("polynomial", *state_);
         density();
         for (std::size_t i = 0; i < 7; ++i) {
@@ -201,14 +212,34 @@ class MaterialWriter {
         if (law_ == Law::explosive) {
           quantity("detonation_velocity", card(material_, 0).required(2, "D"), dimension::velocity);
           quantity("chapman_jouguet_pressure", card(material_, 0).required(3, "PCJ"), dimension::pressure);
+          result.detonation_velocity = card(material_, 0).real(2);
+          result.burn = card(material_, 0).real(4);
         }
-        initial_volume(c.real(7));
         remark(Outcome::exact, *state_, "jwl");
         break;
       case State::other:
         remark(Outcome::missing, *state_, "this equation of state");
         elastic_volume();
     }
+  }
+
+  /// Whether a polynomial is p = (gamma - 1) rho e.
+  static bool is_gas(const Fields& c) {
+    return c.real(1) == 0.0 && c.real(2) == 0.0 && c.real(3) == 0.0 && c.real(4) == 0.0 && c.real(5) > 0.0 &&
+           c.real(6) == c.real(5) && c.real(7) == 0.0;
+  }
+  void ideal_gas(const Fields& c, const Fields& d, CaseMaterial& result) {
+    begin("ideal_gas", *state_);
+    density();
+    quantity("heat_capacity_ratio", 1.0 + c.real(5), dimension::none, "1 + C4");
+    heat_capacity("ideal_gas");
+    const double volume = d.real(1) > 0.0 ? d.real(1) : 1.0;
+    result.initial_pressure = c.real(5) * d.real(0) / volume;
+    result.initial_density = density_ / volume;
+    remark(Outcome::converted, *state_, "ideal_gas: C4 = C5 = gamma - 1, the others are 0");
+    if (!(result.initial_pressure > 0.0))
+      remark(Outcome::missing, *state_,
+             "a gas without energy (E0 = 0): it starts at its reference temperature");
   }
 
   /// Pressure by the bulk modulus, of materials without an equation of state of their own.
@@ -247,8 +278,6 @@ class MaterialWriter {
         if (beta < 1.0 && hardening > 0.0)
           quantity("kinematic_modulus", (1.0 - beta) * hardening, dimension::pressure);
         remark(Outcome::exact, material_, "von_mises");
-        if (second.real(0) != 0.0)
-          remark(Outcome::missing, material_, "Cowper-Symonds rate dependence (SRC, SRP)");
         if (second.real(2) != 0.0) failure_strain(second.real(2));
         break;
       }
@@ -258,22 +287,22 @@ class MaterialWriter {
         quantity("yield_stress", first.required(3, "the yield stress"), dimension::pressure);
         quantity("hardening_modulus", first.real(4), dimension::pressure);
         remark(Outcome::exact, material_, "von_mises");
-        if (second.real(0) != 0.0 || second.real(1) != 0.0)
-          remark(Outcome::missing, material_, "table of yield stress over plastic strain (EPS, ES)");
         if (first.real(5) < 0.0) tension(-first.real(5), 1.0);
         if (first.real(6) != 0.0) failure_strain(first.real(6));
         break;
+      case Law::piecewise:
+        piecewise(first);
+        break;
       case Law::johnson_cook:
         johnson_cook(second, true);
+        if (first.real(6) != 0.0)
+          remark(Outcome::converted, material_,
+                 fmt::format("VP = {}: the rate is that of the plastic strain in the case, too",
+                             number(first.real(6))));
         break;
       case Law::simplified_johnson_cook:
         johnson_cook(second, false);
         if (second.real(4) != 0.0 && second.real(4) < 1e16) failure_strain(second.real(4));
-        for (const std::size_t greatest : {5U, 6U}) {
-          if (second.real(greatest) == 0.0 || second.real(greatest) >= 1e16) continue;
-          remark(Outcome::missing, material_,
-                 greatest == 5U ? "greatest stress SIGMAX" : "greatest stress SIGSAT");
-        }
         break;
       case Law::null:
         if (first.real(3) > 0.0) {
@@ -293,6 +322,22 @@ class MaterialWriter {
           remark(Outcome::missing, material_, "this material law: no strength in the case");
         }
     }
+  }
+
+  /// Bilinear hardening; tables, curves and rates are named where they are set.
+  void piecewise(const Fields& first) {
+    const double young = first.real(2), tangent = first.real(5), failure = first.real(6);
+    if (!(tangent < young)) fail(material_, "the tangent modulus must be less than Young's modulus");
+    const bool yields = first.real(4) > 0.0;  // else a curve says when, which is named
+    begin(yields ? "von_mises" : "elastic", material_);
+    quantity("shear_modulus", shear_, dimension::pressure);
+    if (!yields) return;
+    quantity("yield_stress", first.real(4), dimension::pressure);
+    quantity("hardening_modulus", young * tangent / (young - tangent), dimension::pressure,
+             "E Et / (E - Et)");
+    remark(Outcome::exact, material_, "von_mises");
+    if (failure < 0.0) remark(Outcome::missing, material_, "FAIL < 0: failure of a user");
+    if (failure > 0.0 && failure < 1e16) failure_strain(failure);
   }
 
   /// @param temperatures whether the cards have thermal softening
@@ -326,17 +371,28 @@ class MaterialWriter {
 
   void johnson_cook_failure() {
     const Fields second = card(material_, 1), third = card(material_, 2), fourth = card(material_, 3);
-    const std::array<double, 5> d = {third.real(4), third.real(5), third.real(6), third.real(7),
-                                     fourth.real(0)};
+    std::array<double, 5> d = {third.real(4), third.real(5), third.real(6), third.real(7), fourth.real(0)};
     if (std::ranges::any_of(d, [](double each) { return each != 0.0; })) {
+      const double least = fourth.real(3);
+      d[2] = d3_of_tension(d, triaxiality_, name_, material_, import_);
+      remark_on_failure_strain(d, least, name_, material_, import_);
       toml_.table("[[failure]]");
       begin("johnson_cook_damage", material_);
       for (std::size_t i = 0; i < 5; ++i) quantity(fmt::format("d{}", i + 1).c_str(), d[i], dimension::none);
       quantity("reference_rate", second.real(7), dimension::rate);
       quantity("reference_temperature", second.real(6), {.temperature = 1});
       quantity("melting_temperature", second.real(5), {.temperature = 1});
-      if (fourth.real(3) > 0.0) quantity("least_failure_strain", fourth.real(3), dimension::none);
-      remark(Outcome::exact, material_, "johnson_cook_damage");
+      if (least > 0.0) quantity("least_failure_strain", least, dimension::none);
+      fails_ = true;
+      if (fourth.real(2) != 0.0) {
+        remark(Outcome::exact, material_,
+               "johnson_cook_damage: what has failed stays, without strength (EROD)");
+      } else {
+        remark(
+            Outcome::converted, material_,
+            "johnson_cook_damage: what has failed stays, without tension and deviator, where that code takes "
+            "the element away");
+      }
     }
     if (third.real(1) < 0.0) tension(-third.real(1), third.real(2));
   }
@@ -352,15 +408,18 @@ class MaterialWriter {
     } else if (spall == 3.0) {
       begin("tensile_pressure", material_);
       quantity("spall_strength", strength, dimension::pressure);
+      fails_ = true;
       remark(Outcome::converted, material_, "spall by pressure: tension and deviator are lost permanently");
     } else {
       begin("principal_stress", material_);
+      fails_ = true;
       quantity("tensile_strength", strength, dimension::pressure);
       remark(Outcome::converted, material_,
              "spall by the greatest principal stress: tension and deviator are lost permanently");
     }
   }
   void failure_strain(double strain) {
+    fails_ = true;
     toml_.table("[[failure]]");
     begin("plastic_strain", material_);
     quantity("failure_strain", strain, dimension::none);
@@ -373,19 +432,21 @@ class MaterialWriter {
   const Block* state_;
   const std::string& name_;
   const UnitSystem& units_;
+  Triaxiality triaxiality_;
   Import& import_;
   TomlText toml_;
-  Law law_ = Law::other;
+  Law law_;
+  bool fails_ = false;
   double density_ = 0.0, shear_ = 0.0, bulk_ = 0.0;
 };
 
 }  // namespace
 
-bool has_law(const Block& material) { return named(laws, material.keyword) != laws.end(); }
+bool has_law(const Block& material) { return kind_of(laws, material.keyword, Law::other) != Law::other; }
 
 CaseMaterial material_of(const Deck& deck, const Block& material, const Block* state, const std::string& name,
-                         const UnitSystem& units, Import& import) {
-  return MaterialWriter(deck, material, state, name, units, import).write();
+                         const UnitSystem& units, Triaxiality triaxiality, Import& import) {
+  return MaterialWriter(deck, material, state, name, units, triaxiality, import).write();
 }
 
 }  // namespace whipple::decks::dyna

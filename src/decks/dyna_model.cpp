@@ -5,15 +5,23 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <span>
 #include <string_view>
 #include <utility>
+
+#include "src/decks/dyna_contact.hpp"
+#include "src/decks/dyna_fields.hpp"
+#include "src/decks/dyna_sets.hpp"
+#include "src/decks/unit_system.hpp"
 
 namespace whipple::decks::dyna {
 namespace {
 
 /// Keywords without influence on the physics of the case.
 constexpr std::array harmless = {"KEYWORD",
+                                 "KEYWORD_ID",
+                                 "KEYWORD_JOBID",
                                  "END",
                                  "COMMENT",
                                  "CONTROL_ENERGY",
@@ -26,11 +34,37 @@ constexpr std::array harmless = {"KEYWORD",
                                  "CONTROL_TIMESTEP",
                                  "CONTROL_CONTACT",
                                  "CONTROL_SPH",
+                                 "CONTROL_ALE",
                                  "CONTROL_ACCURACY",
+                                 "CONTROL_SHELL",
                                  "CONTROL_SOLID",
                                  "CONTROL_PARALLEL",
-                                 "SECTION_SOLID",
-                                 "SECTION_SPH"};
+                                 "CONTROL_UNITS"};
+/// Keywords that define what others use: if one of those is not read, it is named.
+constexpr std::array used_by_others = {"DEFINE_CURVE",
+                                       "DEFINE_TABLE",
+                                       "DEFINE_VECTOR",
+                                       "DEFINE_COORDINATE_SYSTEM",
+                                       "DEFINE_COORDINATE_VECTOR",
+                                       "SET_SEGMENT",
+                                       "SET_SOLID",
+                                       "SET_SOLID_GENERATE",
+                                       "SET_SHELL",
+                                       "SET_SHELL_LIST"};
+
+/// Letters, digits, '_' and '-' of a heading, which name a body.
+std::string name_of(std::string_view heading) {
+  constexpr std::size_t longest = 40;
+  std::string name;
+  for (const char c : heading) {
+    const bool allowed = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-';
+    if (allowed) name += c;
+    if (!allowed && !name.empty() && name.back() != '_') name += '_';
+  }
+  name.resize(std::min(name.size(), longest));
+  while (!name.empty() && name.back() == '_') name.pop_back();
+  return name;
+}
 
 class ModelReader {
  public:
@@ -41,7 +75,10 @@ class ModelReader {
 
   Model read() {
     collect();
-    for (const auto& [block, reader] : starts_) faults_.guarded([&] { (this->*reader)(*block); });
+    for (const Block* block : general_sets_) faults_.guarded([&] { general_set(*block); });
+    for (const auto& [block, reader] : of_sets_) faults_.guarded([&] { (this->*reader)(*block); });
+    for (const Deck::Note& note : deck_.notes)
+      import_.remark(Outcome::converted, note.line, note.keyword, note.text);
     return std::move(model_);
   }
 
@@ -76,6 +113,7 @@ class ModelReader {
     const std::string_view key = block.keyword;
     Reader reader =
         std::ranges::find(harmless, key) != harmless.end() || key.empty() ? &ModelReader::dropped : nullptr;
+    if (std::ranges::find(used_by_others, key) != used_by_others.end()) reader = &ModelReader::useful;
     const auto whole = std::ranges::find(of_keywords(), key, [](const auto& entry) { return entry.first; });
     const auto start = std::ranges::find_if(of_beginnings(),
                                             [&](const auto& entry) { return key.starts_with(entry.first); });
@@ -85,18 +123,41 @@ class ModelReader {
       reader = start->second;
     }
     if (reader == nullptr) return false;
+    if (!block.behind.empty())
+      remark(Outcome::dropped, block, fmt::format("'{}', behind the keyword", block.behind));
     (this->*reader)(block);
     return true;
   }
 
+  /// Names what the cards of a keyword say beyond what is read.
+  void check(const Block& block) { check(block, rule_of(block.keyword)); }
+  void check(const Block& block, const KeywordRule* rule, std::size_t first = 0) {
+    if (rule != nullptr) check_fields(deck_, block, *rule, import_, {}, first);
+  }
+
   void dropped(const Block& block) {
     remark(Outcome::dropped, block, "of the methods and output of that code");
+    check(block);
+  }
+  void useful(const Block& block) {
+    remark(Outcome::dropped, block, "of use to other keywords, which are named if they are not read");
+  }
+  void groups(const Block& block) {
+    remark(Outcome::dropped, block, "each part is a body with a material of its own");
+  }
+  void coupling(const Block& block) {
+    remark(Outcome::converted, block, "bodies meet on the grid, whatever they are made of");
+  }
+  void shadows(const Block& block) {
+    model_.shadows = true;
+    remark(Outcome::exact, block, "detonation goes around what is no explosive");
   }
   void taken(const Block& block) { remark(Outcome::exact, block, "read"); }
   void material(const Block& block) { model_.materials[first_id(block)] = &block; }
   void state(const Block& block) { model_.states[first_id(block)] = &block; }
   void node_set(const Block& block) { set(block, node_sets_); }
   void part_set(const Block& block) { set(block, part_sets_); }
+  void general_node_set(const Block& block) { general_sets_.push_back(&block); }
   void title(const Block& block) {
     if (!block.cards.empty()) {
       const std::string& text = block.cards[0].text;
@@ -108,6 +169,7 @@ class ModelReader {
     model_.end = first(block).required(0, "the end time");
     if (!(model_.end > 0.0)) fail(block, "the end time must be > 0");
     remark(Outcome::exact, block, "time.end");
+    check(block);
   }
   void snapshots(const Block& block) {
     model_.snapshots = first(block).real(0);
@@ -116,16 +178,40 @@ class ModelReader {
   /// A card for each detonator: part, place, delay.
   void detonation(const Block& block) {
     for (const Card& card : block.cards) {
+      if (is_blank(card)) continue;
       const Fields fields(deck_, block, card);
-      model_.detonators.push_back(
-          {&block, Vector3(fields.real(1), fields.real(2), fields.real(3)), fields.real(4)});
+      model_.detonators.push_back({&block, card.line, fields.id(0),
+                                   Vector3(fields.real(1), fields.real(2), fields.real(3)), fields.real(4)});
+    }
+    check(block);
+  }
+  void section(const Block& block) {
+    for (const Card& card : block.cards) {
+      if (is_blank(card)) continue;
+      const Fields fields(deck_, block, card);
+      const bool solid = block.keyword == "SECTION_SOLID";
+      model_.sections[static_cast<Id>(fields.required(0, "its number"))] = {&block, solid ? fields.id(1) : 0};
+    }
+    remark(Outcome::dropped, block, "of the methods and output of that code");
+    check(block);
+  }
+  void histories(const Block& block) {
+    model_.histories_block = &block;
+    const bool named = block.keyword.ends_with("_ID");  // a card with a heading for each
+    for (const Card& card : block.cards) {
+      const Fields fields(deck_, block, card);
+      for (std::size_t i = 0; i < (named ? 1 : fields.size()); ++i) {
+        if (fields.id(i) > 0) model_.histories.push_back(fields.id(i));
+      }
     }
   }
-  /// Velocities refer to sets, which may come after them.
-  void velocity(const Block& block) { starts_.emplace_back(&block, &ModelReader::start_of_set); }
-  void velocity_by_nodes(const Block& block) { starts_.emplace_back(&block, &ModelReader::starts_of_nodes); }
-  void velocity_by_parts(const Block& block) { starts_.emplace_back(&block, &ModelReader::start_generated); }
+  /// What refers to sets is read when all of them are there.
+  void velocity(const Block& block) { of_sets_.emplace_back(&block, &ModelReader::start_of_set); }
+  void velocity_by_nodes(const Block& block) { of_sets_.emplace_back(&block, &ModelReader::starts_of_nodes); }
+  void velocity_by_parts(const Block& block) { of_sets_.emplace_back(&block, &ModelReader::start_generated); }
+  void constraint(const Block& block) { of_sets_.emplace_back(&block, &ModelReader::constraints); }
 
+  static bool is_blank(const Card& card) { return trimmed(card.text).empty(); }
   [[nodiscard]] Fields first(const Block& block) const {
     if (block.cards.empty()) fail(block, "has no card");
     return {deck_, block, block.cards[0]};
@@ -136,17 +222,58 @@ class ModelReader {
 
   void nodes(const Block& block) {
     for (const Card& card : block.cards) {
+      if (is_blank(card)) continue;
       faults_.guarded([&] {
         const Fields fields(deck_, block, card, node_widths);
-        model_.nodes[static_cast<Id>(fields.required(0, "the number of a node"))] =
-            Vector3(fields.real(1), fields.real(2), fields.real(3));
+        const auto node = static_cast<Id>(fields.required(0, "the number of a node"));
+        model_.nodes[node] = Vector3(fields.real(1), fields.real(2), fields.real(3));
+        // Rotations (RC) are none of nodes of solids.
+        constexpr std::array<Directions, 8> of_code = {0, 1, 2, 4, 3, 6, 5, 7};
+        const Id code = fields.id(4);
+        if (code < 0 || code >= static_cast<Id>(of_code.size()))
+          fail(block, card.line, fmt::format("the constraint TC is {}, not 0 to 7", code));
+        hold(block, node, of_code[static_cast<std::size_t>(code)]);
       });
     }
     remark(Outcome::exact, block, fmt::format("{} nodes", block.cards.size()));
   }
 
+  void hold(const Block& block, Id node, Directions directions) {
+    if (directions == 0) return;
+    Directions& held = model_.held[node];
+    held = static_cast<Directions>(held | directions);
+    if (model_.holders.empty() || model_.holders.back() != &block) model_.holders.push_back(&block);
+  }
+
+  /// *BOUNDARY_SPC_NODE, _SET: a card for each node or set; with _ID each below one with a heading.
+  void constraints(const Block& block) {
+    const bool of_sets = block.keyword.find("_SET") != std::string::npos,
+               named = block.keyword.ends_with("_ID");
+    for (std::size_t i = named ? 1 : 0; i < block.cards.size(); i += named ? 2 : 1) {
+      const Fields fields(deck_, block, block.cards[i]);
+      const Id number = fields.id(0);
+      if (number == 0) continue;
+      if (fields.id(1) != 0) {
+        import_.remark(Outcome::missing, block.cards[i].line, "*" + block.keyword,
+                       fmt::format("CID = {}: a local coordinate system", fields.id(1)));
+        continue;
+      }
+      Directions directions = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        if (fields.real(static_cast<std::size_t>(axis) + 2) != 0.0)
+          directions = static_cast<Directions>(directions | along(axis));
+      }
+      if (of_sets) {
+        for (const Id node : members(block, node_sets_, number)) hold(block, node, directions);
+      } else {
+        hold(block, number, directions);
+      }
+    }
+  }
+
   void solids(const Block& block) {
     for (std::size_t i = 0; i < block.cards.size(); ++i) {
+      if (is_blank(block.cards[i])) continue;
       faults_.guarded([&] {
         const Fields fields(deck_, block, block.cards[i], solid_widths);
         Solid solid{.line = block.cards[i].line};
@@ -165,6 +292,9 @@ class ModelReader {
       faults_.guarded([&] {
         const Fields fields(deck_, block, card, sph_widths);
         model_.parts[fields.id(1)].points.push_back({fields.id(0), fields.required(2, "the mass")});
+        if (fields.id(3) != 0)
+          import_.remark(Outcome::missing, card.line, "*" + block.keyword,
+                         fmt::format("NEND = {}: points up to this node", fields.id(3)));
       });
     }
     remark(Outcome::converted, block, fmt::format("{} elements", block.cards.size()));
@@ -178,46 +308,82 @@ class ModelReader {
         const Id number = static_cast<Id>(fields.required(0, "the number of the part"));
         Part& part = model_.parts[number];
         part.block = &block;
-        part.name = fmt::format("part_{}", number);
+        part.name = name_of(block.cards[i].text);
+        const auto is_taken = [&] {
+          return std::ranges::any_of(model_.parts, [&](const auto& entry) {
+            return entry.first != number && entry.second.name == part.name;
+          });
+        };
+        if (part.name.empty() || is_taken()) part.name = fmt::format("part_{}", number);
+        while (is_taken()) part.name += "_";
         part.section = fields.id(1);
         part.material = fields.id(2);
         part.state = fields.id(3);
-        remark(Outcome::exact, block, fmt::format("{}: {}", part.name, block.cards[i].text));
+        remark(Outcome::exact, block, fmt::format("{}: {}", part.name, trimmed(block.cards[i].text)));
       });
     }
+    check(block);
   }
 
   void set(const Block& block, std::map<Id, std::set<Id>>& sets) {
-    const bool generated = block.keyword.ends_with("_GENERATE");
     std::set<Id>& members = sets[first_id(block)];
-    for (std::size_t i = 1; i < block.cards.size(); ++i) {
-      const Fields fields(deck_, block, block.cards[i]);
-      for (std::size_t k = 0; k < fields.size(); k += generated ? 2 : 1) {
-        const Id from = fields.id(k), to = generated ? fields.id(k + 1) : from;
-        if (from == 0) continue;
-        constexpr Id most = 5'000'000;  // members of a set: what fits into memory
-        if (to < from || to - from + static_cast<Id>(members.size()) > most) {
-          fail(block, fmt::format("the range {} to {} is none", from, to));
-        }
-        for (Id member = from; member <= to; ++member) members.insert(member);
-      }
-    }
+    members.merge(listed_members(deck_, block));
     remark(Outcome::exact, block, fmt::format("{} members", members.size()));
+  }
+  void general_set(const Block& block) {
+    const std::optional<std::set<Id>> nodes = general_nodes(deck_, block, model_, boxes_);
+    if (!nodes) {
+      remark(Outcome::missing, block, "nodes that are chosen by something else than ALL, NODE, PART and BOX");
+      return;
+    }
+    node_sets_[first_id(block)] = *nodes;
+    remark(Outcome::exact, block, fmt::format("{} members", nodes->size()));
+  }
+  void box(const Block& block) {
+    const Fields c = first(block);
+    boxes_[first_id(block)] = {Vector3(c.real(1), c.real(3), c.real(5)),
+                               Vector3(c.real(2), c.real(4), c.real(6))};
+    useful(block);
+  }
+  /// The first value of a parameter stays, as that code does by default.
+  void duplication(const Block& block) {
+    const Id flag = first(block).id(0);
+    const bool first_stays = flag == 0 || flag == 1 || flag == 4;
+    remark(first_stays ? Outcome::exact : Outcome::missing, block,
+           fmt::format("DFLAG = {}: the first value of a parameter stays", flag));
   }
 
   void contact(const Block& block) {
-    if (block.keyword.find("_MPP") != std::string::npos) {
-      remark(Outcome::missing, block, "the cards of the option MPP, which come before that of the friction");
+    const ContactType type = contact_type(block);
+    if (type.kind != ContactKind::pressing) {
+      remark(type.kind == ContactKind::output ? Outcome::dropped : Outcome::missing, block,
+             type.kind == ContactKind::output ? "output of forces"
+             : type.kind == ContactKind::tied ? "surfaces that are tied to one another"
+                                              : "this contact is not read");
       return;
     }
-    std::size_t card = 1;  // behind the card that says which parts
-    if (block.keyword.ends_with("_ID")) card = 2;
-    const double friction = card < block.cards.size() ? Fields(deck_, block, block.cards[card]).real(0) : 0.0;
-    if (model_.friction && *model_.friction != friction) {
+    const std::size_t card = type.first_card;
+    check(block, rule_of("CONTACT"), card);
+    if (card + 1 >= block.cards.size()) return friction(block, 0.0);
+    const Fields second(deck_, block, block.cards[card + 1]);
+    const double at_rest = second.real(0), sliding = second.real(1);
+    if (at_rest < 0.0) {
+      remark(Outcome::missing, block,
+             fmt::format("FS = {}: friction of parts or of a table", number(at_rest)));
+    } else if (sliding != at_rest && second.real(2) != 0.0) {
+      remark(Outcome::missing, block,
+             fmt::format("friction that goes from FS = {} to FD = {} with the speed (DC = {})",
+                         number(at_rest), number(sliding), number(second.real(2))));
+    } else {
+      friction(block, at_rest);
+    }
+  }
+  void friction(const Block& block, double coefficient) {
+    if (model_.friction && *model_.friction != coefficient) {
       remark(Outcome::missing, block, "friction that differs between contacts");
       return;
     }
-    model_.friction = std::max(friction, 0.0);
+    model_.friction = coefficient;
     remark(Outcome::converted, block, "contact of all bodies with this friction");
   }
 
@@ -233,21 +399,19 @@ class ModelReader {
       const Fields each(deck_, block, card);
       model_.starts.push_back({&block, Vector3(each.real(1), each.real(2), each.real(3)), {each.id(0)}, {}});
     }
+    check(block);
   }
 
   /// A set of nodes, or all; on the second card the velocity.
   void start_of_set(const Block& block) {
     const Fields card = first(block);
     const Id set = card.id(0);
-    if (card.id(1) != 0 || card.id(2) != 0)
-      remark(Outcome::missing, block, "nodes that are exempt (NSIDEX), or those of a box (BOXID)");
     Start start{&block, Vector3::Zero(), {}, {}};
     if (set != 0) start.nodes = members(block, node_sets_, set);
     if (block.cards.size() < 2) fail(block, "has no card with a velocity");
     const Fields second(deck_, block, block.cards[1]);
     start.velocity = Vector3(second.real(0), second.real(1), second.real(2));
-    if (second.real(3) != 0.0 || second.real(4) != 0.0 || second.real(5) != 0.0)
-      remark(Outcome::missing, block, "angular velocity");
+    check(block);
     model_.starts.push_back(std::move(start));
   }
 
@@ -260,7 +424,7 @@ class ModelReader {
     if (kind == 2) start.parts = {number};
     if (kind == 3) start.nodes = members(block, node_sets_, number);
     if (kind < 1 || kind > 3) fail(block, fmt::format("STYP is {}, read are 1, 2 and 3", kind));
-    if (fields.real(2) != 0.0) remark(Outcome::missing, block, "angular velocity");
+    check(block);
     model_.starts.push_back(std::move(start));
   }
 
@@ -269,18 +433,23 @@ class ModelReader {
   FaultList& faults_;
   Model model_;
   std::map<Id, std::set<Id>> node_sets_, part_sets_;
-  std::vector<std::pair<const Block*, Reader>> starts_;
+  std::map<Id, DeckBox> boxes_;
+  std::vector<const Block*> general_sets_;  ///< read when all nodes and parts are there
+  std::vector<std::pair<const Block*, Reader>> of_sets_;
 };
 
 ModelReader::Readers ModelReader::of_keywords() {
-  static constexpr std::array<std::pair<std::string_view, Reader>, 19> readers = {
+  static const auto readers = std::to_array<std::pair<std::string_view, Reader>>(
       {{"NODE", &ModelReader::nodes},
        {"ELEMENT_SOLID", &ModelReader::solids},
        {"ELEMENT_SPH", &ModelReader::points},
        {"PART", &ModelReader::part},
+       {"SECTION_SOLID", &ModelReader::section},
+       {"SECTION_SPH", &ModelReader::section},
        {"SET_NODE", &ModelReader::node_set},
        {"SET_NODE_LIST", &ModelReader::node_set},
        {"SET_NODE_LIST_GENERATE", &ModelReader::node_set},
+       {"SET_NODE_GENERAL", &ModelReader::general_node_set},
        {"SET_PART", &ModelReader::part_set},
        {"SET_PART_LIST", &ModelReader::part_set},
        {"SET_PART_LIST_GENERATE", &ModelReader::part_set},
@@ -288,17 +457,32 @@ ModelReader::Readers ModelReader::of_keywords() {
        {"INITIAL_VELOCITY_NODE", &ModelReader::velocity_by_nodes},
        {"INITIAL_VELOCITY_GENERATION", &ModelReader::velocity_by_parts},
        {"INITIAL_DETONATION", &ModelReader::detonation},
+       {"CONTROL_EXPLOSIVE_SHADOW", &ModelReader::shadows},
+       {"BOUNDARY_SPC_NODE", &ModelReader::constraint},
+       {"BOUNDARY_SPC_NODE_ID", &ModelReader::constraint},
+       {"BOUNDARY_SPC_SET", &ModelReader::constraint},
+       {"BOUNDARY_SPC_SET_ID", &ModelReader::constraint},
+       {"ALE_MULTI-MATERIAL_GROUP", &ModelReader::groups},
+       {"CONSTRAINED_LAGRANGE_IN_SOLID", &ModelReader::coupling},
        {"CONTROL_TERMINATION", &ModelReader::end},
        {"DATABASE_BINARY_D3PLOT", &ModelReader::snapshots},
+       {"DATABASE_HISTORY_NODE", &ModelReader::histories},
+       {"DATABASE_HISTORY_NODE_ID", &ModelReader::histories},
        {"TITLE", &ModelReader::title},
        {"INCLUDE", &ModelReader::taken},
-       {"PARAMETER", &ModelReader::taken}}};
+       {"PARAMETER", &ModelReader::taken},
+       {"DEFINE_BOX", &ModelReader::box},
+       {"PARAMETER_DUPLICATION", &ModelReader::duplication},
+       {"PARAMETER_LOCAL", &ModelReader::taken},
+       {"PARAMETER_EXPRESSION", &ModelReader::taken},
+       {"PARAMETER_EXPRESSION_LOCAL", &ModelReader::taken}});
   return readers;
 }
 
 ModelReader::Readers ModelReader::of_beginnings() {
-  static constexpr std::array<std::pair<std::string_view, Reader>, 5> readers = {
+  static constexpr std::array<std::pair<std::string_view, Reader>, 6> readers = {
       {{"MAT_ADD", nullptr},
+       {"CONTROL_MPP_", &ModelReader::dropped},
        {"MAT_", &ModelReader::material},
        {"EOS_", &ModelReader::state},
        {"CONTACT_", &ModelReader::contact},

@@ -11,6 +11,7 @@
 
 #include "src/core/base/error.hpp"
 #include "src/core/base/tensor.hpp"
+#include "src/decks/dyna_constraints.hpp"
 #include "src/decks/dyna_deck.hpp"
 #include "src/decks/report.hpp"
 
@@ -28,10 +29,15 @@ struct SphPoint {
 };
 struct Part {
   const Block* block = nullptr;
-  std::string name;
+  std::string name;  ///< of the body: its heading, if that names it alone, else "part_1"
   Id section = 0, material = 0, state = 0;
   std::vector<Solid> solids;
   std::vector<SphPoint> points;
+};
+/// Formulation of the elements of a part.
+struct Section {
+  const Block* block = nullptr;
+  Id formulation = 0;
 };
 /// What a velocity is given to.
 struct Start {
@@ -44,6 +50,8 @@ struct Start {
 /// A point where detonation begins.
 struct Detonator {
   const Block* block = nullptr;
+  unsigned line = 0;
+  Id part = 0;  ///< that it lights; 0: all
   Vector3 position = Vector3::Zero();
   double delay = 0.0;
 };
@@ -53,9 +61,15 @@ struct Model {
   std::string title;
   std::map<Id, Vector3> nodes;
   std::map<Id, Part> parts;
+  std::map<Id, Section> sections;
   std::map<Id, const Block*> materials, states;  ///< *MAT and *EOS by their numbers
   std::vector<Start> starts;
+  std::map<Id, Directions> held;      ///< nodes, by *NODE and *BOUNDARY_SPC
+  std::vector<const Block*> holders;  ///< blocks that hold nodes
   std::vector<Detonator> detonators;
+  bool shadows = false;       ///< detonation goes around what is no explosive
+  std::vector<Id> histories;  ///< nodes of *DATABASE_HISTORY_NODE
+  const Block* histories_block = nullptr;
   std::optional<double> friction;  ///< nothing: the deck has no contact
   double end = 0.0, snapshots = 0.0;
 };

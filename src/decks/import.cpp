@@ -73,6 +73,18 @@ void write_file(const fs::path& path, std::string_view text) {
 
 }  // namespace
 
+void require_no_deck(const fs::path& file) {
+  if (file.extension() == ".toml" || !fs::is_regular_file(file)) return;
+  std::string start(std::size_t{1} << 16, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(stream.gcount()));
+  const bool keywords = dyna::recognise(start);
+  if (!keywords && !mpm3d::recognise(start)) return;
+  throw InputError(fmt::format("{}: a deck of {}, no case: 'whipple import {} -o FOLDER' makes a case of it",
+                               file.string(), keywords ? "LS-DYNA" : "MPM3D-F90", file.string()));
+}
+
 Import import_deck(const fs::path& deck, const ImportOptions& options) {
   const std::string text = content_of(deck);
   switch (options.format ? *options.format : format_of(deck, text)) {

@@ -18,14 +18,30 @@ constexpr std::array<Word<Format>, 2> words(Format /*of*/) {
   return {{{Format::mpm3d_f90, "mpm3d_f90"}, {Format::ls_dyna, "ls_dyna"}}};
 }
 
+/// What the stress triaxiality of a failure strain counts positive in a deck.
+enum class Triaxiality {
+  inferred,  ///< what makes tension break earlier
+  tension,   ///< as Johnson and Cook: D3 < 0
+  pressure,  ///< D3 > 0
+};
+constexpr std::array<Word<Triaxiality>, 3> words(Triaxiality /*of*/) {
+  return {{{Triaxiality::inferred, "inferred"},
+           {Triaxiality::tension, "tension"},
+           {Triaxiality::pressure, "pressure"}}};
+}
+
 struct ImportOptions {
   std::optional<Format> format = {};     ///< not given: by the content of the deck
   std::optional<UnitSystem> units = {};  ///< not given: those that the deck names
   bool same_method = false;              ///< keep scheme, shape functions and time step of the other code
   /// MPM3D-F90 before 2013-12: the mass of a particle stands where now its density does.
   bool old_mass = false;
-  double cell_size = 0.0;  ///< of the grid, m; for decks without one
+  double cell_size = 0.0;                           ///< of the grid, m; for decks without one
+  Triaxiality triaxiality = Triaxiality::inferred;  ///< of decks of LS-DYNA
 };
+
+/// Throws if a file that is to be a case (CASE.toml) is the deck of another code, with the command that imports it.
+void require_no_deck(const std::filesystem::path& file);
 
 /// Reads a deck and turns it into a case.
 /// @throws InputError with all faults of the deck, each with its line; if the deck is of no known code; if its units are

@@ -29,6 +29,7 @@ struct Remark {
   unsigned line = 0;  ///< of the deck; 0: of no line
   std::string keyword;
   std::string text;
+  bool doubtful = false;  ///< a choice that the user should know of: also a warning
 };
 
 /// A body of the case as the deck describes it.
@@ -56,6 +57,10 @@ struct Import {
 
   void remark(Outcome outcome, unsigned line, std::string keyword, std::string text) {
     remarks.push_back({outcome, line, std::move(keyword), std::move(text)});
+  }
+  /// Adds a remark on something that was converted by a choice which the deck does not settle.
+  void doubt(unsigned line, std::string keyword, std::string text) {
+    remarks.push_back({Outcome::converted, line, std::move(keyword), std::move(text), true});
   }
   [[nodiscard]] std::size_t count(Outcome outcome) const;
   /// Returns the bodies and the four lists of remarks, as `whipple import` prints them and as import.txt holds them.

@@ -10,11 +10,14 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <numbers>
+#include <optional>
 #include <string_view>
 #include <unordered_map>
 
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
+#include "src/core/base/words.hpp"
 
 namespace whipple::fem {
 namespace {
@@ -61,6 +64,86 @@ constexpr std::array types = {Type{"C3D8", hexahedron_kind},
                               Type{"SFM3D4", 3},
                               Type{"MASS", 15}};
 
+/// Coordinates of nodes.
+enum class System { cartesian, cylindrical };
+constexpr std::array<Word<System>, 2> words(System /*of*/) {
+  return {{{System::cartesian, "R"}, {System::cylindrical, "C"}}};
+}
+
+/// What a keyword is to a mesh.
+enum class Meaning {
+  nodes,
+  elements,
+  set,
+  assembly,  ///< parts and instances
+  other_file,
+  geometry,  ///< makes or moves nodes or elements in a way that is not read
+  none       ///< materials, sections, loads, contact, steps, output
+};
+/// Keywords, without blanks, with the parameters that are read; a keyword that is not here is refused.
+struct Keyword {
+  Meaning meaning = Meaning::none;
+  std::vector<std::string_view> parameters = {};
+};
+const std::map<std::string_view, Keyword>& keywords() {
+  static const std::map<std::string_view, Keyword> all = [] {
+    std::map<std::string_view, Keyword> table = {
+        {"*NODE", {Meaning::nodes, {"NSET", "SYSTEM"}}},
+        {"*ELEMENT", {Meaning::elements, {"TYPE", "ELSET"}}},
+        {"*ELSET", {Meaning::set, {"ELSET", "GENERATE", "INTERNAL", "UNSORTED"}}},
+        {"*INSTANCE", {Meaning::assembly}},
+        {"*INCLUDE", {Meaning::other_file}}};
+    for (const std::string_view word :
+         {"*NGEN", "*NFILL", "*NCOPY", "*NMAP", "*ELGEN", "*ELCOPY", "*SYSTEM", "*IMPERFECTION", "*IMPORT",
+          "*IMPORTELSET", "*IMPORTNSET", "*MAPSOLUTION", "*SYMMETRICMODELGENERATION", "*SUBMODEL",
+          "*SUBSTRUCTUREGENERATE", "*PARAMETER", "*ELEMENTPROGRESSIVEACTIVATION", "*MODELCHANGE"}) {
+      table[word] = {Meaning::geometry};
+    }
+    for (const std::string_view word :
+         {// of a model as a whole
+          "*HEADING", "*PREPRINT", "*RESTART", "*PART", "*ENDPART", "*ASSEMBLY", "*ENDASSEMBLY", "*NSET",
+          "*SURFACE", "*AMPLITUDE", "*ORIENTATION", "*DISTRIBUTION", "*DISTRIBUTIONTABLE", "*TRANSFORM",
+          "*PHYSICALCONSTANTS", "*FILTER", "*TIMEPOINTS", "*PARAMETERDEPENDENCE", "*NORMAL",
+          "*NODALTHICKNESS",
+          // sections and elements' properties
+          "*SOLIDSECTION", "*SHELLSECTION", "*SHELLGENERALSECTION", "*MEMBRANESECTION", "*BEAMSECTION",
+          "*BEAMGENERALSECTION", "*COHESIVESECTION", "*SURFACESECTION", "*CONNECTORSECTION",
+          "*CONNECTORBEHAVIOR", "*CONNECTORELASTICITY", "*SECTIONCONTROLS", "*HOURGLASSSTIFFNESS", "*MASS",
+          "*ROTARYINERTIA", "*SPRING", "*DASHPOT", "*NONSTRUCTURALMASS", "*RIGIDBODY",
+          // materials
+          "*MATERIAL", "*DENSITY", "*ELASTIC", "*PLASTIC", "*HYPERELASTIC", "*HYPERFOAM", "*VISCOELASTIC",
+          "*EXPANSION", "*CONDUCTIVITY", "*SPECIFICHEAT", "*LATENTHEAT", "*DAMPING", "*EOS", "*EOSCOMPACTION",
+          "*EOSSHEAR", "*TENSILEFAILURE", "*SHEARFAILURE", "*RATEDEPENDENT", "*INELASTICHEATFRACTION",
+          "*DAMAGEINITIATION", "*DAMAGEEVOLUTION", "*DAMAGESTABILIZATION", "*CYCLICHARDENING", "*CREEP",
+          "*DRUCKERPRAGER", "*DRUCKERPRAGERHARDENING", "*CAPPLASTICITY", "*CAPHARDENING", "*CRUSHABLEFOAM",
+          "*CRUSHABLEFOAMHARDENING", "*CONCRETEDAMAGEDPLASTICITY", "*CONCRETECOMPRESSIONHARDENING",
+          "*CONCRETETENSIONSTIFFENING", "*CONCRETECOMPRESSIONDAMAGE", "*CONCRETETENSIONDAMAGE",
+          "*BRITTLECRACKING", "*BRITTLESHEAR", "*BRITTLEFAILURE", "*POROUSMETALPLASTICITY", "*POTENTIAL",
+          "*ANNEALTEMPERATURE", "*USERMATERIAL", "*DEPVAR", "*VISCOSITY", "*REACTIONRATE", "*DETONATIONPOINT",
+          "*GASSPECIFICHEAT", "*MODULUS",
+          // constraints, contact, loads and their history
+          "*EQUATION", "*MPC", "*TIE", "*COUPLING", "*KINEMATIC", "*DISTRIBUTING", "*EMBEDDEDELEMENT",
+          "*CONTACT", "*CONTACTPAIR", "*CONTACTINCLUSIONS", "*CONTACTEXCLUSIONS",
+          "*CONTACTPROPERTYASSIGNMENT", "*CONTACTINITIALIZATIONASSIGNMENT", "*CONTACTFORMULATION",
+          "*CONTACTCONTROLS", "*CONTACTCONTROLSASSIGNMENT", "*SURFACEPROPERTYASSIGNMENT",
+          "*SURFACEINTERACTION", "*SURFACEBEHAVIOR", "*FRICTION", "*GAPCONDUCTANCE", "*GAPHEATGENERATION",
+          "*COHESIVEBEHAVIOR", "*CLEARANCE", "*BOUNDARY", "*INITIALCONDITIONS", "*STEP", "*ENDSTEP",
+          "*STATIC", "*DYNAMIC", "*FREQUENCY", "*BUCKLE", "*HEATTRANSFER", "*COUPLEDTEMPERATURE-DISPLACEMENT",
+          "*VISCO", "*CLOAD", "*DLOAD", "*DSLOAD", "*CFLUX", "*DFLUX", "*FILM", "*RADIATE", "*TEMPERATURE",
+          "*FIELD", "*GRAVITY", "*BULKVISCOSITY", "*FIXEDMASSSCALING", "*VARIABLEMASSSCALING", "*CONTROLS",
+          "*ADAPTIVEMESH", "*ADAPTIVEMESHCONTROLS",
+          // output
+          "*OUTPUT", "*NODEOUTPUT", "*ELEMENTOUTPUT", "*CONTACTOUTPUT", "*ENERGYOUTPUT",
+          "*INCREMENTATIONOUTPUT", "*INTEGRATEDOUTPUT", "*NODEPRINT", "*ELPRINT", "*CONTACTPRINT",
+          "*ENERGYPRINT", "*NODEFILE", "*ELFILE", "*CONTACTFILE", "*ENERGYFILE", "*FILEOUTPUT", "*FILEFORMAT",
+          "*MONITOR", "*DIAGNOSTICS", "*PRINT"}) {
+      table[word] = {};
+    }
+    return table;
+  }();
+  return all;
+}
+
 class AbaqusReader {
  public:
   AbaqusReader(MeshData& data, double length_unit)
@@ -75,27 +158,19 @@ class AbaqusReader {
       std::string head(line_text_);
       while (head.ends_with(',') && next()) head += line_text_;  // it goes on in the next line
       const std::vector<std::string_view> words = cells_of(head);
-      const std::string keyword = upper(words.front());
-      parameters_.clear();
-      for (std::size_t i = 1; i < words.size(); ++i) {
-        const std::size_t equals = words[i].find('=');
-        parameters_[upper(trimmed(words[i].substr(0, equals)))] =
-            equals == std::string_view::npos ? "" : std::string(trimmed(words[i].substr(equals + 1)));
+      std::string name = upper(words.front());
+      std::erase(name, ' ');
+      const auto keyword = keywords().find(name);
+      if (keyword == keywords().end()) {
+        fail(
+            fmt::format("the keyword {} is not known here: delete it if it neither makes nor moves nodes and "
+                        "elements",
+                        upper(words.front())));
       }
-      static const std::map<std::string_view, void (AbaqusReader::*)()> blocks = {
-          {"*NODE", &AbaqusReader::nodes},      {"*ELEMENT", &AbaqusReader::elements},
-          {"*ELSET", &AbaqusReader::set},       {"*INSTANCE", &AbaqusReader::refuse},
-          {"*INCLUDE", &AbaqusReader::include}, {"*NGEN", &AbaqusReader::generator},
-          {"*ELGEN", &AbaqusReader::generator}, {"*SYSTEM", &AbaqusReader::generator}};
-      const auto block = blocks.find(keyword);
-      more = next();
-      if (block == blocks.end()) {
-        while (more && !line_text_.starts_with('*')) more = next();
-      } else {
-        more_ = more;
-        (this->*block->second)();
-        more = more_;
-      }
+      parameters(words, keyword->second);
+      more_ = next();
+      block(keyword->second.meaning);
+      more = more_;
     }
     if (data_.elements.empty()) throw InputError(fmt::format("{}: has no *ELEMENT", data_.path.string()));
     groups();
@@ -105,14 +180,45 @@ class AbaqusReader {
   [[noreturn]] void fail(const std::string& what) const {
     throw InputError(fmt::format("{}:{}: error: {}", data_.path.string(), line_, what));
   }
-  [[noreturn]] void refuse() {
-    fail(
-        "parts and assemblies are not read: write the input without them (Abaqus/CAE: \"Do not use parts and "
-        "assemblies in input files\")");
+  /// Takes the parameters of a keyword; of those that are read it must have no others.
+  void parameters(const std::vector<std::string_view>& words, const Keyword& keyword) {
+    parameters_.clear();
+    for (std::size_t i = 1; i < words.size(); ++i) {
+      if (words[i].empty()) continue;
+      const std::size_t equals = words[i].find('=');
+      const std::string name = upper(trimmed(words[i].substr(0, equals)));
+      if (!keyword.parameters.empty() &&
+          std::ranges::find(keyword.parameters, name) == keyword.parameters.end()) {
+        fail(fmt::format("the parameter {} of {} is not read: write what it says into the lines of data",
+                         name, upper(words.front())));
+      }
+      parameters_[name] =
+          equals == std::string_view::npos ? "" : std::string(trimmed(words[i].substr(equals + 1)));
+    }
   }
-  [[noreturn]] void include() { fail("*INCLUDE is not read: put the file into this one"); }
-  [[noreturn]] void generator() {
-    fail("generated nodes and elements and local systems are not read: write them out");
+  /// Reads the lines of data of a keyword.
+  void block(Meaning meaning) {
+    switch (meaning) {
+      case Meaning::nodes:
+        return nodes();
+      case Meaning::elements:
+        return elements();
+      case Meaning::set:
+        return set();
+      case Meaning::assembly:
+        fail(
+            "parts and assemblies are not read: write the input without them (Abaqus/CAE: \"Do not use parts "
+            "and "
+            "assemblies in input files\")");
+      case Meaning::other_file:
+        fail("*INCLUDE is not read: put the file into this one");
+      case Meaning::geometry:
+        fail(
+            "generated or moved nodes and elements, local systems and parameters are not read: write them "
+            "out");
+      case Meaning::none:
+        for_each_line([](const std::vector<std::string_view>&) {});
+    }
   }
 
   /// The next line that is no comment and not blank.
@@ -153,18 +259,33 @@ class AbaqusReader {
     return value;
   }
 
+  /// The place of a node, from coordinates in the system of the keyword.
+  Vector3 place(const Vector3& x, System system) const {
+    if (system == System::cartesian) return unit_ * x;
+    const double angle = x[1] * std::numbers::pi / 180.0;
+    return unit_ * Vector3(x[0] * std::cos(angle), x[0] * std::sin(angle), x[2]);
+  }
+
   void nodes() {
+    const std::string& name = parameters_["SYSTEM"];
+    const std::optional<System> system = name.empty() ? System::cartesian : value_of<System>(upper(name));
+    if (!system) {
+      fail(fmt::format(
+          "nodes in the system \"{}\" are not read: write them in Cartesian (SYSTEM=R) or cylindrical "
+          "coordinates (SYSTEM=C)",
+          name));
+    }
     for_each_line([&](const std::vector<std::string_view>& cells) {
       const std::uint64_t tag = number(cells.front(), "the number of a node");
       if (cells.size() < 2) fail(fmt::format("node {} has no coordinates", tag));
       Vector3 x = Vector3::Zero();
       for (std::size_t i = 1; i < std::min<std::size_t>(cells.size(), 4); ++i) {
-        if (!cells[i].empty()) x[static_cast<Eigen::Index>(i - 1)] = unit_ * coordinate(cells[i]);
+        if (!cells[i].empty()) x[static_cast<Eigen::Index>(i - 1)] = coordinate(cells[i]);
       }
       if (!node_.emplace(tag, static_cast<std::uint32_t>(data_.nodes.size())).second) {
         fail(fmt::format("node {} is defined twice", tag));
       }
-      data_.nodes.push_back(x);
+      data_.nodes.push_back(place(x, *system));
     });
   }
 

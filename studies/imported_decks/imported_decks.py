@@ -1,10 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What becomes of decks of MPM3D-F90: imported, checked and, with --run, run to their end and compared with results of that
-code, or the physics that is missing. Prints the tables of docs/manual/import.md.
+"""What becomes of decks of MPM3D-F90 and LS-DYNA: imported, checked and, with --run, run to their end and compared with results
+of MPM3D-F90, or the physics that is missing. Prints the tables of docs/manual/import.md.
 
 usage: imported_decks.py [--run] WHIPPLE FOLDER DECK.mpm...
+       imported_decks.py [--run] --units 'mm ms kg' --cell-size '1 mm' WHIPPLE FOLDER DECK.k...
 """
+import argparse
 import json
 import pathlib
 import re
@@ -99,14 +101,16 @@ def add_gauges(case: pathlib.Path) -> None:
     case.write_text(text)
 
 
-def row_of(program: str, deck: pathlib.Path, folder: pathlib.Path, runs: bool) -> list[str]:
-    """Imports, checks and, if wanted, runs a deck. Returns its row of the table."""
+def row_of(program: str, deck: pathlib.Path, folder: pathlib.Path, runs: bool, given: list[str]) -> list[str]:
+    """Imports, checks and, if wanted, runs a deck. Returns its row of the table.
+
+    given: options of the import"""
     case = folder / deck.stem
     options: list[str] = []
-    done = whipple(program, "import", deck, "-o", case)
+    done = whipple(program, "import", deck, "-o", case, *given)
     if done.returncode and "--old-mass takes it" in done.stdout:
         options = ["--old-mass"]
-        done = whipple(program, "import", deck, "-o", case, *options)
+        done = whipple(program, "import", deck, "-o", case, *given, *options)
     name = f"`{deck.name}`" + (f" with `{options[0]}`" if options else "")
     if done.returncode:
         return [name, "missing: " + "; ".join(missing(done.stdout) or [done.stderr.splitlines()[0]]), "", ""]
@@ -146,14 +150,19 @@ def print_table(head: list[str], rows: list[list[str]]) -> None:
 
 def main(words: list[str]) -> int:
     """Prints the tables. Returns the exit code."""
-    runs = "--run" in words
-    words = [word for word in words if word != "--run"]
-    if len(words) < 3:
-        print(__doc__, file=sys.stderr)
-        return 2
-    program, folder, decks = words[0], pathlib.Path(words[1]), [pathlib.Path(word) for word in words[2:]]
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--run", action="store_true")
+    parser.add_argument("--units", help="units of decks that do not name them")
+    parser.add_argument("--cell-size", help="edge of the cells for decks without a grid")
+    parser.add_argument("program")
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("decks", type=pathlib.Path, nargs="+")
+    arguments = parser.parse_args(words)
+    runs, program, folder, decks = arguments.run, arguments.program, arguments.folder, arguments.decks
+    given = [word for option, value in (("--units", arguments.units), ("--cell-size", arguments.cell_size)) if value
+             for word in (option, value)]
     folder.mkdir(parents=True, exist_ok=True)
-    print_table(["deck", "outcome", "until", "one core"], [row_of(program, deck, folder, runs) for deck in decks])
+    print_table(["deck", "outcome", "until", "one core"], [row_of(program, deck, folder, runs, given) for deck in decks])
     compared = [deck.stem for deck in decks if deck.stem in MEASURES and (folder / f"{deck.stem}.run" / "history.csv").exists()]
     if runs and compared:
         print()

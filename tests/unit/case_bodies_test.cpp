@@ -239,10 +239,16 @@ $EndElements
   const Shape& shape = *setup.bodies[0].shape;
   EXPECT_TRUE(shape.contains(Vector3(1.9e-3, 0.1e-3, 2.4e-3)));
   EXPECT_FALSE(shape.contains(Vector3(1.9e-3, 0.1e-3, 2.6e-3)));
+  // Particles fill the mesh, also where they lie on a face between two elements.
+  const Seeding filled = seed(read_case_text(domain + replaced(body, "adaptive", "particles"), "case.toml"));
+  EXPECT_TRUE(filled.meshes.empty());
+  EXPECT_NEAR(filled.bodies[0].mass, filled.bodies[0].shape_mass, 1e-9 * filled.bodies[0].mass);
   // What the run writes reads back.
   EXPECT_EQ(read_case_text(to_toml(setup, {"copper.toml"}), "run.toml").bodies[0].discretization.mesh,
             path.string());
   expect_error(domain + body + replaced(sphere, "\"-4 mm\"", "\"0 mm\""), {"overlaps body \"brick\""});
+  expect_error(domain + body + "[[detonation]]\nposition = [0, 0, 0]\nbody = \"stone\"\n",
+               {"there is no body \"stone\"", "with burn.lighting = \"straight\" only"});
   expect_error(domain + replaced(body, "mesh_unit", "group = \"stone\", mesh_unit"), {"stone", "brick"});
   std::filesystem::remove(path);
 }

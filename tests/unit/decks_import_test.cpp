@@ -310,7 +310,8 @@ TEST(DynaDeck, BecomesACaseWithMeshesAndBoxes) {
   EXPECT_THAT(import.case_text, HasSubstr("velocity = [\"0 m/s\", \"0 m/s\", \"-200 m/s\"]"))
       << "of a parameter";
   EXPECT_THAT(import.case_text, HasSubstr("friction = 0.2"));
-  EXPECT_THAT(import.case_text, HasSubstr("mesh = \"meshes/part_1.msh\", mesh_unit = \"1 mm\""));
+  EXPECT_THAT(import.case_text,
+              HasSubstr("method = \"adaptive\", mesh = \"meshes/bar.msh\", mesh_unit = \"1 mm\""));
   EXPECT_THAT(
       import.case_text,
       HasSubstr(
@@ -335,7 +336,7 @@ TEST(DynaDeck, WhatIsNotReadIsMissingByNameAndNumber) {
   EXPECT_THAT(import.report(), HasSubstr("*RIGIDWALL_PLANAR  not read, 2 times"));
   EXPECT_EQ(import.count(Outcome::missing), 1U);
   const Import foam = import_keywords(bar_deck("*MAT_PLASTIC_KINEMATIC", "*MAT_LOW_DENSITY_FOAM"));
-  EXPECT_THAT(foam.report(), HasSubstr("part_2: this material law"));
+  EXPECT_THAT(foam.report(), HasSubstr("plate: this material law"));
 }
 
 /// What a card says beyond what is read is not left out in silence.
@@ -346,21 +347,22 @@ TEST(DynaDeck, OptionsThatChangeTheMeaningOfCardsAreMissing) {
   const std::string start =
       "*INITIAL_VELOCITY_GENERATION\n         7         1       0.0       0.0       0.0    &speed\n";
   EXPECT_THAT(report(start, "*INITIAL_VELOCITY\n0, 0, 3\n0.0, 0.0, -200.0\n"),
-              HasSubstr("those of a box (BOXID)"));
-  EXPECT_THAT(report(start, "*INITIAL_VELOCITY\n0, 9, 0\n0.0, 0.0, -200.0\n"), HasSubstr("exempt (NSIDEX)"));
+              HasSubstr("BOXID = 3: nodes of a box"));
+  EXPECT_THAT(report(start, "*INITIAL_VELOCITY\n0, 9, 0\n0.0, 0.0, -200.0\n"),
+              HasSubstr("NSIDEX = 9: nodes that are exempt"));
   EXPECT_THAT(report(start, "*INITIAL_VELOCITY\n0\n0.0, 0.0, -200.0, 0.0, 5.0\n"),
               HasSubstr("angular velocity"));
   EXPECT_THAT(report(start, "*INITIAL_VELOCITY\n0\n0.0, 0.0, -200.0\n"), HasSubstr("missing (0)"));
   EXPECT_THAT(report("*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE\n",
                      "*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE_MPP\n0, 200\n"),
-              HasSubstr("the cards of the option MPP"));
+              HasSubstr("missing (0)"));
   EXPECT_THAT(report("*CONTACT_", "*SET_NODE_ADD\n9\n1, 2\n*CONTACT_"),
               HasSubstr("*SET_NODE_ADD  not read, 1 time"))
       << "its members are sets";
   EXPECT_THAT(
       report("*MAT_PLASTIC_KINEMATIC\n2, 7.85e-6, 210.0, 0.3, 0.4, 1.0, 1.0\n",
              "*MAT_SIMPLIFIED_JOHNSON_COOK\n2, 7.85e-6, 210.0, 0.3\n0.4, 0.5, 0.3, 0.01, 0, 0, 0.9, 1e-3\n"),
-      HasSubstr("greatest stress SIGSAT"));
+      HasSubstr("SIGSAT = 0.9: greatest stress"));
 }
 
 TEST_F(ImportFolder, AnExplosiveOfAKeywordDeckIsLit) {
@@ -442,10 +444,29 @@ TEST_F(ImportFolder, HabitsOfOtherEditorsChangeNothing) {
 TEST(Decks, DamagedOnesAreReadOrRefused) {
   const char* wanted = std::getenv("WHIPPLE_FUZZ_TRIALS");
   const int trials = wanted != nullptr ? std::atoi(wanted) : 300;
-  const std::vector<std::string> odd = {"-1",       "1e300",  "-1e300", "0",      "999999999",
-                                        "endi",     "part",   "poin",   "nan",    "!",
-                                        "\n",       "\0",     "sphere", "1e-300", "*NODE",
-                                        "*INCLUDE", "&speed", "1-3",    ",",      "*SET_PART_LIST_GENERATE"};
+  const std::vector<std::string> odd = {"-1",
+                                        "1e300",
+                                        "-1e300",
+                                        "0",
+                                        "999999999",
+                                        "endi",
+                                        "part",
+                                        "poin",
+                                        "nan",
+                                        "!",
+                                        "\n",
+                                        "\0",
+                                        "sphere",
+                                        "1e-300",
+                                        "*NODE",
+                                        "*INCLUDE",
+                                        "&speed",
+                                        "1-3",
+                                        ",",
+                                        "*SET_PART_LIST_GENERATE",
+                                        "*BOUNDARY_SPC_SET",
+                                        "*PARAMETER_EXPRESSION",
+                                        "*SET_NODE_GENERAL"};
   for (int trial = 0; trial < trials; ++trial) {
     std::mt19937_64 random(static_cast<std::uint64_t>(trial));
     const std::size_t which = random() % 4;

@@ -263,6 +263,28 @@ TEST_F(Gmsh, AbaqusWithoutElementSetsIsOneGroup) {
   EXPECT_THAT(file.group_names(3), ::testing::ElementsAre("all"));
 }
 
+/// A sector of 30 degrees between the radii 1 and 2 with straight edges: 1/2 sin 30 (2^2 - 1^2) high 1.
+TEST_F(Gmsh, AbaqusHasNodesInCylindricalCoordinates) {
+  std::ofstream(folder_ / "mesh.inp") << R"(*HEADING
+one hexahedron
+*NODE, NSET=ALL, SYSTEM=C
+1, 1., 0., 0.
+2, 2., 0., 0.
+3, 2., 30., 0.
+4, 1., 30., 0.
+5, 1., 0., 1.
+6, 2., 0., 1.
+7, 2., 30., 1.
+8, 1., 30., 1.
+*ELEMENT, TYPE=C3D8R, ELSET=E
+1, 1,2,3,4,5,6,7,8
+*SOLID SECTION, ELSET=E, MATERIAL=M
+)";
+  const Hexahedra mesh = fem::MeshFile::read(folder_ / "mesh.inp", 1e-3).hexahedra("E");
+  EXPECT_NEAR(fem::volume(mesh), 0.75e-9, 1e-22);
+  EXPECT_NEAR(mesh.nodes[2][1], 1e-3, 1e-16);
+}
+
 TEST_F(Gmsh, AbaqusHasElementSets) {
   const auto read = [&](const std::string& from = "", const std::string& to = "") {
     std::string text = abaqus_text;
@@ -301,6 +323,14 @@ TEST_F(Gmsh, AbaqusHasElementSets) {
   EXPECT_THAT(fault("*Heading", "*Instance, name=a"), HasSubstr("parts and assemblies"));
   EXPECT_THAT(fault("elset=\"Lower Box\"", "elset=lower"),
               HasSubstr("element set \"lower box\" is not defined"));
+  EXPECT_THAT(fault("*Density", "*NFILL"), HasSubstr("generated or moved nodes"));
+  EXPECT_THAT(fault("*Density", "*Densty"),
+              HasSubstr("mesh.inp:28: error: the keyword *DENSTY is not known here"));
+  EXPECT_THAT(fault("NSET=all", "NSET=all, INPUT=nodes.txt"),
+              HasSubstr("the parameter INPUT of *NODE is not read"));
+  EXPECT_THAT(fault("elset=\"Lower Box\"", "elset=\"Lower Box\", OFFSET=10"),
+              HasSubstr("the parameter OFFSET of *ELEMENT is not read"));
+  EXPECT_THAT(fault("NSET=all", "NSET=all, SYSTEM=S"), HasSubstr("nodes in the system \"S\" are not read"));
   EXPECT_THAT(fault("1, 1, 2, 3, 4, 5, 6,", "1, 4, 3, 2, 1, 8, 7,\n 6, 5\n2, 1, 2, 3, 4, 5, 6,"),
               HasSubstr("is inverted"));
 }

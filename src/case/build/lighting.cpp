@@ -227,12 +227,13 @@ DetonationField field_of(const Case& setup) {
   return field;
 }
 
-/// Arrival in straight lines, through everything.
-double straight(const Case& setup, const Vector3& point, double velocity) {
+/// Arrival in straight lines, through everything; `never` where no detonator lights the body.
+double straight(const Case& setup, const Body& body, const Vector3& point, double velocity) {
   double first = unlit;
-  for (const Detonation& detonation : setup.detonations)
-    first = std::min(first, detonation.arrival(point, velocity));
-  return first;
+  for (const Detonation& detonation : setup.detonations) {
+    if (detonation.lights(body.name)) first = std::min(first, detonation.arrival(point, velocity));
+  }
+  return first == unlit ? never : first;
 }
 
 /// Returns whether an explosive burns away from the detonators without lighting times: by compression or by a rate law.
@@ -240,10 +241,10 @@ bool burns_elsewhere(const Case& setup, const Material& material) {
   return setup.burn.mode == BurnMode::volume || material.burn->explosive().reaction != nullptr;
 }
 
-bool is_near_detonator(const Case& setup, const Vector3& point, double velocity) {
+bool is_near_detonator(const Case& setup, const Body& body, const Vector3& point, double velocity) {
   const double near = hot_cells * setup.geometry.cell_size;
   return std::ranges::any_of(setup.detonations, [&](const Detonation& detonation) {
-    return (point - detonation.ray_to(point, velocity).from).norm() <= near;
+    return detonation.lights(body.name) && (point - detonation.ray_to(point, velocity).from).norm() <= near;
   });
 }
 
@@ -260,8 +261,9 @@ void set_lighting_times(const Case& setup, Particles& particles) {
     if (!material.burns()) return;
     const double velocity = material.burn->explosive().detonation_velocity;
     const Vector3& at = particles.position[p];
-    if (burns_elsewhere(setup, material) && !is_near_detonator(setup, at, velocity)) return;
-    times[p] = shadowed ? arrival->at(at, velocity) : straight(setup, at, velocity);
+    const Body& body = setup.bodies[particles.body[p]];
+    if (burns_elsewhere(setup, material) && !is_near_detonator(setup, body, at, velocity)) return;
+    times[p] = shadowed ? arrival->at(at, velocity) : straight(setup, body, at, velocity);
   });
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     if (!setup.materials[b]->burns() || burns_elsewhere(setup, *setup.materials[b])) continue;

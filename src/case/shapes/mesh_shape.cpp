@@ -96,7 +96,8 @@ class MeshShape final : public Shape {
       if (!(xi.cwiseAbs().maxCoeff() < 10.0)) return false;
       if (step.norm() < 1e-12) break;
     }
-    return xi.cwiseAbs().maxCoeff() < 1.0;
+    constexpr double at_faces = 1.0 + 1e-9;  // a point on the face of two elements lies in one of them
+    return xi.cwiseAbs().maxCoeff() < at_faces;
   }
   [[nodiscard]] std::array<int, 3> bin_of(const Vector3& point) const {
     std::array<int, 3> bin{};
