@@ -2,21 +2,25 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Gate against drift: coarse cases compared with stored numbers, quantity by quantity.
 
-usage: drift.py [CASE]... [--renew] [--threads N] [--whipple EXE] [--work DIR]
+usage: drift.py [CASE]... [--renew | --same-as EXE] [--threads N] [--whipple EXE] [--work DIR]
 
 Cases: tests/data/drift/cases.toml; numbers and tolerances: tests/data/drift/baseline.toml. Any number outside its tolerance
 fails; the table shows old and new. --renew stores the numbers of now and prints what changed, for the changelog.
 A run is the same to the last bit on one machine with one compiler; others round differently, and what breaks or melts
 amplifies that. The tolerance of a number is therefore 10 times its change under a perturbation of the Courant number by
 2e-6, far above round-off, and at least 0.1 %; --renew measures it.
+--same-as compares with another executable, digit by digit, as after a change that computes nothing new: if all cases agree,
+docs/generated/same_results.json notes it, and tables that the other one computed stay current.
 Exit code 1 if a number drifted or a run failed, 2 for bad input.
 """
 import argparse
 import concurrent.futures
 import csv
+import json
 import math
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tomllib
@@ -24,6 +28,7 @@ import tomllib
 # The modules of the project are imported from its root.
 sys.path[0] = str(pathlib.Path(__file__).resolve().parents[1])
 from studies.validation.cases import ROOT, BadExpectation, Measures  # noqa: E402
+from studies.validation import provenance  # noqa: E402
 from studies.validation.execution import environment  # noqa: E402
 
 DATA = ROOT / "tests" / "data" / "drift"
@@ -129,11 +134,28 @@ def as_toml(stored):
     return "\n".join(lines)
 
 
+def note_same(whipple, other):
+    """Notes that two executables give the same digits, by the digests of the sources that they were built from."""
+    new, old = (provenance.digest_of_revision(re.search(r"revision ([0-9a-f]+)", provenance.program(exe)["program"])[1])
+                for exe in (whipple, other))
+    if new != old:
+        same = provenance.known_same() | {new: old}
+        provenance.SAME_RESULTS.write_text(json.dumps(same, indent=1) + "\n")
+    print(f"drift: {new} computes what {old} does")
+
+
+def unlike(name, old, new):
+    """Rows of the numbers that differ in any digit."""
+    return [f"{name}: {key}: {old.get(key)!r}, {new.get(key)!r}" for key in sorted({*old, *new})
+            if old.get(key) != new.get(key) and not (math.isnan(old.get(key, 0.0)) and math.isnan(new.get(key, 0.0)))]
+
+
 def main():
     parser = argparse.ArgumentParser(prog="drift.py", description="Compares coarse runs with stored numbers.",
                                      epilog="example: drift.py --renew")
     parser.add_argument("cases", nargs="*", metavar="CASE")
     parser.add_argument("--renew", action="store_true", help="store the numbers of now; prints what changed")
+    parser.add_argument("--same-as", metavar="EXE", help="compare every digit with those of another executable")
     parser.add_argument("--threads", type=int, default=len(os.sched_getaffinity(0)), help="runs at once, one thread each")
     parser.add_argument("--whipple", default=str(ROOT / "build/release/bin/whipple"), help="the executable")
     parser.add_argument("--work", type=pathlib.Path, default=ROOT / "run" / "drift", help="folder of the runs")
@@ -147,12 +169,23 @@ def main():
         jobs = [(case, work / case["name"], ()) for case in chosen]
         if arguments.renew:
             jobs += [(case, work / f"{case['name']}.perturbed", (PERTURBATION,)) for case in chosen]
+        of_other = [(case, work / f"{case['name']}.other", ()) for case in chosen] if arguments.same_as else []
         with concurrent.futures.ThreadPoolExecutor(arguments.threads) as pool:
             results = list(pool.map(lambda job: run(whipple, *job), jobs))
+            others = list(pool.map(lambda job: run(str(pathlib.Path(arguments.same_as).resolve()), *job), of_other))
     except (BadExpectation, OSError) as error:
         print(f"drift.py: error: {error}", file=sys.stderr)
         return 2
-    failed = sum(result is None for result in results)
+    failed = sum(result is None for result in [*results, *others])
+    if arguments.same_as:
+        rows = [row for case, one, other in zip(chosen, results, others) if one and other for row in unlike(case["name"], other, one)]
+        print("\n".join(rows))
+        if failed or rows or arguments.cases:
+            print(f"drift: not the same: {len(rows)} numbers differ, {failed} runs failed" if failed or rows else
+                  "drift: the same; not noted, as not all cases were run")
+            return 1 if failed or rows else 0
+        note_same(whipple, arguments.same_as)
+        return 0
     changed = 0
     for case, new in zip(chosen, results):
         if new is None:

@@ -6,7 +6,7 @@ import math
 
 from studies.validation import bands, frozen_parameters
 from studies.validation.cases import ROOT, UNITS
-from studies.validation.provenance import digest_of_file, digest_of_sources, inputs_of
+from studies.validation.provenance import digest_of_file, digest_of_sources, inputs_of, is_same_program
 
 STORE = ROOT / "docs" / "generated" / "results.json"
 PAGE = ROOT / "docs" / "generated" / "results.md"
@@ -128,7 +128,7 @@ def provenance(run, source):
         by_program.setdefault((record["program"], record["source"], record["processor"]), []).append((name, record))
     lines = []
     for (program, of, processor), entries in by_program.items():
-        older = "" if of == source else " **Older source.**"
+        older = "" if is_same_program(of, source) else " **Older source.**"
         times = ", ".join(f"{name} {record['wall_time']:.0f} s on {record['threads']}" for name, record in entries)
         lines.append(f"Computed with {program}{' and changes' if entries[0][1]['dirty'] else ''}, source {of}, "
                      f"numerical parameters {entries[0][1]['frozen_set']}, case {run['inputs']['case']}, {processor}; "
@@ -217,7 +217,7 @@ def outdated(results, cases):
         for run in stored["runs"]:
             if run["name"] not in runs or inputs_of(runs[run["name"]]) != run["inputs"]:
                 stale.append((name, run["name"]))
-            elif any(record["source"] != source for record in run["records"].values()):
+            elif any(not is_same_program(record["source"], source) for record in run["records"].values()):
                 older.append((name, run["name"]))
     return stale, older, expectations
 

@@ -10,6 +10,7 @@ import pathlib
 import platform
 import re
 import subprocess
+import tempfile
 import tomllib
 
 from studies.validation import frozen_parameters
@@ -25,6 +26,9 @@ NO_SOURCES = ("src/core/base/files.cpp", "src/core/base/files.hpp", "src/fem/aba
 # A comment, or a literal in which none begins.
 COMMENT = re.compile(r"""//[^\n]*|/\*.*?\*/|("(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])')""", re.DOTALL)
 LIBRARY = ROOT / "eos" / "materials"
+
+# Digests of sources whose programs gave the same digits in all runs of the drift gate: new -> old (scripts/drift.py --same-as).
+SAME_RESULTS = ROOT / "docs" / "generated" / "same_results.json"
 
 CURRENT, OLDER_SOURCE, STALE, MISSING = "current", "older source", "stale", "missing"
 
@@ -50,6 +54,30 @@ def digest_of_sources(root=ROOT):
                    if path.suffix in CODE and path.is_file() and not any(path.is_relative_to(name) for name in left_out))
     return digest_of(*(part for path in files
                        for part in (str(path.relative_to(root)), code_of(path.read_text(encoding="utf-8")))))
+
+
+def digest_of_revision(revision, root=ROOT):
+    """Of the same C++ in a revision of the repository."""
+    with tempfile.TemporaryDirectory() as folder:
+        archive = subprocess.run(["git", "archive", revision, "src", "eos"], cwd=root, capture_output=True, check=True).stdout
+        subprocess.run(["tar", "-x", "-C", folder], input=archive, check=True)
+        return digest_of_sources(pathlib.Path(folder))
+
+
+def known_same():
+    return json.loads(SAME_RESULTS.read_text()) if SAME_RESULTS.is_file() else {}
+
+
+def is_same_program(one, other):
+    """Whether two digests are of sources that compute the same: themselves, or by the runs of the drift gate."""
+    same = known_same()
+
+    def first(source):
+        while source in same:
+            source = same[source]
+        return source
+
+    return first(one) == first(other)
 
 
 @functools.cache
@@ -165,4 +193,4 @@ def state(record, command, inputs, source):
         return MISSING
     if meaning(record["command"]) != meaning(command) or any(record[key] != inputs[key] for key in ("case", "materials")):
         return STALE
-    return CURRENT if record["source"] == source else OLDER_SOURCE
+    return CURRENT if is_same_program(record["source"], source) else OLDER_SOURCE

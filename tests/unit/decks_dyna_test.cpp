@@ -10,6 +10,7 @@
 #include "src/case/build/seeding.hpp"
 #include "src/case/case.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
 #include "src/decks/dyna_case.hpp"
 #include "src/decks/dyna_constraints.hpp"
 #include "src/decks/dyna_deck.hpp"
@@ -28,12 +29,7 @@ using ::testing::Not;
 const fs::path folder_of_faults = fs::path(WHIPPLE_SOURCE_DIR) / "tests" / "data" / "decks" / "faults";
 const ImportOptions in_mpa = {.units = UnitSystem{"mm", "g", "ms"}, .cell_size = 0.5e-3};
 
-std::string text_of(const std::string& name) {
-  std::ifstream stream(folder_of_faults / name);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
+std::string text_of(const std::string& name) { return read_text(folder_of_faults / name); }
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;

@@ -5,10 +5,10 @@
 
 #include <fstream>
 #include <random>
-#include <sstream>
 
 #include "src/case/case.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
 #include "src/decks/dyna_case.hpp"
 #include "src/decks/dyna_deck.hpp"
 #include "src/decks/import.hpp"
@@ -26,12 +26,7 @@ using ::testing::Not;
 
 const fs::path folder_of_decks = fs::path(WHIPPLE_SOURCE_DIR) / "tests" / "data" / "decks";
 
-std::string deck_text(const std::string& name) {
-  std::ifstream stream(folder_of_decks / name);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
+std::string deck_text(const std::string& name) { return read_text(folder_of_decks / name); }
 
 /// The deck of the sphere with a text replaced.
 std::string sphere_deck(const std::string& from, const std::string& to) {

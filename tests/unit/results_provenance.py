@@ -6,6 +6,7 @@ usage: results_provenance.py REPOSITORY
 """
 import copy
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -87,6 +88,20 @@ def digests_follow_the_files(work):
     require(digest() != first, "what is no comment counts")
     (solver / "a.cpp").write_text('int b;\nauto b = "// c";')
     require(digest() != first, "code counts")
+
+
+def programs_that_compute_the_same_keep_tables_current(work):
+    original = provenance.SAME_RESULTS
+    provenance.SAME_RESULTS = work / "same_results.json"
+    require(provenance.is_same_program("a", "a") and not provenance.is_same_program("a", "b"), "nothing is noted")
+    provenance.SAME_RESULTS.write_text('{"c": "b", "b": "a", "z": "y"}')
+    for one, other, same in (("a", "c", True), ("b", "c", True), ("a", "z", False), ("z", "y", True)):
+        require(provenance.is_same_program(one, other) is same and provenance.is_same_program(other, one) is same,
+                f"{one}, {other}")
+    provenance.SAME_RESULTS = original
+    if (ROOT / ".git").exists():
+        digest = provenance.digest_of_revision("HEAD")
+        require(re.fullmatch("[0-9a-f]{16}", digest), digest)
 
 
 def departures_need_a_reason(work):
@@ -201,6 +216,7 @@ def the_repository_is_in_order():
 with tempfile.TemporaryDirectory() as name:
     stale_runs_are_found()
     digests_follow_the_files(pathlib.Path(name))
+    programs_that_compute_the_same_keep_tables_current(pathlib.Path(name))
     departures_need_a_reason(pathlib.Path(name))
     drift_is_seen()
     stored_variants_count_beside_new_ones()
