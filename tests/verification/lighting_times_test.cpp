@@ -20,7 +20,7 @@ using cases::DetonationField;
 using cases::DetonatorShape;
 
 Detonation point(double x, double y, double delay = 0.0) {
-  return {.position = Vector3(x, y, 0.0), .delay = delay};
+  return {.position = Vector3(x, y, 0.0), .delay = delay, .body = {}};
 }
 
 /// The square of 20 by 20 around the origin.
@@ -46,14 +46,15 @@ TEST(LightingTimes, AreExactInSight) {
 TEST(LightingTimes, OfEveryDetonator) {
   const double D = 2.0;
   const auto at = [&](const Detonation& d, double x, double y) { return d.arrival(Vector3(x, y, 0), D); };
-  const Detonation line{.shape = DetonatorShape::line, .position = Vector3(0, 0, 0), .end = Vector3(4, 0, 0)};
+  const Detonation line{
+      .shape = DetonatorShape::line, .position = Vector3(0, 0, 0), .end = Vector3(4, 0, 0), .body = {}};
   EXPECT_DOUBLE_EQ(at(line, 3, 1), 0.5);
   EXPECT_DOUBLE_EQ(at(line, 7, 4), 2.5);
   const Detonation plane{
-      .shape = DetonatorShape::plane, .position = Vector3(0, 1, 0), .normal = Vector3(0, 3, 0)};
+      .shape = DetonatorShape::plane, .position = Vector3(0, 1, 0), .normal = Vector3(0, 3, 0), .body = {}};
   EXPECT_DOUBLE_EQ(at(plane, 9, 3), 1.0);
   EXPECT_DOUBLE_EQ(at(plane, 9, -1), 1.0);
-  const Detonation sphere{.shape = DetonatorShape::sphere, .radius = 1.0};
+  const Detonation sphere{.shape = DetonatorShape::sphere, .radius = 1.0, .body = {}};
   EXPECT_DOUBLE_EQ(at(sphere, 3, 4), 2.0);
   EXPECT_DOUBLE_EQ(at(sphere, 0.5, 0), 0.0);
   // A cord of 4 m/s: sin 30 deg = D/4, the front leaves it at 60 deg to the cord.
