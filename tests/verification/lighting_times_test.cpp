@@ -59,7 +59,7 @@ TEST(LightingTimes, OfEveryDetonator) {
   EXPECT_DOUBLE_EQ(at(sphere, 0.5, 0), 0.0);
   // A cord of 4 m/s: sin 30 deg = D/4, the front leaves it at 60 deg to the cord.
   const Detonation cord{
-      .shape = DetonatorShape::cord, .end = Vector3(10, 0, 0), .velocity = 4.0, .delay = 1.0};
+      .shape = DetonatorShape::cord, .end = Vector3(10, 0, 0), .velocity = 4.0, .delay = 1.0, .body = {}};
   EXPECT_DOUBLE_EQ(at(cord, 8, 0), 3.0);
   EXPECT_NEAR(at(cord, 8, 1), 1.0 + 2.0 + std::cos(std::numbers::pi / 6) / D, 1e-12);
   EXPECT_DOUBLE_EQ(at(cord, -2, 0), 2.0);
