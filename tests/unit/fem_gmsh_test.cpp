@@ -325,7 +325,7 @@ TEST_F(Gmsh, AbaqusHasElementSets) {
               HasSubstr("element set \"lower box\" is not defined"));
   EXPECT_THAT(fault("*Density", "*NFILL"), HasSubstr("generated or moved nodes"));
   EXPECT_THAT(fault("*Density", "*Densty"),
-              HasSubstr("mesh.inp:28: error: the keyword *DENSTY is not known here"));
+              HasSubstr("mesh.inp:30: error: the keyword *DENSTY is not known here"));
   EXPECT_THAT(fault("NSET=all", "NSET=all, INPUT=nodes.txt"),
               HasSubstr("the parameter INPUT of *NODE is not read"));
   EXPECT_THAT(fault("elset=\"Lower Box\"", "elset=\"Lower Box\", OFFSET=10"),
