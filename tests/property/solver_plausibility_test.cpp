@@ -67,7 +67,7 @@ std::function<void(Particles&)> faster(double factor) {
 }
 
 TEST(Plausibility, MotionThatNothingCanHaveMadeEndsTheRun) {
-  const cases::Case setup = flying("[100, 0, 0]");
+  const cases::Case setup = flying("[100, 0, 0]", "", "[output]\nmaximum_speed_factor = 1e12\n");
   EXPECT_EQ(error_of_step(setup, faster(1.0)), "");
   EXPECT_EQ(error_of_step(setup, faster(1.01)),
             "");  // 2 % of the energy, and the error that the sum may have
@@ -94,6 +94,7 @@ TEST(Plausibility, OneParticleThatIsFarTooFastEndsTheRun) {
 
 TEST(Plausibility, SpeedsAreThoseInTheFrameOfTheCentreOfMass) {
   EXPECT_EQ(error_of_step(flying("[9000, 0, 0]"), faster(1.0)), "");
+  EXPECT_THAT(error_of_step(flying("[9000, 0, 0]"), faster(1.001)), testing::HasSubstr("is impossible"));
 }
 
 TEST(Plausibility, ATimeStepThatCollapsesEndsTheRun) {

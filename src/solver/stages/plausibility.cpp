@@ -16,6 +16,7 @@ namespace {
 // Of the energy that may move: what a scheme with exact energy does not reach, and a fault passes at once.
 constexpr double tolerance = 0.02;
 constexpr double round_off = 1e-6;
+constexpr double round_off_of_speed = 1e-9;
 
 double moving(const Totals& t) {
   return t.kinetic_energy + t.affine_kinetic_energy + t.unresolved_energy + t.hourglass_energy;
@@ -97,9 +98,10 @@ void Plausibility::require_speeds() const {
   const double external = mass > 0.0 ? ledger.external_impulse.norm() / mass +
                                            std::sqrt(2.0 * std::abs(ledger.external_work) / mass)
                                      : 0.0;
-  const double limit = state_.setup.output.maximum_speed_factor * (state_.run.reference_speed + external);
-  if (!std::isfinite(limit) || !(limit > 0.0)) return;
   const Vector3 of_frame = frame();
+  const double limit = state_.setup.output.maximum_speed_factor *
+                       (state_.run.reference_speed + external + round_off_of_speed * of_frame.norm());
+  if (!std::isfinite(limit) || !(limit > 0.0)) return;
   double fastest = 0.0;
   for (const Carrier* carrier : carriers_) fastest = std::max(fastest, carrier->largest_speed(of_frame));
   const double of_all = parallel::maximum(state_.communicator, fastest);
