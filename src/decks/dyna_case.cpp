@@ -271,6 +271,7 @@ class CaseWriter {
     for (const Body& body : bodies_) parts.push_back(body.held);
     mirrors_ = take_mirrors(parts, cell_);
     std::vector<std::string> became;
+    bool lost = false;
     for (const Mirror& mirror : mirrors_)
       became.push_back(fmt::format("plane of symmetry {} = {}", "xyz"[mirror.axis], number(mirror.place)));
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -286,12 +287,14 @@ class CaseWriter {
                fmt::format("{}: {} nodes that are held {}", name, left,
                            elements ? "lie among others so that too many boxes are needed"
                                     : "belong to particles, which have none"));
+        lost = true;
         continue;
       }
       conditions_[body.id] = *boxes;
       became.push_back(fmt::format("node conditions of {} ({} nodes{})", name, left,
                                    body.method == Method::adaptive ? ", until they are of particles" : ""));
     }
+    if (became.empty() && lost) return;
     for (const Block* block : model_.holders) {
       remark(became.empty() ? Outcome::dropped : Outcome::converted, *block,
              became.empty() ? "held nodes are those of no body"

@@ -173,10 +173,10 @@ class BoxFinder {
         largest = gap;
         at_largest = middle;
       }
-      if (2 * i <= places.size()) at_middle = middle;
+      if (between.size() == 1 || 2 * i <= places.size()) at_middle = middle;
     }
     if (between.empty()) return {};
-    return {between.front(), between.back(), at_largest, at_middle == 0.0 ? at_largest : at_middle};
+    return {between.front(), between.back(), at_largest, at_middle};
   }
 
   const std::vector<Vector3>& points_;

@@ -8,10 +8,8 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
-#include "src/core/base/files.hpp"
+#include "src/decks/deck_text.hpp"
 #include "src/decks/dyna_parameters.hpp"
 
 namespace whipple::decks::dyna {
@@ -125,11 +123,7 @@ class BlockReader {
       if (++included_ > most_includes)
         fail(block, fmt::format("more than {} files are included", most_includes));
       const std::filesystem::path path = std::filesystem::path(block.file).parent_path() / trimmed(card.text);
-      std::ifstream stream(regular_file(path, std::uintmax_t{1} << 30), std::ios::binary);
-      if (!stream) fail(block, fmt::format("the included file {} cannot be read", path.string()));
-      std::ostringstream content;
-      content << stream.rdbuf();
-      read(path, content.str(), depth + 1);
+      read(path, deck_text(path), depth + 1);
     }
   }
 

@@ -100,6 +100,8 @@ std::optional<double> number_of(const std::string& text);
 
 /// Returns a text without blanks around it, and one in capital letters.
 std::string trimmed(std::string_view text);
+
+inline bool is_blank(const Card& card) { return trimmed(card.text).empty(); }
 std::string capitals(std::string text);
 
 /// Returns whether the first keyword of a text is one of LS-DYNA.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <ranges>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -64,6 +65,10 @@ std::string name_of(std::string_view heading) {
   name.resize(std::min(name.size(), longest));
   while (!name.empty() && name.back() == '_') name.pop_back();
   return name;
+}
+
+auto written(const Block& block) {
+  return block.cards | std::views::filter([](const Card& card) { return !is_blank(card); });
 }
 
 class ModelReader {
@@ -177,8 +182,7 @@ class ModelReader {
   }
   /// A card for each detonator: part, place, delay.
   void detonation(const Block& block) {
-    for (const Card& card : block.cards) {
-      if (is_blank(card)) continue;
+    for (const Card& card : written(block)) {
       const Fields fields(deck_, block, card);
       model_.detonators.push_back({&block, card.line, fields.id(0),
                                    Vector3(fields.real(1), fields.real(2), fields.real(3)), fields.real(4)});
@@ -186,8 +190,7 @@ class ModelReader {
     check(block);
   }
   void section(const Block& block) {
-    for (const Card& card : block.cards) {
-      if (is_blank(card)) continue;
+    for (const Card& card : written(block)) {
       const Fields fields(deck_, block, card);
       const bool solid = block.keyword == "SECTION_SOLID";
       model_.sections[static_cast<Id>(fields.required(0, "its number"))] = {&block, solid ? fields.id(1) : 0};
@@ -211,7 +214,6 @@ class ModelReader {
   void velocity_by_parts(const Block& block) { of_sets_.emplace_back(&block, &ModelReader::start_generated); }
   void constraint(const Block& block) { of_sets_.emplace_back(&block, &ModelReader::constraints); }
 
-  static bool is_blank(const Card& card) { return trimmed(card.text).empty(); }
   [[nodiscard]] Fields first(const Block& block) const {
     if (block.cards.empty()) fail(block, "has no card");
     return {deck_, block, block.cards[0]};
@@ -221,8 +223,7 @@ class ModelReader {
   }
 
   void nodes(const Block& block) {
-    for (const Card& card : block.cards) {
-      if (is_blank(card)) continue;
+    for (const Card& card : written(block)) {
       faults_.guarded([&] {
         const Fields fields(deck_, block, card, node_widths);
         const auto node = static_cast<Id>(fields.required(0, "the number of a node"));
@@ -288,7 +289,7 @@ class ModelReader {
   }
 
   void points(const Block& block) {
-    for (const Card& card : block.cards) {
+    for (const Card& card : written(block)) {
       faults_.guarded([&] {
         const Fields fields(deck_, block, card, sph_widths);
         model_.parts[fields.id(1)].points.push_back({fields.id(0), fields.required(2, "the mass")});
@@ -395,7 +396,7 @@ class ModelReader {
 
   /// A card for each node.
   void starts_of_nodes(const Block& block) {
-    for (const Card& card : block.cards) {
+    for (const Card& card : written(block)) {
       const Fields each(deck_, block, card);
       model_.starts.push_back({&block, Vector3(each.real(1), each.real(2), each.real(3)), {each.id(0)}, {}});
     }

@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <fstream>
-#include <sstream>
 #include <system_error>
 #include <utility>
 
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
+#include "src/decks/deck_text.hpp"
 #include "src/decks/dyna_case.hpp"
 #include "src/decks/dyna_deck.hpp"
 #include "src/decks/mpm3d_case.hpp"
@@ -21,19 +21,6 @@ namespace whipple::decks {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::uintmax_t largest_deck = std::uintmax_t{1} << 30;
-
-std::string content_of(const fs::path& deck) {
-  std::ifstream stream(regular_file(deck, largest_deck), std::ios::binary);
-  if (!stream) throw InputError(fmt::format("{}: cannot be read", deck.string()));
-  std::ostringstream text;
-  text << stream.rdbuf();
-  std::string all = std::move(text).str();
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  if (all.starts_with(byte_order_mark)) all.erase(0, byte_order_mark.size());
-  return all;
-}
 
 [[noreturn]] void refuse(const fs::path& deck, std::string why) {
   throw InputError(
@@ -86,7 +73,7 @@ void require_no_deck(const fs::path& file) {
 }
 
 Import import_deck(const fs::path& deck, const ImportOptions& options) {
-  const std::string text = content_of(deck);
+  const std::string text = deck_text(deck);
   switch (options.format ? *options.format : format_of(deck, text)) {
     case Format::mpm3d_f90:
       return mpm3d::to_case(mpm3d::parse(deck, text), options);

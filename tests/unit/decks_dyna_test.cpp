@@ -237,6 +237,13 @@ TEST_F(DynaImport, OfAFileHoldThereAlone) {
   EXPECT_THAT(import_deck(folder_ / "deck.k", in_mpa).case_text, HasSubstr("end = \"0.0005 ms\""));
 }
 
+TEST_F(DynaImport, OfAnIncludedFileWithAByteOrderMark) {
+  std::ofstream(folder_ / "part.k") << "\xEF\xBB\xBF*CONTROL_TERMINATION\n    0.0005\n";
+  std::ofstream(folder_ / "deck.k") << replaced(text_of("base.k"), "*CONTROL_TERMINATION\n    0.0005\n",
+                                                "*INCLUDE\npart.k\n");
+  EXPECT_THAT(import_deck(folder_ / "deck.k", in_mpa).case_text, HasSubstr("end = \"0.0005 ms\""));
+}
+
 TEST(DynaFields, ThatNothingReadsAreMissingByName) {
   EXPECT_THAT(missing_of(import_file("jc_rateop.k")),
               HasSubstr("flyer: RATEOP = 3: another law of the strain rate than ln"));

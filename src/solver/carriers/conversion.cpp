@@ -71,14 +71,16 @@ void Hexahedra::convert(ParticleCarrier& particles, double grid_step) {
         break;
     }
   }
-  parallel::throw_together(state_.communicator, error);
   parallel::sum(state_.communicator, std::span(counts));
-  if (counts[0] + counts[1] == 0.0) return;
-  if (state_.keeps_losses()) use_stores(state_.particles);
-  state_.particle_count += 8 * static_cast<std::size_t>(counts[0]);
-  state_.element_count -= static_cast<std::size_t>(counts[0] + counts[1]);
-  elements_removed();
-  particles.reallocated();
+  if (counts[0] + counts[1] > 0.0) {
+    if (state_.keeps_losses()) use_stores(state_.particles);
+    state_.particle_count += 8 * static_cast<std::size_t>(counts[0]);
+    state_.element_count -= static_cast<std::size_t>(counts[0] + counts[1]);
+    elements_removed();
+    particles.reallocated();
+  }
+  // Last: the state of a failed run is saved, whole.
+  parallel::throw_together(state_.communicator, error);
 }
 
 /// @returns how many elements became particles

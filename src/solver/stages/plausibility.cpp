@@ -106,21 +106,26 @@ void Plausibility::require_speeds() const {
   for (const Carrier* carrier : carriers_) fastest = std::max(fastest, carrier->largest_speed(of_frame));
   const double of_all = parallel::maximum(state_.communicator, fastest);
   if (of_all <= limit) return;
-  std::string who;
-  for (const Carrier* carrier : carriers_) {
-    carrier->for_each_point([&](const Point& point) {
-      if (who.empty() && (point.velocity - of_frame).norm() >= of_all) {
+  std::string error;
+  if (fastest == of_all) {
+    std::string who;
+    double most = -1.0;
+    for (const Carrier* carrier : carriers_) {
+      carrier->for_each_point([&](const Point& point) {
+        const double speed = (point.velocity - of_frame).norm();
+        if (!(speed > most)) return;
+        most = speed;
         who = fmt::format(", of body \"{}\" at ({:.6g}, {:.6g}, {:.6g}) m",
                           state_.setup.bodies[point.body].name, point.position[0], point.position[1],
                           point.position[2]);
-      }
-    });
+      });
+    }
+    error = fmt::format(
+        "step {}, t = {} s: a speed of {:.6g} m/s{} is impossible: more than {} times what the bodies bring "
+        "along and can set free (output.maximum_speed_factor)",
+        state_.run.step, state_.run.time, of_all, who, state_.setup.output.maximum_speed_factor);
   }
-  throw StateError(
-      fmt::format("step {}, t = {} s: a speed of {:.6g} m/s{} is impossible: more than {} times what the "
-                  "bodies bring along "
-                  "and can set free (output.maximum_speed_factor)",
-                  state_.run.step, state_.run.time, of_all, who, state_.setup.output.maximum_speed_factor));
+  parallel::throw_together(state_.communicator, error);
 }
 
 }  // namespace whipple::solver
