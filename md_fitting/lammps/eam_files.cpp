@@ -41,9 +41,7 @@ bool is_plain(std::string_view line) {
 /// Lines and words of a potential file, with errors that name file and line.
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& path) : path_(path), stream_(read_text(path)) {
-    if (!stream_) throw InputError(fmt::format("cannot read the potential file {}", path.string()));
-  }
+  explicit Reader(const std::filesystem::path& path) : path_(path), stream_(read_text(path)) {}
   /// The next line, a comment: it may hold anything.
   std::string line() {
     next_line();

@@ -60,8 +60,8 @@ void require_complete(const fs::path& deck, const decks::Import& import) {
   std::vector<InputFault> faults;
   for (const decks::Remark& remark : import.remarks) {
     if (remark.outcome == decks::Outcome::missing) {
-      faults.push_back({.file = deck.string(),
-                        .line = remark.line,
+      faults.push_back({.file = remark.place.file.empty() ? deck.string() : remark.place.file,
+                        .line = remark.place.line,
                         .column = 1,
                         .text = fmt::format("missing: {}: {}", remark.keyword, remark.text)});
     }
@@ -96,7 +96,8 @@ void import_case(const Arguments& arguments) {
   fmt::print("{}", import.report());
   for (const decks::Remark& remark : import.remarks) {
     if (remark.doubtful)
-      log::warning("{}:{}: {}: {}", arguments.deck, remark.line, remark.keyword, remark.text);
+      log::warning("{}:{}: {}: {}", remark.place.file.empty() ? arguments.deck : remark.place.file,
+                   remark.place.line, remark.keyword, remark.text);
   }
   if (!arguments.allow_missing) require_complete(arguments.deck, import);
   if (arguments.case_only) {

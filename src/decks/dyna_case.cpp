@@ -48,13 +48,13 @@ class CaseWriter {
     bodies += "\n" + lighting(model_, explosives_, units_, import_) + gauges();
     faults_.raise();
     import_.case_text = fmt::format("{}\n{}\n{}{}", head_.text(), domain(), toml_.text(), bodies);
-    std::ranges::stable_sort(import_.remarks, {}, &Remark::line);
+    import_.sort_remarks();
     return std::move(import_);
   }
 
  private:
   void remark(Outcome outcome, const Block& block, std::string text) {
-    import_.remark(outcome, block.line, "*" + block.keyword, std::move(text));
+    import_.remark(outcome, place_of(block), "*" + block.keyword, std::move(text));
   }
   [[nodiscard]] std::string vector(const Vector3& v, const Dimension& dimension) const {
     return fmt::format("[{}, {}, {}]", units_.quantity(v[0], dimension), units_.quantity(v[1], dimension),

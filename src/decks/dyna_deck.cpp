@@ -64,6 +64,7 @@ class BlockReader {
       if (content.starts_with('*')) {
         close(block, depth);
         block.file = file.string();
+        block.is_included = depth > 0;
         block.line = line;
         title_expected = begin(block, std::string_view(content).substr(1));
         ended = block.keyword == "END";
@@ -154,6 +155,11 @@ std::optional<double> number_of(const std::string& text) {
   return value;
 }
 
+Place place_of(const Block& block) { return place_of(block, block.line); }
+Place place_of(const Block& block, unsigned line) {
+  return {line, block.is_included ? block.file : std::string()};
+}
+
 void fail(const Block& block, std::string text) { fail(block, block.line, std::move(text)); }
 void fail(const Block& block, unsigned line, std::string text) {
   throw InputError(std::vector<InputFault>{
@@ -162,7 +168,6 @@ void fail(const Block& block, unsigned line, std::string text) {
 
 Fields::Fields(const Deck& deck, const Block& block, const Card& card, std::span<const int> widths)
     : deck_(deck), block_(block), line_(card.line) {
-  constexpr std::size_t punched = 80;  // columns of a card; behind them and behind its fields stand remarks
   std::vector<std::size_t> lengths;
   std::size_t columns = 0;
   for (const int width : widths) {
@@ -173,7 +178,8 @@ Fields::Fields(const Deck& deck, const Block& block, const Card& card, std::span
     columns += lengths.back();
   }
   std::string_view text = card.text;
-  const bool between_commas = text.substr(0, std::max(columns, punched)).find(',') != std::string_view::npos;
+  // Behind the columns of its fields stand remarks, which may have commas of their own.
+  const bool between_commas = text.substr(0, columns).find(',') != std::string_view::npos;
   std::size_t at = 0;
   if (between_commas) {
     while (at <= text.size()) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "src/core/base/error.hpp"
+#include "src/decks/report.hpp"
 
 /// Keyword decks of LS-DYNA.
 namespace whipple::decks::dyna {
@@ -35,6 +36,7 @@ struct Block {
   std::string keyword;  ///< upper case, without the asterisk and _TITLE
   std::string behind;   ///< what stands behind the keyword in its line
   std::string file;     ///< the deck or a file that it includes
+  bool is_included = false;
   unsigned line = 0;
   std::string title;  ///< of a keyword with _TITLE
   Layout layout = Layout::standard;
@@ -46,7 +48,7 @@ using Parameters = std::map<std::string, double>;
 struct Deck {
   /// Something that the reader of the deck did with a statement.
   struct Note {
-    unsigned line = 0;
+    Place place;
     std::string keyword, text;
   };
   std::filesystem::path file;
@@ -110,6 +112,10 @@ bool recognise(std::string_view text);
 /// Reads a deck with the files that it includes.
 /// @throws InputError with all faults
 Deck parse(const std::filesystem::path& file, std::string_view text);
+
+/// Returns the place of a keyword, and of one of its lines.
+Place place_of(const Block& block);
+Place place_of(const Block& block, unsigned line);
 
 /// Throws the fault of a keyword, or of one of its lines.
 [[noreturn]] void fail(const Block& block, std::string text);

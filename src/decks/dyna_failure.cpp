@@ -33,11 +33,11 @@ double d3_of_tension(const DamageConstants& d, Triaxiality triaxiality, const st
       failure_strain(d, taken, 1.0), number(taken), failure_strain(d, -taken, 1.0), number(-taken));
   const std::string keyword = "*" + material.keyword;
   if (turned) {
-    import.doubt(material.line, keyword,
+    import.doubt(place_of(material), keyword,
                  fmt::format("{}: D3 = {} is taken as {}, so that tension breaks earlier: {}", part,
                              number(given), number(taken), both));
   } else {
-    import.remark(Outcome::converted, material.line, keyword,
+    import.remark(Outcome::converted, place_of(material), keyword,
                   fmt::format("{}: D3 as it stands, with which tension breaks earlier: {}", part, both));
   }
   return taken;
@@ -49,7 +49,7 @@ void remark_on_failure_strain(const DamageConstants& d, double least, const std:
        {std::pair{0.0, "shear"}, std::pair{1.0 / 3.0, "uniaxial tension"}}) {
     const double strain = failure_strain(d, d[2], triaxiality);
     if (strain > std::max(least, 0.0)) continue;
-    import.doubt(material.line, "*" + material.keyword,
+    import.doubt(place_of(material), "*" + material.keyword,
                  fmt::format("{}: D1 + D2 exp(D3 sigma*) is {:.3g} in {}: the material fails as soon as it "
                              "yields, at the least failure strain",
                              part, strain, called));

@@ -253,11 +253,11 @@ void check_fields(const Deck& deck, const Block& block, const KeywordRule& rule,
   }
   const std::string before = subject.empty() ? "" : fmt::format("{}: ", subject);
   for (const auto& [text, found] : missing) {
-    import.remark(Outcome::missing, found.line, "*" + block.keyword,
+    import.remark(Outcome::missing, place_of(block, found.line), "*" + block.keyword,
                   before + text + (found.count == 1 ? "" : fmt::format(", {} times", found.count)));
   }
   if (!of_methods.empty()) {
-    import.remark(Outcome::dropped, block.line, "*" + block.keyword,
+    import.remark(Outcome::dropped, place_of(block), "*" + block.keyword,
                   fmt::format("{}{}: of the methods of that code", before, fmt::join(of_methods, ", ")));
   }
 }

@@ -33,7 +33,8 @@ class LightingWriter {
 
  private:
   void remark(Outcome outcome, const Detonator& detonator, std::string text) {
-    import_.remark(outcome, detonator.line, "*" + detonator.block->keyword, std::move(text));
+    import_.remark(outcome, place_of(*detonator.block, detonator.line), "*" + detonator.block->keyword,
+                   std::move(text));
   }
   bool is_read(const Detonator& detonator) {
     if (explosives_.empty()) {

@@ -99,7 +99,7 @@ class MaterialWriter {
     return {deck_, block, number < block.cards.size() ? block.cards[number] : blank};
   }
   void remark(Outcome outcome, const Block& block, std::string text) {
-    import_.remark(outcome, block.line, "*" + block.keyword, fmt::format("{}: {}", name_, text));
+    import_.remark(outcome, place_of(block), "*" + block.keyword, fmt::format("{}: {}", name_, text));
   }
   void quantity(const char* key, double value, const Dimension& dimension, std::string_view note = {}) {
     toml_.entry(key, units_.quantity(value, dimension), note);

@@ -83,13 +83,13 @@ class ModelReader {
     for (const Block* block : general_sets_) faults_.guarded([&] { general_set(*block); });
     for (const auto& [block, reader] : of_sets_) faults_.guarded([&] { (this->*reader)(*block); });
     for (const Deck::Note& note : deck_.notes)
-      import_.remark(Outcome::converted, note.line, note.keyword, note.text);
+      import_.remark(Outcome::converted, note.place, note.keyword, note.text);
     return std::move(model_);
   }
 
  private:
   void remark(Outcome outcome, const Block& block, std::string text) {
-    import_.remark(outcome, block.line, "*" + block.keyword, std::move(text));
+    import_.remark(outcome, place_of(block), "*" + block.keyword, std::move(text));
   }
 
   void collect() {
@@ -255,7 +255,7 @@ class ModelReader {
       const Id number = fields.id(0);
       if (number == 0) continue;
       if (fields.id(1) != 0) {
-        import_.remark(Outcome::missing, block.cards[i].line, "*" + block.keyword,
+        import_.remark(Outcome::missing, place_of(block, block.cards[i].line), "*" + block.keyword,
                        fmt::format("CID = {}: a local coordinate system", fields.id(1)));
         continue;
       }
@@ -294,7 +294,7 @@ class ModelReader {
         const Fields fields(deck_, block, card, sph_widths);
         model_.parts[fields.id(1)].points.push_back({fields.id(0), fields.required(2, "the mass")});
         if (fields.id(3) != 0)
-          import_.remark(Outcome::missing, card.line, "*" + block.keyword,
+          import_.remark(Outcome::missing, place_of(block, card.line), "*" + block.keyword,
                          fmt::format("NEND = {}: points up to this node", fields.id(3)));
       });
     }

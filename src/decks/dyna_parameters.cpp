@@ -255,7 +255,7 @@ bool read_parameters(Deck& deck, const Block& block) {
       const auto [entry, is_new] = known.emplace(name, value);
       if (!is_new && entry->second != value) {
         deck.notes.push_back(
-            {card.line, "*" + block.keyword,
+            {place_of(block, card.line), "*" + block.keyword,
              fmt::format("{} is given again: it keeps its first value, {}", name, number(entry->second))});
       }
     }

@@ -57,7 +57,7 @@ class CaseBuilder {
     rest();
     if (!faults_.empty()) throw InputError(std::move(faults_));
     import_.case_text = toml_.text();
-    std::ranges::stable_sort(import_.remarks, {}, &Remark::line);
+    import_.sort_remarks();
     return std::move(import_);
   }
 

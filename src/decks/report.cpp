@@ -4,13 +4,31 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <tuple>
 
 #include "src/core/base/text_table.hpp"
 
 namespace whipple::decks {
+namespace {
+
+std::string text_of(const Place& place) {
+  if (place.line == 0) return "-";
+  return place.file.empty()
+             ? fmt::format("line {}", place.line)
+             : fmt::format("{}, line {}", std::filesystem::path(place.file).filename().string(), place.line);
+}
+
+}  // namespace
 
 std::size_t Import::count(Outcome outcome) const {
   return static_cast<std::size_t>(std::ranges::count(remarks, outcome, &Remark::outcome));
+}
+
+void Import::sort_remarks() {
+  std::ranges::stable_sort(remarks, [](const Remark& a, const Remark& b) {
+    return std::tie(a.place.file, a.place.line) < std::tie(b.place.file, b.place.line);
+  });
 }
 
 std::string Import::report() const {
@@ -26,8 +44,7 @@ std::string Import::report() const {
     rows.clear();
     for (const Remark& remark : remarks) {
       if (remark.outcome != word.value) continue;
-      rows.push_back(
-          {"", remark.line == 0 ? "-" : fmt::format("line {}", remark.line), remark.keyword, remark.text});
+      rows.push_back({"", text_of(remark.place), remark.keyword, remark.text});
     }
     text += text_table(rows, "llll");
   }

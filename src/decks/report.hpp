@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "src/core/base/words.hpp"
@@ -24,9 +26,18 @@ constexpr std::array<Word<Outcome>, 4> words(Outcome /*of*/) {
            {Outcome::missing, "missing"}}};
 }
 
+/// Where a statement stands.
+struct Place {
+  unsigned line = 0;  ///< 0: nowhere
+  std::string file;   ///< that the deck includes; empty: the deck
+
+  Place(unsigned line, std::string file = {}) : line(line), file(std::move(file)) {}
+  auto operator<=>(const Place&) const = default;
+};
+
 struct Remark {
   Outcome outcome = Outcome::exact;
-  unsigned line = 0;  ///< of the deck; 0: of no line
+  Place place;
   std::string keyword;
   std::string text;
   bool doubtful = false;  ///< a choice that the user should know of: also a warning
@@ -55,14 +66,16 @@ struct Import {
   std::vector<BodyRow> bodies;
   std::vector<Remark> remarks;
 
-  void remark(Outcome outcome, unsigned line, std::string keyword, std::string text) {
-    remarks.push_back({outcome, line, std::move(keyword), std::move(text)});
+  void remark(Outcome outcome, Place place, std::string keyword, std::string text) {
+    remarks.push_back({outcome, std::move(place), std::move(keyword), std::move(text)});
   }
   /// Adds a remark on something that was converted by a choice which the deck does not settle.
-  void doubt(unsigned line, std::string keyword, std::string text) {
-    remarks.push_back({Outcome::converted, line, std::move(keyword), std::move(text), true});
+  void doubt(Place place, std::string keyword, std::string text) {
+    remarks.push_back({Outcome::converted, std::move(place), std::move(keyword), std::move(text), true});
   }
   [[nodiscard]] std::size_t count(Outcome outcome) const;
+  /// Sorts the remarks by the lines of the deck, then by those of the files that it includes.
+  void sort_remarks();
   /// Returns the bodies and the four lists of remarks, as `whipple import` prints them and as import.txt holds them.
   [[nodiscard]] std::string report() const;
 };

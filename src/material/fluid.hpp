@@ -35,4 +35,9 @@ inline bool is_continuous_fluid(Fluidity fluidity, const MaterialPoints& points,
          (points.failed[p] == failure::intact || points.vaporised_fraction[p] > 0.5);
 }
 
+/// Returns whether a point has less than half of a density (kg/m^3), that of its start.
+inline bool has_thinned(const MaterialPoints& points, std::size_t p, double initial_density) {
+  return points.mass[p] < 0.5 * initial_density * points.volume[p];
+}
+
 }  // namespace whipple

@@ -116,16 +116,15 @@ SplittingForecast forecast_splitting(const solver::Simulation& s) {
   const cases::Case& setup = s.setup();
   const cases::Splitting& splitting = setup.splitting;
   SplittingForecast result;
-  if (!solver::domains::may_divide(setup)) return result;
   const double pieces = std::exp2(static_cast<double>(splitting.maximum_generations));
   std::array<double, 1> most = {0.0};
   bool any = false;
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
-    const Fluidity fluid = fluidity(*setup.materials[b]);
-    const bool divided = fluid != Fluidity::never || splitting.of == cases::Divided::all;
-    const bool burns = setup.materials[b]->burns();
+    const Material& material = *setup.materials[b];
+    const bool divided = solver::domains::may_divide(setup, b);
     any = any || divided;
-    result.fluid_from_start = result.fluid_from_start || fluid == Fluidity::always || burns;
+    result.fluid_from_start =
+        result.fluid_from_start || (divided && (fluidity(material) == Fluidity::always || material.burns()));
     most[0] += (divided ? pieces : 1.0) * static_cast<double>(s.bodies()[b].count);
   }
   parallel::sum(s.communicator(), most);

@@ -426,6 +426,26 @@ TEST_F(SolverRanks, AnErrorOfOneRankEndsTheStepOnAll) {
   }
 }
 
+// The particle that an error names is that of the run, whichever rank has it.
+TEST_F(SolverRanks, AnErrorNamesTheFastestParticleOfAllRanks) {
+  const auto error_of = [&](const Overrides& overrides, MPI_Comm communicator) -> std::string {
+    try {
+      Simulation simulation(read(overrides), communicator);
+      for (int step = 0; step < 5; ++step) simulation.advance(2.5e-6);
+    } catch (const StateError& error) {
+      const std::string text = error.what();
+      return text.substr(0, text.find('\n'));  // the particle's velocity differs by round-off
+    }
+    return "";
+  };
+  for (const auto& [key, value, part] : {std::tuple("time.acceleration_limit", "1e-300", "the fastest: "),
+                                         std::tuple("output.maximum_speed_factor", "1e-3", "of body \"")}) {
+    const std::string alone = error_of({{key, value}}, MPI_COMM_SELF);
+    EXPECT_NE(alone.find(part), std::string::npos) << alone;
+    EXPECT_EQ(error_of({{key, value}}, MPI_COMM_WORLD), alone);
+  }
+}
+
 // Single points at the end of their equation of state are single by the number of all: 600 of a body on each of
 // two ranks are more than a thousand.
 TEST_F(SolverRanks, CountPointsAtTheEndOfTheEquationOfStateTogether) {

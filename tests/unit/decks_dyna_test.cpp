@@ -244,6 +244,14 @@ TEST_F(DynaImport, OfAnIncludedFileWithAByteOrderMark) {
   EXPECT_THAT(import_deck(folder_ / "deck.k", in_mpa).case_text, HasSubstr("end = \"0.0005 ms\""));
 }
 
+TEST_F(DynaImport, OfAnIncludedFileIsRemarkedWithItsName) {
+  std::ofstream(folder_ / "part.k") << "*MAT_ADD_EROSION\n1\n";
+  std::ofstream(folder_ / "deck.k") << replaced(text_of("base.k"), "*NODE\n", "*INCLUDE\npart.k\n*NODE\n");
+  const std::string report = import_deck(folder_ / "deck.k", in_mpa).report();
+  EXPECT_THAT(report, testing::ContainsRegex("part.k, line 1 +.MAT_ADD_EROSION"));
+  EXPECT_THAT(report, HasSubstr("\n  line 42  *NODE"));
+}
+
 TEST(DynaFields, ThatNothingReadsAreMissingByName) {
   EXPECT_THAT(missing_of(import_file("jc_rateop.k")),
               HasSubstr("flyer: RATEOP = 3: another law of the strain rate than ln"));
@@ -281,6 +289,15 @@ TEST(DynaFields, OfKeywordsAndOutputAreNoPhysics) {
   EXPECT_EQ(without_comments(memory.case_text), base);
   const Import remark = import_file("remark_beyond_80.k");
   EXPECT_EQ(without_comments(remark.case_text), base);
+  // A node has 72 columns: what stands behind them is a remark before column 80, too.
+  const std::string text = text_of("base.k");
+  const std::size_t first_node = text.find("*NODE\n") + 6, end_of_node = text.find('\n', first_node);
+  std::string node = text.substr(first_node, end_of_node - first_node);
+  node.resize(72, ' ');
+  EXPECT_EQ(
+      without_comments(
+          import_cards(text.substr(0, first_node) + node + "a, corner" + text.substr(end_of_node)).case_text),
+      base);
   for (const std::string keyword :
        {"*KEYWORD 200000000\n", "*KEYWORD_ID\nproject                                 stage\n",
         "*DATABASE_GLSTAT\n0.1\n*DATABASE_EXTENT_BINARY\n0, 0, 3, 1\n", "*CONTROL_ENERGY\n2, 2, 2\n",

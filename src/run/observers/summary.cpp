@@ -50,12 +50,12 @@ double share_of_expanded_fluid(const solver::Simulation& simulation) {
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     const Material& material = *setup.materials[b];
     const Fluidity fluid = fluidity(material);
-    const double thin = 0.5 * setup.bodies[b].initial.of(material).density;
+    const double initial_density = setup.bodies[b].initial.of(material).density;
     const std::size_t first = simulation.bodies()[b].first;
     carried[0] += parallel::sum<double>(simulation.bodies()[b].count, [&](std::size_t i) {
       const std::size_t p = first + i;
       const bool expanded =
-          particles.mass[p] < thin * particles.volume[p] && is_continuous_fluid(fluid, particles, p);
+          has_thinned(particles, p, initial_density) && is_continuous_fluid(fluid, particles, p);
       return expanded ? particles.mass[p] * particles.unresolved_energy[p] : 0.0;
     });
   }

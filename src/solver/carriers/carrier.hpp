@@ -101,7 +101,7 @@ class Carrier {
   virtual void add_phases(std::span<PhaseMasses> of_body) const = 0;
   virtual void add_figures(Figures& figures) const = 0;
   /// Returns the largest speed (m/s) of a particle or node relative to a velocity (m/s).
-  [[nodiscard]] virtual double largest_speed(const Vector3& frame) const = 0;
+  [[nodiscard]] virtual double largest_speed(const Vector3& frame) = 0;
   /// Adds what its material can set free.
   virtual void add_releasable(Releasable& /*sum*/) const {}
   [[nodiscard]] virtual std::size_t particle_count() const { return 0; }

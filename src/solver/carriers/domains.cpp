@@ -83,10 +83,14 @@ bool may_divide(const cases::Case& setup) {
   return setup.splitting.length > 0.0 && setup.transfer.shape_function != transfer::ShapeFunction::gimp;
 }
 
+bool may_divide(const cases::Case& setup, std::size_t body) {
+  return may_divide(setup) &&
+         (setup.splitting.of == Divided::all || fluidity(*setup.materials[body]) != Fluidity::never);
+}
+
 bool follow_deformation(const State& state, std::size_t body) {
-  if (state.setup.transfer.shape_function == transfer::ShapeFunction::convected_gimp) return true;
-  return may_divide(state.setup) &&
-         (state.setup.splitting.of == Divided::all || fluidity_of(state, body) != Fluidity::never);
+  return state.setup.transfer.shape_function == transfer::ShapeFunction::convected_gimp ||
+         may_divide(state.setup, body);
 }
 
 bool are_needed(const State& state, bool may_meet_images) {
@@ -126,11 +130,10 @@ std::size_t hold_back_pressure(Particles& particles, std::span<const std::uint32
   if (!may_divide(state.setup) || fluid == Fluidity::never) return 0;
   const double dx = state.setup.domain.cell_size, length = state.setup.splitting.length;
   const double parted = std::max(0.75, 0.25 * length * length) * dx * dx;  // lambda of (2.8)
-  const double thin = 0.5 * state.initial_density[body];
   std::size_t held = 0;
   for (const std::uint32_t p : list) {
-    if (largest_at_most(particles.extent[p]) <= parted || particles.mass[p] > thin * particles.volume[p] ||
-        !is_filling_fluid(fluid, particles, p)) {
+    if (largest_at_most(particles.extent[p]) <= parted ||
+        !has_thinned(particles, p, state.initial_density[body]) || !is_filling_fluid(fluid, particles, p)) {
       continue;
     }
     const auto principal = principal_directions(particles.extent[p], state.setup.geometry.is_planar());

@@ -13,6 +13,8 @@ namespace whipple::solver::domains {
 
 /// Returns whether particles of a case may be divided. Domains of the shape function `gimp` keep their size.
 bool may_divide(const cases::Case& setup);
+/// Returns whether those of a body of the case may be.
+bool may_divide(const cases::Case& setup, std::size_t body);
 
 /// Returns whether the domains of the particles of a body deform with the material.
 bool follow_deformation(const State& state, std::size_t body);

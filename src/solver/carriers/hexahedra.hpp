@@ -46,7 +46,7 @@ class Hexahedra : public Carrier {
   void add_totals(Totals& sum) override;
   void add_phases(std::span<PhaseMasses> of_body) const override;
   void add_figures(Figures& figures) const override;
-  [[nodiscard]] double largest_speed(const Vector3& frame) const override;
+  [[nodiscard]] double largest_speed(const Vector3& frame) override;
   void add_releasable(Releasable& sum) const override;
   [[nodiscard]] std::size_t element_count() const override;
   [[nodiscard]] std::uint64_t largest_particle_id() const override;

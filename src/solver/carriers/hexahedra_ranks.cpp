@@ -135,7 +135,7 @@ void Hexahedra::add_releasable(Releasable& sum) const {
   for (const fem::Mesh& mesh : meshes_) add_releasable_of(mesh.points, sum);
 }
 
-double Hexahedra::largest_speed(const Vector3& frame) const {
+double Hexahedra::largest_speed(const Vector3& frame) {
   double largest = 0.0;
   for (const fem::Mesh& mesh : meshes_)
     largest = std::max(largest, largest_speed_of(mesh.nodes.velocity, frame));

@@ -94,8 +94,21 @@ void ParticleCarrier::add_figures(Figures& figures) const {
 
 void ParticleCarrier::add_releasable(Releasable& sum) const { add_releasable_of(state_.particles, sum); }
 
-double ParticleCarrier::largest_speed(const Vector3& frame) const {
-  return largest_speed_of(state_.particles.velocity, frame);
+double ParticleCarrier::largest_speed(const Vector3& frame) {
+  const std::vector<Vector3>& velocity = state_.particles.velocity;
+  if (frame != frame_of_speeds_) largest_squares_.arrangement = 0;
+  frame_of_speeds_ = frame;
+  parallel::update_chunks(velocity.size(), largest_squares_.values, stays_since(largest_squares_.arrangement),
+                          [&](std::size_t begin, std::size_t end) {
+                            double largest = 0.0;
+                            for (std::size_t p = begin; p < end; ++p) {
+                              largest = std::max(largest, (velocity[p] - frame).squaredNorm());
+                            }
+                            return largest;
+                          });
+  double largest = 0.0;
+  for (const double of_chunk : largest_squares_.values) largest = std::max(largest, of_chunk);
+  return std::sqrt(largest);
 }
 
 std::uint64_t ParticleCarrier::largest_particle_id() const {

@@ -34,7 +34,7 @@ class ParticleCarrier : public Carrier {
   void add_totals(Totals& sum) override;
   void add_phases(std::span<PhaseMasses> of_body) const override;
   void add_figures(Figures& figures) const override;
-  [[nodiscard]] double largest_speed(const Vector3& frame) const override;
+  [[nodiscard]] double largest_speed(const Vector3& frame) override;
   void add_releasable(Releasable& sum) const override;
   [[nodiscard]] std::size_t particle_count() const override { return state_.particles.size(); }
   [[nodiscard]] std::uint64_t largest_particle_id() const override;
@@ -60,6 +60,8 @@ class ParticleCarrier : public Carrier {
 
   KeptByChunk<Totals> totals_;
   KeptByChunk<double> fastest_;                     // m/s
+  KeptByChunk<double> largest_squares_;             // of speeds in the frame below, m^2/s^2
+  Vector3 frame_of_speeds_ = Vector3::Zero();       // m/s
   std::vector<std::uint32_t> by_stencil_, sorted_;  // of the last sort; their memory is kept for the next
   SortBuffers sort_buffers_;
 };

@@ -124,7 +124,7 @@ void Trusses::add_figures(Figures& figures) const {
   }
 }
 
-double Trusses::largest_speed(const Vector3& frame) const {
+double Trusses::largest_speed(const Vector3& frame) {
   double largest = 0.0;
   for (const fem::Bars& bars : bars_)
     largest = std::max(largest, largest_speed_of(bars.nodes.velocity, frame));

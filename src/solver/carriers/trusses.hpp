@@ -26,7 +26,7 @@ class Trusses : public Carrier {
   void add_totals(Totals& sum) override;
   void add_phases(std::span<PhaseMasses> of_body) const override;
   void add_figures(Figures& figures) const override;
-  [[nodiscard]] double largest_speed(const Vector3& frame) const override;
+  [[nodiscard]] double largest_speed(const Vector3& frame) override;
   [[nodiscard]] std::size_t bytes() const override;
   void for_each_point(const std::function<void(const Point& point)>& visit) const override;
   [[nodiscard]] std::string count_text(std::size_t body) const override;

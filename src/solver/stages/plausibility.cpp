@@ -34,7 +34,7 @@ void Plausibility::begin() {
   const Vector3 of_frame = frame();
   Releasable releasable;
   double fastest = 0.0;
-  for (const Carrier* carrier : carriers_) {
+  for (Carrier* carrier : carriers_) {
     carrier->add_releasable(releasable);
     fastest = std::max(fastest, carrier->largest_speed(of_frame));
   }
@@ -103,7 +103,7 @@ void Plausibility::require_speeds() const {
                        (state_.run.reference_speed + external + round_off_of_speed * of_frame.norm());
   if (!std::isfinite(limit) || !(limit > 0.0)) return;
   double fastest = 0.0;
-  for (const Carrier* carrier : carriers_) fastest = std::max(fastest, carrier->largest_speed(of_frame));
+  for (Carrier* carrier : carriers_) fastest = std::max(fastest, carrier->largest_speed(of_frame));
   const double of_all = parallel::maximum(state_.communicator, fastest);
   if (of_all <= limit) return;
   std::string error;

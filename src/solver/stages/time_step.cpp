@@ -99,12 +99,16 @@ void TimeStep::require_positive() const {
   if (step_ > 0.0 && std::isfinite(step_)) return;
   const std::string reason = fmt::format("the stable time step is {} s", step_);
   const Particles& particles = state_.particles;
-  for (std::size_t p = 0; p < particles.size(); ++p) {
+  std::string error;
+  for (std::size_t p = 0; p < particles.size() && error.empty(); ++p) {
     if (std::isfinite(particles.sound_speed[p] + particles.velocity[p].sum())) continue;
-    throw StateError(state_.describe_particle(
-        p, state_.run.time, fmt::format("{}; sound speed {} m/s", reason, particles.sound_speed[p])));
+    error = state_.describe_particle(p, state_.run.time,
+                                     fmt::format("{}; sound speed {} m/s", reason, particles.sound_speed[p]));
   }
-  throw StateError(fmt::format("step {}, t = {} s: {}", state_.run.step, state_.run.time, reason));
+  if (!parallel::any(state_.communicator, !error.empty())) {
+    error = fmt::format("step {}, t = {} s: {}", state_.run.step, state_.run.time, reason);
+  }
+  parallel::throw_together(state_.communicator, error);
 }
 
 /// Ends a run whose steps have become so short that it would never end.
@@ -125,11 +129,15 @@ void TimeStep::require_progress() {
       fastest = p;
     }
   }
-  if (fastest == particles.size()) {
-    throw StateError(fmt::format("step {}, t = {} s: {}", run.step + 1, run.time, reason));
+  const double of_all = parallel::maximum(state_.communicator, speed);
+  std::string error;
+  if (!(of_all > 0.0)) {
+    error = fmt::format("step {}, t = {} s: {}", run.step + 1, run.time, reason);
+  } else if (speed == of_all) {
+    error = state_.describe_particle(
+        fastest, run.time, fmt::format("{}; the fastest: {:.6g} m/s with its sound speed", reason, speed));
   }
-  throw StateError(state_.describe_particle(
-      fastest, run.time, fmt::format("{}; the fastest: {:.6g} m/s with its sound speed", reason, speed)));
+  parallel::throw_together(state_.communicator, error);
 }
 
 double TimeStep::element_bound() const {
