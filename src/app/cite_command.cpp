@@ -39,7 +39,7 @@ void add_sources(Lines& lines, input::Table table, const std::string& name) {
 
 std::string sources_of(const std::string& name) {
   const std::filesystem::path file = find_material(name);
-  input::Document document = input::Document::from_file(file);
+  input::Document document = input::Document::from_text(material_text(file), file.string());
   Lines lines;
   add_sources(lines, document.root(), "material");
   document.finish_partly_read();

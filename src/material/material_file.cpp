@@ -15,6 +15,7 @@
 #include "eos/models/simulated_crystal.hpp"
 #include "src/core/base/catalogue.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/base/text.hpp"
 #include "src/core/input/document.hpp"
@@ -76,6 +77,32 @@ std::map<std::string, fs::path> library_files() {
   return files;
 }
 
+/// What a material does not take from its base: they are of that one.
+constexpr std::array<std::string_view, 8> not_inherited = {
+    "name", "source", "note", "provenance", "covariance", "defaults", "default_errors", "potential_spread"};
+constexpr int most_bases = 8;
+
+/// Reads a material file and those that it is based on.
+input::Document read_document(const fs::path& file, int depth = 0) {
+  input::Document document = input::Document::from_file(file);
+  input::Table root = document.root();
+  Base of_file;
+  if (!root.read(Base::parameters(), of_file) || of_file.base.empty()) return document;
+  const auto refuse = [&](const std::string& why) {
+    throw InputError(fmt::format("{}: error: 'base' {}", root.where("base"), why));
+  };
+  fs::path base;
+  try {
+    base = find_material(of_file.base, file.parent_path());
+  } catch (const InputError& fault) {
+    refuse(fault.what());
+  }
+  if (depth == most_bases) refuse("goes on to more than 8 further materials: is one of them its own?");
+  input::Document inherited = read_document(base, depth + 1);
+  document.inherit(std::move(inherited), "base", not_inherited);
+  return document;
+}
+
 /// A material file whose tables are read and checked, but whose parts are not built yet.
 struct Declared {
   Head head;
@@ -93,17 +120,20 @@ struct Declared {
 
 Declared declare_file(const fs::path& file,
                       std::span<const std::pair<std::string, std::string>> changes = {}) {
-  input::Document document = input::Document::from_file(file);
+  input::Document document = read_document(file);
   for (const auto& [key, value] : changes) document.set(key, value);
   input::Table root = document.root();
   Declared declared;
   root.read(Head::parameters(), declared.head);
   for (const char* free : free_keys) root.accept(free);
   if (auto table = root.required_table("eos")) {
-    declared.eos = declare(eos::all_models(file.parent_path()), *table);
+    declared.eos = declare(eos::all_models(table->folder()), *table);
     declared.eos_line = table->where();
+    if (!declared.eos.companions.empty() && table->folder() != file.parent_path()) {
+      table->error("reads files beside it: a material that is based on it must stand in the same folder");
+    }
     if (auto unreacted = table->optional_table("unreacted")) {
-      declared.unreacted = declare(eos::all_models(file.parent_path()), *unreacted);
+      declared.unreacted = declare(eos::all_models(unreacted->folder()), *unreacted);
       declared.unreacted_line = unreacted->where();
     }
     for (input::Table& modifier : table->list("modifier")) {
@@ -242,6 +272,11 @@ void require_usable(const Material& material) {
     throw InputError(fmt::format("{}: error: [eos.unreacted] {}: {}", material.file.string(),
                                  of_unreacted.model, of_unreacted.summary()));
   }
+}
+
+std::string material_text(const fs::path& file) {
+  if (!input::Document::from_file(file).root().has("base")) return read_text(file);
+  return read_document(file).text();
 }
 
 std::vector<LibraryMaterial> library_materials() {

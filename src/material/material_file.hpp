@@ -16,7 +16,8 @@ inline constexpr std::array<const char*, 7> material_groups = {
     "rocks and ices", "liquids and gases", "verification"};
 
 /// Reads a material file (TOML: name, source, note, group, [eos], [strength] and [[failure]] or [constitutive], [measured]; the
-/// tables [provenance], [covariance], [defaults], [default_errors] and [potential_spread] are kept free).
+/// tables [provenance], [covariance], [defaults], [default_errors] and [potential_spread] are kept free). `base` names a
+/// material whose tables hold where the file does not say otherwise.
 /// @param path    a path, or a bare file name ("copper.toml", "copper") that is looked up in `beside`, then
 /// in the
 ///                library folders
@@ -28,6 +29,9 @@ Material read_material(const std::filesystem::path& path, const std::filesystem:
 /// The file that `read_material` would read.
 std::filesystem::path find_material(const std::filesystem::path& path,
                                     const std::filesystem::path& beside = {});
+
+/// Returns the text of a material file that needs no other: that of the file itself, or with the tables of its base.
+std::string material_text(const std::filesystem::path& file);
 
 /// Folders of the library, in the order of search: $WHIPPLE_MATERIALS, share/whipple/materials beside the
 /// installed executable, eos/materials of the source tree. Only those that exist.

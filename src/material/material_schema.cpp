@@ -68,8 +68,8 @@ std::string describe_material() {
       "[[failure]]: whipple describe failure\n"
       "[constitutive], in place of strength and failure: whipple describe constitutive\n"
       "\n[thermal]\n{}\n[measured], compared with the equation of state\n{}",
-      describe_table(Head::parameters()), describe_table(ThermalTable::parameters()),
-      describe_table(MeasuredTable::parameters()));
+      describe_table(Head::parameters()) + describe_table(Base::parameters()),
+      describe_table(ThermalTable::parameters()), describe_table(MeasuredTable::parameters()));
 }
 
 std::string material_schema() {
@@ -81,7 +81,9 @@ std::string material_schema() {
   more["unreacted"] = input::reference_to("unreacted");
   more["modifier"] = input::reference_to("modifiers");
   input::add_keys(table, Head::parameters());
-  input::add_key(table, "eos", one_of(models, more), true);
+  input::add_keys(table, Base::parameters());
+  input::add_key(table, "eos", one_of(models, more));
+  for (const char* key : {"eos", "base"}) table["anyOf"].push_back({{"required", {key}}});
   input::add_key(table, "reaction", one_of(reaction::catalogue()));
   input::add_key(table, "strength", one_of(strength::catalogue()));
   input::add_key(table, "failure", list_of(one_of(failure::catalogue())));

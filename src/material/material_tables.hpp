@@ -25,6 +25,18 @@ struct Remarks {
   }
 };
 
+/// The material that a file is based on.
+struct Base {
+  std::string base;
+  static ParameterTable<Base> parameters() {
+    return {text("base", &Base::base,
+                 "material beside this file, or of the library, that holds where this file does not say "
+                 "otherwise: "
+                 "its tables, key by key where their model is the same; lists as a whole")
+                .optional()};
+  }
+};
+
 struct Head : Remarks {
   std::string name;
   std::string group;

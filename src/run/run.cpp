@@ -13,13 +13,13 @@
 
 #include "src/case/build/tables.hpp"
 #include "src/case/remarks.hpp"
-#include "src/core/base/files.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/base/text.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/parallel/threads.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/run_directory.hpp"
+#include "src/material/material_file.hpp"
 #include "src/run/directory_control.hpp"
 #include "src/run/material_copies.hpp"
 #include "src/run/observers/checkpoints.hpp"
@@ -71,7 +71,7 @@ io::RunDirectory new_directory(const cases::Case& setup, const fs::path& path, c
     const std::vector<std::string> copies = material_copies(setup);
     fs::create_directories(directory.path() / "materials");
     for (std::size_t b = 0; b < copies.size(); ++b) {
-      io::write_text_atomically(directory.path() / copies[b], read_text(setup.materials[b]->file));
+      io::write_text_atomically(directory.path() / copies[b], material_text(setup.materials[b]->file));
       for (const fs::path& companion : setup.materials[b]->companions) {
         const fs::path copy = (directory.path() / copies[b]).parent_path() / companion;
         fs::create_directories(copy.parent_path());

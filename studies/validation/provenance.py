@@ -100,6 +100,17 @@ def material_files(run):
         own = run.case.file.parent / name
         path = own if own.is_file() else LIBRARY / (name if name.endswith(".toml") else f"{name}.toml")
         found[name] = path.resolve()
+        found.update(bases_of(path))
+    return found
+
+
+def bases_of(path):
+    """Material files that a material file is based on, by their names in it."""
+    found = {}
+    while path.is_file() and (name := tomllib.loads(path.read_text(encoding="utf-8")).get("base")) and name not in found:
+        own = path.parent / (name if name.endswith(".toml") else f"{name}.toml")
+        path = own if own.is_file() else LIBRARY / own.name
+        found[name] = path.resolve()
     return found
 
 

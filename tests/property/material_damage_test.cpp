@@ -133,6 +133,9 @@ TEST(JohnsonCookDamage, GivesThePublishedFailureStrains) {
   // rate 1e4: * (1 + 0.014 * 9.210340) = 1.1289448; 825 K: T* = 0.5, * 1.56
   EXPECT_NEAR(copper.failure_strain(1.0 / 3.0, 1e4, 825.0), 2.32103 * 1.1289448 * 1.56, 1e-4);
   EXPECT_EQ(copper.failure_strain(7.0, 1.0, 294.0), copper.failure_strain(1.5, 1.0, 294.0));
+  failure::JohnsonCookDamage bounded = copper;
+  bounded.least_failure_strain = 0.9;
+  EXPECT_EQ(bounded.failure_strain(7.0, 1.0, 294.0), 0.9);  // 0.54 + 4.89 exp(-4.545) = 0.592
   EXPECT_EQ(copper.failure_strain(0.0, 1e-9, 100.0), copper.failure_strain(0.0, 1.0, 294.0));
   EXPECT_EQ(copper.failure_strain(0.0, 1.0, eos::State::unknown), copper.failure_strain(0.0, 1.0, 294.0));
   EXPECT_TRUE(std::isfinite(copper.failure_strain(-1e9, 1.0, 294.0)));

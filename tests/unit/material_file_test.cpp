@@ -104,6 +104,77 @@ cell_size = "1 mm"
   EXPECT_NEAR(material.reference.sound_speed, 3940.0, 1e-6);
 }
 
+const std::string strong = sound_eos + R"toml(
+[strength]
+model = "von_mises"
+youngs_modulus = "117 GPa"
+poisson_ratio = 0.35
+yield_stress = "157 MPa"
+[[failure]]
+model = "tensile_pressure"
+spall_strength = "13 kbar"
+)toml";
+
+double flow_stress_of(const Material& material) {
+  const std::array at_rest = {0.0}, cold = {300.0};
+  std::array<double, 1> flow = {};
+  material.strength->flow_stress({at_rest, at_rest, cold, at_rest}, at_rest, flow);
+  return flow[0];
+}
+
+TEST_F(MaterialFile, TakesWhatItDoesNotSayFromItsBase) {
+  write("metal.toml", strong);
+  write("hard.toml",
+        "base = \"metal\"\nname = \"hard\"\nsource = \"test\"\n[strength]\nyield_stress = \"300 MPa\"\n");
+  const fs::path file = write("tough.toml",
+                              "base = \"hard.toml\"\nname = \"tough\"\nsource = \"test\"\n[[failure]]\n"
+                              "model = \"plastic_strain\"\nfailure_strain = 3.0\n");
+  const Material material = read_material(file);
+  EXPECT_EQ(material.name, "tough");
+  EXPECT_EQ(material.eos->model(), "mie_gruneisen");
+  EXPECT_NEAR(flow_stress_of(material), 300e6, 1e-3);  // of hard, with the modulus of metal
+  ASSERT_EQ(material.failure.size(), 1U);              // a list is one thing
+  EXPECT_EQ(material.failure[0]->model(), "plastic_strain");
+  // A table of another model takes nothing.
+  EXPECT_THAT(
+      message(
+          write("other.toml",
+                "base = \"metal\"\nname = \"other\"\nsource = \"test\"\n[strength]\nmodel = \"elastic\"\n")),
+      HasSubstr("needs a positive 'shear_modulus'"));
+  EXPECT_EQ(
+      read_material(
+          write("fluid.toml",
+                "base = \"metal\"\nname = \"fluid\"\nsource = \"test\"\n[strength]\nmodel = \"none\"\n"))
+          .strength->model(),
+      "none");
+  // Its text needs neither base.
+  const fs::path alone = folder_ / "run";
+  fs::create_directories(alone);
+  std::ofstream(alone / "tough.toml") << material_text(file);
+  const Material copy = read_material(alone / "tough.toml");
+  const auto without_path = [](const std::string& text) { return text.substr(text.find('\n')); };
+  EXPECT_EQ(without_path(copy.constants()), without_path(material.constants()));
+  EXPECT_EQ(material_text(folder_ / "metal.toml"), strong);
+}
+
+TEST_F(MaterialFile, FaultsOfABaseAreNamedInItsFile) {
+  const std::string head = "name = \"m\"\nsource = \"test\"\n";
+  write("wrong.toml", sound_eos + "[strength]\nmodel = \"von_mises\"\nyield_stress = \"157 kg\"\n");
+  const fs::path file = write("of_wrong.toml", "base = \"wrong\"\n" + head + "[thermal]\nconductivty = 1\n");
+  EXPECT_THAT(message(file),
+              AllOf(HasSubstr((folder_ / "wrong.toml").string() + ":12:16: error: 'yield_stress'"),
+                    HasSubstr(file.string() + ":5:1: error: unknown key 'thermal.conductivty'")));
+  const fs::path none = write("of_none.toml", "base = \"metl\"\n" + head);
+  EXPECT_THAT(message(none), AllOf(HasSubstr(none.string() + ":1:8: error: 'base'"), HasSubstr("metl")));
+  const fs::path own = write("own.toml", "base = \"own\"\n" + head);
+  EXPECT_THAT(message(own), HasSubstr("is one of them its own?"));
+  EXPECT_THAT(message(write("number.toml", "base = 3\n" + sound_eos)), HasSubstr("'base' is an integer"));
+  EXPECT_THAT(message(write("nameless.toml", "base = \"metal\"\n")), HasSubstr("no material file"));
+  write("metal.toml", sound_eos);
+  EXPECT_THAT(message(write("nameless.toml", "base = \"metal\"\n")),
+              AllOf(HasSubstr("missing key 'name'"), HasSubstr("missing key 'source'")));
+}
+
 TEST_F(MaterialFile, StrengthAndFailureMayBeMissing) {
   const Material material = read_material(write("metal.toml", sound_eos));
   EXPECT_EQ(material.strength->model(), "none");

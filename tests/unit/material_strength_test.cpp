@@ -7,6 +7,7 @@
 
 #include "src/material/strength/catalogue.hpp"
 #include "src/material/strength/power_law.hpp"
+#include "src/material/strength/preston_tonks_wallace.hpp"
 #include "src/material/strength/steinberg_guinan.hpp"
 #include "src/material/strength/voce.hpp"
 #include "src/material/strength/zerilli_armstrong.hpp"
@@ -165,6 +166,91 @@ TEST(ZerilliArmstrong, GivesThePublishedFormulaForBothStructures) {
   EXPECT_NEAR(iron.flow_stress(0.1, 1.0, 300.0), 263.99e6, 0.1e6);
 }
 
+/// Constants of Preston, Tonks and Wallace, J. Appl. Phys. 93 (2003) 211.
+strength::PrestonTonksWallace ptw_copper() {
+  strength::PrestonTonksWallace c;
+  c.reference_density = 8930.0;
+  c.shear_modulus = 51.8e9;
+  c.thermal_softening = 0.20;
+  c.melting_temperature = 1358.0;
+  c.molar_mass = 63.546e-3;
+  c.hardening = 0.025;
+  c.hardening_shape = 2.0;
+  c.cold_saturation = 0.0085;
+  c.hot_saturation = 0.00055;
+  c.cold_yield = c.hot_yield = 0.0001;
+  c.activation = 0.11;
+  c.attempt_rate = 1e-5;
+  c.medium_rate_stress = 0.094;
+  c.medium_rate_exponent = 0.575;
+  c.drag_exponent = 0.25;
+  return c;
+}
+
+strength::PrestonTonksWallace ptw_tantalum() {
+  strength::PrestonTonksWallace c;
+  c.reference_density = 16690.0;
+  c.shear_modulus = 72.2e9;
+  c.thermal_softening = 0.23;
+  c.melting_temperature = 3269.0;
+  c.molar_mass = 180.948e-3;
+  c.hardening = 0.02;
+  c.cold_saturation = 0.012;
+  c.hot_saturation = 0.00325;
+  c.cold_yield = 0.01;
+  c.hot_yield = 0.00125;
+  c.activation = 0.6;
+  c.attempt_rate = 4e-5;
+  c.medium_rate_stress = 0.012;
+  c.medium_rate_exponent = 0.4;
+  c.drag_exponent = 0.23;
+  return c;
+}
+
+double flow_of(const strength::Strength& model, double strain, double rate, double temperature,
+               double density, double pressure = 0.0) {
+  const std::array at = {strain}, per_second = {rate}, hot = {temperature}, dense = {density},
+                   pressed = {pressure};
+  std::array<double, 1> flow{};
+  model.flow_stress({dense, pressed, hot, at}, per_second, flow);
+  return flow[0];
+}
+
+// The published formula with the published constants, evaluated apart in double precision.
+TEST(PrestonTonksWallace, GivesThePublishedFormulaWithAndWithoutTheShapeOfHardening) {
+  const strength::PrestonTonksWallaceModel copper(ptw_copper()), tantalum(ptw_tantalum());
+  const auto cu = [&](double strain, double rate, double T) {
+    return 1e-6 * flow_of(copper, strain, rate, T, 8930.0);
+  };
+  EXPECT_NEAR(cu(0.05, 1e-3, 300.0), 108.13, 0.01);
+  EXPECT_NEAR(cu(0.3, 1e3, 300.0), 370.65, 0.01);
+  EXPECT_NEAR(cu(0.3, 1e4, 800.0), 298.35, 0.01);
+  EXPECT_NEAR(cu(0.3, 1e6, 300.0), 584.88, 0.01);
+  EXPECT_NEAR(cu(1.0, 1e4, 300.0), 593.44, 0.01);
+  const auto ta = [&](double strain, double rate, double T) {
+    return 1e-6 * flow_of(tantalum, strain, rate, T, 16690.0);
+  };
+  EXPECT_NEAR(ta(0.05, 1e-3, 300.0), 338.50, 0.01);
+  EXPECT_NEAR(ta(0.3, 1e5, 300.0), 1115.32, 0.01);
+  EXPECT_NEAR(ta(1.0, 1e3, 1000.0), 437.76, 0.01);
+}
+
+TEST(PrestonTonksWallace, StrongShocksFollowThePowerLawOfDragAndTemperIsAStrain) {
+  const strength::PrestonTonksWallaceModel copper(ptw_copper());
+  // Beyond the attempts of the atoms strain no longer hardens, and stress goes with the rate to the power beta.
+  const double slow = flow_of(copper, 0.1, 1e11, 300.0, 8930.0),
+               fast = flow_of(copper, 0.1, 1e12, 300.0, 8930.0);
+  EXPECT_NEAR(std::log10(fast / slow), 0.25, 1e-12);
+  EXPECT_NEAR(flow_of(copper, 1.0, 1e12, 300.0, 8930.0), fast, 1e-9 * fast);
+  strength::PrestonTonksWallace worked = ptw_copper();
+  worked.initial_plastic_strain = 0.2;
+  EXPECT_DOUBLE_EQ(flow_of(strength::PrestonTonksWallaceModel(worked), 0.1, 1e3, 300.0, 8930.0),
+                   flow_of(copper, 0.1 + 0.2, 1e3, 300.0, 8930.0));
+  strength::PrestonTonksWallace wrong = ptw_copper();
+  wrong.hot_saturation = 0.01;
+  EXPECT_THROW(strength::PrestonTonksWallaceModel{wrong}, InputError);
+}
+
 /// Trial stresses from far below to far above yield, fresh and hardened material, cold and hot, solid and
 /// nearly molten, steps from 1 ns to 1 us. `flow(strain, rate, density, pressure, temperature)` is the
 /// model's formula.
@@ -239,6 +325,31 @@ TEST(StrengthModels, YieldConditionHoldsAfterTheReturnOfEveryHardeningLaw) {
   });
 }
 
+TEST(PrestonTonksWallace, SlopeIsTheDerivativeOfTheFlowStress) {
+  for (const strength::PrestonTonksWallace& constants : {ptw_copper(), ptw_tantalum()}) {
+    for (const double rate : {1.0, 1e4, 1e7, 1e10}) {
+      for (const double strain : {0.0, 0.1, 1.0}) {
+        constexpr double x = 1e-3, step = 1e-7;
+        const double frequency = constants.frequency(constants.reference_density, 45e9), dt = x / rate;
+        const auto at = [&](double of) { return constants.flow(strain, of, dt, 0.3, 45e9, frequency); };
+        const double slope = (at(x + step).value - at(x - step).value) / (2.0 * step);
+        EXPECT_NEAR(at(x).slope, slope, 1e-5 * std::abs(slope)) << rate << ' ' << strain;
+      }
+    }
+  }
+}
+
+TEST(PrestonTonksWallace, SatisfiesTheYieldConditionOfTheEndOfTheStep) {
+  for (strength::PrestonTonksWallace constants : {ptw_copper(), ptw_tantalum()}) {
+    constants.pressure_coefficient = 0.0283e-9;
+    const strength::PrestonTonksWallaceModel model(constants);
+    expect_yield_condition(
+        model, [&](double strain, double rate, double density, double pressure, double temperature) {
+          return flow_of(model, strain, rate, temperature, density, pressure);
+        });
+  }
+}
+
 /// Points of a batch, some of which yield, have the increments that each has alone, bit by bit.
 void expect_independent_points(const strength::Strength& model) {
   std::mt19937_64 generator(11);
@@ -301,7 +412,7 @@ TEST(StrengthModels, CatalogueDescribesEveryModelWithItsConstants) {
     EXPECT_THAT(strength::catalogue().describe(entry.name), ::testing::HasSubstr(entry.describe()));
     EXPECT_FALSE(entry.summary.empty());
   }
-  EXPECT_EQ(strength::catalogue().size(), 12U);
+  EXPECT_EQ(strength::catalogue().size(), 13U);
 }
 
 }  // namespace

@@ -305,7 +305,7 @@ TEST(LibraryIron, HugoniotAbove13GPaAndMeltingOfTheEpsilonPhase) {
   const ShockMelting melting = shock_melting(*iron.eos).value();
   EXPECT_NEAR(melting.onset.state.pressure * 1e-9, 225, 20);
   EXPECT_NEAR(melting.completion.state.pressure * 1e-9, 260, 20);
-  // Diamond cell: the model's line is high (docs/manual/materials.md, section 6).
+  // Diamond cell: the model's line is high (docs/manual/materials.md, section 7).
   Deviation line;
   for (const auto& row : read_csv(data + "fe_melting_fischer2013.csv")) {
     line.add(melting_temperature(*iron.eos, std::stod(row[0]) * 1e9) / std::stod(row[1]) - 1);

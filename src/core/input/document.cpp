@@ -27,18 +27,23 @@ struct Document::State {
   std::map<const toml::table*, std::set<std::string, std::less<>>>
       known_keys;  // keys that a reader asked for
 
-  [[nodiscard]] std::string position(const toml::source_position& at) const {
-    return at.line == 0 ? fmt::format("{} (--set)", path.string())
-                        : fmt::format("{}:{}:{}", path.string(), at.line, at.column);
+  /// Returns the file that a word stands in: this one, or one that it inherits from.
+  [[nodiscard]] std::string file_of(const toml::source_region& source) const {
+    return source.path ? *source.path : path.string();
   }
-  void error(const toml::source_position& at, std::string key, const std::string& message) {
-    InputFault fault{path.string(), at.line, at.column, std::move(key), message};
+  [[nodiscard]] std::string position(const toml::source_region& source) const {
+    const toml::source_position& at = source.begin;
+    return at.line == 0 ? fmt::format("{} (--set)", path.string())
+                        : fmt::format("{}:{}:{}", file_of(source), at.line, at.column);
+  }
+  void error(const toml::source_region& source, std::string key, const std::string& message) {
+    InputFault fault{file_of(source), source.begin.line, source.begin.column, std::move(key), message};
     // What is read twice is reported once.
     const auto same = [&](const InputFault& known) { return known.message() == fault.message(); };
     if (std::ranges::none_of(errors, same)) errors.push_back(std::move(fault));
   }
   void error(const toml::node& node, std::string key, const std::string& message) {
-    error(node.source().begin, std::move(key), message);
+    error(node.source(), std::move(key), message);
   }
 };
 
@@ -211,7 +216,7 @@ void report_unknown(Document::State& state, const toml::table& table, const std:
     if (!known.contains(key_name)) {
       const std::vector<std::string> candidates(known.begin(), known.end());
       const std::string suggestion = did_you_mean(key_name, candidates);
-      state.error(key.source().begin, as_key(path),
+      state.error(key.source(), as_key(path),
                   fmt::format("unknown key '{}'{} Accepted here: {}", path,
                               suggestion.empty() ? "." : suggestion, fmt::join(candidates, ", ")));
     } else if (const toml::table* child = node.as_table(); child && state.known_keys.contains(child)) {
@@ -224,6 +229,22 @@ void report_unknown(Document::State& state, const toml::table& table, const std:
         }
         ++index;
       }
+    }
+  }
+}
+
+/// Moves the entries of `base` that `table` lacks. Two tables become one, unless they are of different models.
+void fill(toml::table& table, toml::table& base, std::span<const std::string_view> own) {
+  for (auto&& [key, node] : base) {
+    if (std::ranges::find(own, key.str()) != own.end()) continue;
+    if (const toml::node* present = table.get(key.str())) {
+      toml::table* const mine = table.get(key.str())->as_table();
+      toml::table* const theirs = node.as_table();
+      if (mine == nullptr || theirs == nullptr || present == nullptr) continue;
+      const auto model = (*mine)["model"].value<std::string>();
+      if (!model || model == (*theirs)["model"].value<std::string>()) fill(*mine, *theirs, {});
+    } else {
+      node.visit([&](auto& concrete) { table.insert(key, std::move(concrete)); });
     }
   }
 }
@@ -259,6 +280,17 @@ void Document::set(std::string_view key, std::string_view value) {
   } catch (const InputError& fault) {
     throw InputError(fmt::format("--set {}", fault.what()));
   }
+}
+
+void Document::inherit(Document base, std::string_view link, std::span<const std::string_view> own) {
+  state_->root.erase(link);
+  fill(state_->root, base.state_->root, own);
+}
+
+std::string Document::text() const {
+  std::ostringstream stream;
+  stream << state_->root << '\n';
+  return stream.str();
 }
 
 Table Document::root() {
@@ -414,9 +446,11 @@ void Table::error_at(std::string_view key, const std::string& message) {
 std::string Table::where(std::string_view key) const {
   const toml::table& table = as_table(node_);
   const toml::node* node = key.empty() ? &table : table.get(key);
-  return state_->position((node == nullptr ? table : *node).source().begin);
+  return state_->position((node == nullptr ? table : *node).source());
 }
 
-std::filesystem::path Table::folder() const { return state_->path.parent_path(); }
+std::filesystem::path Table::folder() const {
+  return std::filesystem::path(state_->file_of(as_table(node_).source())).parent_path();
+}
 
 }  // namespace whipple::input

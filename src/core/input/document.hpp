@@ -34,6 +34,14 @@ class Document {
   /// list entries are addressed by number ("body.0.material"). A value that is not TOML is taken as text.
   void set(std::string_view key, std::string_view value);
 
+  /// Takes from another document what this one does not have, key by key; its words stay with their places in that
+  /// file. A table whose key `model` differs, and every list, is taken whole or not at all.
+  /// @param link  key of the root that names the other document: it is taken away
+  /// @param own   keys of the root that are not taken
+  void inherit(Document base, std::string_view link, std::span<const std::string_view> own);
+  /// Returns the document as TOML, without comments.
+  [[nodiscard]] std::string text() const;
+
   Table root();
   [[nodiscard]] const std::filesystem::path& path() const;
   /// From here on vectors may have two components; the third is then `ParameterInfo::across`. Three components, and
@@ -97,7 +105,7 @@ class Table {
   [[nodiscard]] const std::string& name() const { return name_; }
   /// Returns the path of the table as --set and InputFault::key take it, "body.1.shape".
   [[nodiscard]] std::string key_path() const;
-  /// Folder of the file: relative paths in the input are resolved against it.
+  /// Folder of the file that the table stands in: relative paths in the input are resolved against it.
   [[nodiscard]] std::filesystem::path folder() const;
 
  private:

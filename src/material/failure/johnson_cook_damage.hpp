@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "src/core/base/error.hpp"
 #include "src/core/base/vector_math.hpp"
@@ -13,20 +14,24 @@ namespace whipple::failure {
 /// Ductile fracture by accumulated damage: dD = dep / (eps_f k), failed at D = 1, with
 ///   eps_f = [D1 + D2 exp(D3 t)] [1 + D4 ln max(1, rate/rate_0)] [1 + D5 T*],
 ///   t = sigma_m / sigma_eq (mean over equivalent stress, tension positive), T* = (T - T_r)/(T_m - T_r) in
-/// [0, 1], k the scatter of the threshold. The tests behind the constants reach t = 1.5; beyond, t is taken
-/// as 1.5. Several published sets make eps_f negative below that: `least_failure_strain` bounds it. Source:
-/// G. R. Johnson, W. H. Cook, Eng. Fract. Mech. 21 (1985) 31-48, eq. 3 to 5.
+/// [0, 1], k the scatter of the threshold. The tests behind the constants reach t = 1.5; beyond, t is taken as 1.5. Several
+/// published sets make eps_f negative below that: `least_failure_strain` bounds it. Plastic strain does no damage outside
+/// of `least_triaxiality` and `greatest_triaxiality`: nothing breaks in compression beyond that of upsetting, t = -1/3
+/// (Y. Bao, T. Wierzbicki, Eng. Fract. Mech. 72 (2005) 1049), and in strong tension voids grow, for which there is a
+/// criterion of its own. Source: G. R. Johnson, W. H. Cook, Eng. Fract. Mech. 21 (1985) 31-48, eq. 3 to 5.
 struct JohnsonCookDamage {
   static constexpr bool accumulates = true;
   static constexpr bool softens = false;
   static constexpr bool needs_strain = false;
-  static constexpr double greatest_triaxiality = 1.5;
+  static constexpr double tested_triaxiality = 1.5;
 
   double d1 = 0.0, d2 = 0.0, d3 = 0.0, d4 = 0.0, d5 = 0.0;
   double reference_rate = 1.0;         ///< rate_0, 1/s
   double reference_temperature = 0.0;  ///< T_r, K
   double melting_temperature = 0.0;    ///< T_m, K
   double least_failure_strain = 1e-3;
+  double least_triaxiality = -std::numeric_limits<double>::infinity();
+  double greatest_triaxiality = std::numeric_limits<double>::infinity();
 
   static ParameterTable<JohnsonCookDamage> parameters() {
     using P = JohnsonCookDamage;
@@ -44,6 +49,12 @@ struct JohnsonCookDamage {
                  "T_m: T* is 1 at and above it"),
             real("least_failure_strain", &P::least_failure_strain, "", range::positive(),
                  "lower bound of the failure strain")
+                .optional(),
+            real("least_triaxiality", &P::least_triaxiality, "", range::any(),
+                 "below it, in compression, plastic strain does no damage")
+                .optional(),
+            real("greatest_triaxiality", &P::greatest_triaxiality, "", range::any(),
+                 "above it plastic strain does no damage: a criterion of tension has its place")
                 .optional()};
   }
   static constexpr const char* name = "johnson_cook_damage";
@@ -54,11 +65,16 @@ struct JohnsonCookDamage {
   static constexpr const char* theory =
       "dD = dep / (eps_f * scatter factor), fails (code 5) at D = 1, where\n"
       "eps_f = (d1 + d2 exp(d3 t)) (1 + d4 ln max(1, rate/reference_rate)) (1 + d5 T*), at least\n"
-      "least_failure_strain; t = -p/sqrt(3/2 s:s), at most 1.5; T* = (T - T_r)/(T_m - T_r) in [0, 1].\n"
+      "least_failure_strain; t = -p/sqrt(3/2 s:s), at most greatest_triaxiality, no damage below "
+      "least_triaxiality; T* = (T - T_r)/(T_m - T_r) "
+      "in [0, 1].\n"
       "Source: Johnson and Cook, Eng. Fract. Mech. 21 (1985) 31-48.";
 
   /// @throws InputError if the constants contradict one another
   void require_consistent() const {
+    if (!(least_triaxiality < greatest_triaxiality)) {
+      throw InputError("'least_triaxiality' must be below 'greatest_triaxiality'");
+    }
     if (melting_temperature <= reference_temperature) {
       throw InputError("'melting_temperature' must be above 'reference_temperature'");
     }
@@ -71,7 +87,7 @@ struct JohnsonCookDamage {
     const Lanes one = broadcast(1.0),
                 greatest_exponent = broadcast(100.0);  // strong compression: no damage, and no overflow
     const Lanes shape =
-        d1 + d2 * exp(minimum(d3 * minimum(triaxiality, broadcast(greatest_triaxiality)), greatest_exponent));
+        d1 + d2 * exp(minimum(d3 * minimum(triaxiality, broadcast(tested_triaxiality)), greatest_exponent));
     const Lanes fast = 1.0 + d4 * natural_log(maximum(rate / reference_rate, one));
     const Lanes homologous =
         (temperature - reference_temperature) / (melting_temperature - reference_temperature);
@@ -87,12 +103,15 @@ struct JohnsonCookDamage {
       for (std::size_t k = 0; k < count; ++k) {
         equivalent[k] = std::sqrt(1.5 * state.deviator[i + k].squared_norm());
       }
-      const Lanes limit =
-          failure_strain(-load(&state.pressure[i], count, 0.0) / equivalent, increment / state.time_step,
-                         load(&state.temperature[i], count, reference_temperature));
+      const Lanes triaxiality = -load(&state.pressure[i], count, 0.0) / equivalent;
+      const Lanes limit = failure_strain(triaxiality, increment / state.time_step,
+                                         load(&state.temperature[i], count, reference_temperature));
       for (std::size_t k = 0; k < count; ++k) {
         // An equivalent stress of 0: no solid is left.
-        if (failed[i + k] != intact || !(increment[k] > 0.0) || !(equivalent[k] > 0.0)) continue;
+        if (failed[i + k] != intact || !(increment[k] > 0.0) || !(equivalent[k] > 0.0) ||
+            triaxiality[k] < least_triaxiality || triaxiality[k] > greatest_triaxiality) {
+          continue;
+        }
         damage[i + k] =
             std::min(1.0, damage[i + k] + increment[k] / (limit[k] * state.threshold_factor[i + k]));
         if (damage[i + k] >= 1.0) failed[i + k] = fractured;

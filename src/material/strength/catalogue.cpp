@@ -9,6 +9,7 @@
 #include "src/material/strength/johnson_holmquist_2.hpp"
 #include "src/material/strength/none.hpp"
 #include "src/material/strength/power_law.hpp"
+#include "src/material/strength/preston_tonks_wallace.hpp"
 #include "src/material/strength/riedel_hiermaier_thoma.hpp"
 #include "src/material/strength/steinberg_guinan.hpp"
 #include "src/material/strength/viscous_fluid.hpp"
@@ -41,6 +42,7 @@ const Catalogue<ModelEntry>& catalogue() {
                                              entry<JohnsonCook, JohnsonCookModel>(),
                                              entry<SteinbergGuinan, SteinbergGuinanModel>(),
                                              entry<ZerilliArmstrong, ZerilliArmstrongModel>(),
+                                             entry<PrestonTonksWallace, PrestonTonksWallaceModel>(),
                                              entry<HolmquistJohnsonCook, HolmquistJohnsonCookModel>(),
                                              entry<RiedelHiermaierThoma, RiedelHiermaierThomaModel>(),
                                              entry<JohnsonHolmquist2, JohnsonHolmquist2Model>(),
