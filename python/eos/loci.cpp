@@ -26,6 +26,11 @@ auto refusal(Kind& result) {
 
 /// @throws InputError if states are those of another material
 void require_same(const Material& material, const States& states) {
+  if (states.restored) {
+    throw InputError(
+        "the start is a state from a pickle, which belongs to no material: compute it again, "
+        "material.states(density=s.density, energy=s.energy)");
+  }
   if (states.eos != material.eos) {
     throw InputError(
         fmt::format("the start is a state of another equation of state than that of '{}'", material.name));

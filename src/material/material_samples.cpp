@@ -222,6 +222,7 @@ MaterialSamples sample_material(const std::filesystem::path& path, int count, st
     try {
       const log::WarningsAside aside;
       samples.materials.push_back(read_changed_material(file, changes));
+      samples.changes.push_back(changes);
       warnings.insert(warnings.end(), aside.messages().begin(), aside.messages().end());
     } catch (const InputError& error) {
       refuse(error.what());

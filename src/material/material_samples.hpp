@@ -16,6 +16,8 @@ namespace whipple {
 /// Materials whose constants are drawn from the covariance of a fitted one.
 struct MaterialSamples {
   std::vector<Material> materials;
+  std::vector<std::vector<std::pair<std::string, std::string>>>
+      changes;                        ///< keys and values of each, "eos.gruneisen"
   std::vector<std::string> names;     ///< of the drawn constants
   std::vector<std::string> defaults;  ///< of them, defaults with the errors of their sources
   std::vector<std::string> unknown;   ///< defaults without a known error: the same in all samples
