@@ -51,7 +51,10 @@ struct Output {
   std::string x, y;                  ///< columns of the figure
   std::string logarithmic;           ///< "x", "y", "xy" or nothing
   std::vector<std::string> overlay;  ///< measurements
+  bool json = false;                 ///< the table as JSON to standard output, and nothing else
   bool force = false;
+
+  [[nodiscard]] bool alone() const { return json || is_standard_output(csv); }
 };
 
 /// Draws from the covariance of a fitted material.
@@ -167,8 +170,7 @@ void run_samples(const Request& request) {
                     materials.front().file.string()));
   }
   if (std::ranges::count_if(materials, has_covariance) > 1)
-    throw InputError(
-        "--samples: one fitted material at a time; others may be drawn next to it");
+    throw InputError("--samples: one fitted material at a time; others may be drawn next to it");
   const EosOptions& o = request.options;
   const double last = quantity("--to", o.to, "m/s").value_or(4000.0);
   const double first = quantity("--from", o.from, "m/s").value_or(last / o.points);
@@ -178,7 +180,8 @@ void run_samples(const Request& request) {
   const eos::curves::SampledHugoniot sampled = eos::curves::sampled_hugoniot(
       subjects_of(drawn.materials), eos::curves::spaced(first, last, o.points), release_pressure);
   const Output& output = request.output;
-  if (!is_standard_output(output.csv)) print(sampled.table);
+  if (output.json) fmt::print("{}", json_text(sampled.table));
+  if (!output.alone()) print(sampled.table);
   write_output(output.csv, csv_text(sampled.table));
   if (!output.plot.empty()) {
     draw(figure_with_band(request, subjects_of(materials),
@@ -186,7 +189,7 @@ void run_samples(const Request& request) {
                           {first, last, o.points}),
          output.plot);
   }
-  if (is_standard_output(output.csv)) return;
+  if (output.alone()) return;
   for (const std::string& remark : sample_remarks(sampled, drawn.materials.size()))
     fmt::print("{}\n", remark);
   for (const std::string& remark : drawn_remarks(drawn)) fmt::print("{}\n", remark);
@@ -203,6 +206,8 @@ void add_query(CLI::App& command, const EosQuery& query) {
   sub->add_option(
       "--csv", request->output.csv,
       "Write the table, units in the names of the columns; -: to standard output, and nothing else");
+  sub->add_flag("--json", request->output.json, "The table as JSON to standard output, and nothing else")
+      ->excludes(sub->get_option("--csv"));
   if (query.x != nullptr) {
     sub->add_option("--points", request->options.points, "Points of the curve")
         ->check(CLI::Range(2, 100000))
@@ -245,11 +250,11 @@ void add_query(CLI::App& command, const EosQuery& query) {
     const bool one_each =
         std::ranges::all_of(table.series, [](const Series& s) { return s.rows.size() == 1; });
     const bool is_list = query.as_list && one_each;
-    if (!is_standard_output(output.csv)) (is_list ? print_list : print)(table);
+    if (output.json) fmt::print("{}", json_text(table));
+    if (!output.alone()) (is_list ? print_list : print)(table);
     write(table, output);
     warn_beyond_audit(table, subjects);
-    if (query.remarks == nullptr || is_standard_output(output.csv) || !request->options.states.empty())
-      return;
+    if (query.remarks == nullptr || output.alone() || !request->options.states.empty()) return;
     for (const std::string& remark : query.remarks(request->options, subjects)) fmt::print("{}\n", remark);
   });
 }

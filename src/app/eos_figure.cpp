@@ -8,6 +8,7 @@
 
 #include "eos/experiments/experiment.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/base/log.hpp"
 #include "src/core/process/paths.hpp"
 #include "src/core/process/scripts.hpp"
 
@@ -114,7 +115,7 @@ void draw(const Figure& figure, const std::filesystem::path& path) {
       {"points", lines(figure.points)},
       {"bands", bands}};
   process::draw_json("scripts/plot_curves.py", description.dump(1), path);
-  fmt::print("written: {}\n", path.string());
+  log::info("written: {}", path.string());
 }
 
 }  // namespace whipple::app
