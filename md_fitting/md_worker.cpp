@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // whipple-md: computes what is missing of a plan of molecular-dynamics points, alone or under mpirun.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <mpi.h>
 
 #include <CLI/CLI.hpp>
@@ -11,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "md_fitting/elements/element_defaults.hpp"
 #include "md_fitting/lammps/empty_working_folder.hpp"
 #include "md_fitting/plan/plan.hpp"
 #include "md_fitting/protocols/budget.hpp"
@@ -68,6 +70,27 @@ void report_estimate(const Plan& plan, const std::vector<Task>& tasks, const Pot
   if (plan.processor_time > 0.0 && total(time) > plan.processor_time) {
     log::warning("that is more than the processor_time of the plan, {:.1f} min", plan.processor_time / 60.0);
   }
+}
+
+/// Tells before the work what a fit of GRAY will not find in the store, and where it will come from.
+void report_what_a_fit_lacks(const Plan& plan) {
+  const bool melts = !plan.coexistences.empty();
+  const elements::ElementDefaults table = elements::element_defaults(plan.element);
+  const std::vector<std::string> missing = elements::missing_for_gray(table, melts);
+  if (!missing.empty()) {
+    log::warning(
+        "a fit of GRAY will lack {} of {}: neither these points nor the program know them; give them to it "
+        "with "
+        "whipple fit --defaults FILE (whipple describe element), or fit --model mie_gruneisen, which needs "
+        "none",
+        fmt::join(missing, ", "), plan.element);
+    return;
+  }
+  std::vector<std::string> defaults = {"heat of the electrons"};
+  if (!melts) defaults.emplace_back("melting temperature (no [[coexistence]])");
+  if (!plan.liquid_vapour) defaults.emplace_back("vapour (no [liquid_vapour])");
+  log::info("whipple fit will take from the table of {} what these points do not determine: {}", plan.element,
+            fmt::join(defaults, ", "));
 }
 
 /// Tells what the points have cost.
@@ -167,6 +190,7 @@ int run_plan(const Options& options) {
           potential.name(), potential.least_volume_ratio());
     }
   }
+  if (rank == 0) report_what_a_fit_lacks(plan);
   if (rank == 0) report_estimate(plan, tasks, potential, store);
   const CampaignSummary summary = run_campaign(tasks, store, MPI_COMM_WORLD, options.retry_failed,
                                                static_cast<int>(plan.ranks_per_point));

@@ -167,10 +167,13 @@ def surface_figure(analysis: Analysis) -> Figure | None:
     """Draws craters, penetration and holes over time; None if there are none."""
     series = analysis.series
     labels = {"crater_depth": "depth of the crater", "crater_diameter": "diameter of the crater",
-              "penetration_depth": "depth of penetration", "hole_diameter": "hole"}
+              "bulge": "bulge of the rear face", "penetration_depth": "depth of penetration", "hole_diameter": "hole"}
+    # A legend for a single point says more than its curve; the bulge of a body that barely moves is none.
+    few = min(3, len(series["time"]))
+    least = {"bulge": 0.1 * analysis.cell_size}
     shown = [(name, f"{body}, {labels[measure]}") for name in series
              for measure, _, body in [name.partition(".")]
-             if measure in labels and (np.nan_to_num(series[name]) > 0).any()]
+             if measure in labels and (np.nan_to_num(series[name]) > least.get(measure, 0.0)).sum() >= few]
     if not shown:
         return None
     figure, (ax,) = new_figure(1)

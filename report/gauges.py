@@ -9,8 +9,9 @@ from report.curves import legend_above, new_figure
 from report.history import History
 from report.run import Run
 
-PANELS = (("pressure", units.GIGAPASCALS, "pressure (GPa)"), ("speed", units.KM_PER_SECOND, "speed (km/s)"),
-          ("temperature", 1.0, "temperature (K)"))
+# Quantity, factor to the unit shown, label, and the least height of the panel: what is less is round-off of material at rest.
+PANELS = (("pressure", units.GIGAPASCALS, "pressure (GPa)", 1e-4), ("speed", units.KM_PER_SECOND, "speed (km/s)", 1e-5),
+          ("temperature", 1.0, "temperature (K)", 0.1))
 FEW = 10  # more gauges than this share a colour scale instead of a legend
 
 
@@ -38,11 +39,16 @@ def figure(history: History) -> Figure | None:
         return None
     figure, axes = new_figure(len(PANELS))
     colours = plt.cm.viridis(np.linspace(0, 0.95, len(gauges))) if len(gauges) > FEW else [None] * len(gauges)
-    for ax, (quantity, scale, label) in zip(axes, PANELS):
+    for ax, (quantity, scale, label, least) in zip(axes, PANELS):
         for gauge, colour in zip(gauges, colours):
             ax.plot(units.MICROSECONDS * history["time"], scale * values(history, gauge, quantity), label=gauge,
                     color=colour, linewidth=1.2 if len(gauges) <= FEW else 0.7)
         ax.set_ylabel(label)
+        low, high = ax.get_ylim()
+        if high - low < least:
+            middle = (low + high) / 2 if quantity == "temperature" else 0.0
+            ax.set_ylim(middle - least / 2, middle + least / 2)
+        ax.ticklabel_format(axis="y", useOffset=False)
     if len(gauges) <= FEW:
         legend_above(axes[0], columns=3)
     return figure

@@ -23,6 +23,8 @@ SHADING_OF_SCALES = 0.55
 SMALL_END = 0.05  # of the other end of a scale: a sign that is no part of the picture
 RESOLUTION_OF_PAGE = 1440  # pixels across the page
 COLOURS_OF_PAGE = 256
+ABSORBS = 0.998  # a transmission below is that of material
+LEAST_PIXELS = 20  # of a cloud whose radiograph has a scale of its own
 
 
 def paint(picture: Picture, colours: np.ndarray, shading: float = 1.0) -> np.ndarray:
@@ -206,15 +208,27 @@ def cloud_figures(run: Run, views: Views) -> Iterator[tuple[str, str, Figure]]:
                    worded(sections, field, words, f"Section, by {name}"))
 
 
+def darkest_of_cloud(pictures: list) -> float:
+    """Returns the transmission that is black in radiographs: that of the densest hundredth of the cloud in the last one.
+    The cloud is what attenuates where nothing was in the first: walls, which hold most of the mass, would leave it pale."""
+    last, first = pictures[-1], pictures[0]
+    dark = last.transmission < ABSORBS
+    new = dark
+    if len(pictures) > 1 and first.transmission.shape == last.transmission.shape:
+        new = dark & (first.transmission >= ABSORBS)
+    if new.sum() < LEAST_PIXELS:
+        new = dark
+    if not new.any():
+        return 0.5
+    return float(np.clip(np.quantile(last.transmission[new], 0.01), 1e-3, 0.99))
+
+
 def radiograph_figure(analysis: Analysis) -> Figure:
     """Draws the transmission of the absorbers that the analysis was told."""
     pictures, geo = analysis.pictures, analysis.geometry
     left, right, below, above = pictures[0].extent
     figure, axes = grid_of(len(pictures), (above - below) / (right - left))
-    # Contrast for the cloud of the last picture: black at eight times the optical depth of its middle pixel.
-    dark = pictures[-1].transmission[pictures[-1].transmission < 0.998]
-    darkest = max(float(np.median(dark))**8, 1e-3) if dark.size else 0.5
-    norm = Normalize(darkest, 1.0)
+    norm = Normalize(darkest_of_cloud(pictures), 1.0)
     for ax, picture in zip(axes.flat, pictures):
         ax.imshow(picture.transmission, origin="lower", extent=geo.extent(picture.extent), cmap="gray", norm=norm,
                   interpolation="bilinear", aspect="equal")

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Folder of a run (docs/manual/output.md): its text, history, index of snapshots and analysis."""
 import json
+import os
 import pathlib
 import tomllib
 
@@ -34,6 +35,17 @@ class Run:
             raise NotARun(f"{folder}: the run has neither snapshots nor a history.csv yet")
         # A run without snapshots was not measured.
         self.analysis = Analysis(self.output / "analysis.h5") if self.entries else None
+
+    @property
+    def goes_on(self) -> bool:
+        """Tells whether a process on this machine writes the run: whether one holds the lock of the folder."""
+        try:
+            lock = (self.folder / ".lock").stat()
+            held = pathlib.Path("/proc/locks").read_text(encoding="ascii")
+        except OSError:
+            return False
+        file = f"{os.major(lock.st_dev):02x}:{os.minor(lock.st_dev):02x}:{lock.st_ino}"
+        return any(line.split()[1:2] == ["FLOCK"] and file in line.split() for line in held.splitlines())
 
     def _read_index(self):
         indices = sorted(self.folder.glob("*.particles.hdf.series"))

@@ -120,6 +120,11 @@ class Report:
         for name, meaning in COUNTED:
             if history.last(name):
                 tiles.append((meaning, f"{history.last(name):.0f}"))
+        if run.goes_on:
+            measured = f", pictures and measures to {units.time(float(run.analysis.series['time'][-1]))}" if run.analysis else ""
+            self.page.note(f"The run goes on: curves reach to {units.time(history.last('time') or 0.0)}{measured}, its end "
+                           f"is {units.quantity(str(run.input.get('time', {}).get('end', 'not known')))}.")
+            self.metrics["goes_on"] = True
         self.page.tiles(tiles)
         if run.analysis and run.analysis.geometry.planar:
             self.page.note(DIMENSIONS[run.analysis.geometry.dimension])
@@ -177,9 +182,10 @@ class Report:
         spot = units.MILLIMETRES * analysis.spot
         self._add_figure("radiograph.png", "Transmission along the line of sight through the complete problem, blurred "
                          f"over a spot of {spot:.3g} mm: what a flash radiograph shows, without the response of a "
-                         "film.", pictures.radiograph_figure(analysis))
+                         "film. The scale is that of the cloud: what is denser, as walls, is black.",
+                         pictures.radiograph_figure(analysis))
         self._extent(analysis)
-        self._add_figure("surfaces.png", "Depth of craters on the axis and diameter at the original surface; depth of "
+        self._add_figure("surfaces.png", "Depth of craters on the axis and diameter at the original surface; bulge of rear faces; depth of "
                          "penetration; diameter within which less than half of a plate is left.",
                          curves.surface_figure(analysis))
         # A piece of a section is a ring or a bar.
@@ -190,7 +196,7 @@ class Report:
                          "material; fragments cut by symmetry planes are completed).", fragments)
         self._add_figure("witness.png", "Loads on the witness plate if the debris flies on freely.",
                          curves.loads_figure(analysis, "witness"))
-        self._final_table(run.entries[-1][1], analysis)
+        self._final_table(float(analysis.series["time"][-1]), analysis)
         planar.add_to(self.page, self.output, analysis, run.history)
         self._add_figure("loads.png", "Loads on the plane in the course of the run: what has passed it until the end.",
                          curves.loads_figure(analysis, "loads"))
@@ -238,6 +244,11 @@ class Report:
                   for name, value in analysis.final.items() if name.startswith("hole_diameter.") and value > 0]
         tiles += [(f"{name.split('.', 1)[1]} perforated", "yes" if value else "no")
                   for name, value in analysis.final.items() if name.startswith("perforated.") and np.isfinite(value)]
+        for measure, text, factor, unit, least in (("bulge", "bulge of {}", units.MILLIMETRES, "mm", 0.1 * analysis.cell_size),
+                                                   ("spall_mass", "spall behind {}", units.GRAMS, "g", 0.0),
+                                                   ("damaged_area", "damaged area of {}", 1e6, "mm²", 0.0)):
+            tiles += [(text.format(name.split(".", 1)[1]), f"{number(factor * value)} {unit}")
+                      for name, value in analysis.final.items() if name.startswith(f"{measure}.") and value > least]
         self.page.tiles((name, value) for name, value in tiles if not value.startswith(units.MISSING))
         carried = [column for column in analysis.tables["bodies"] if column in BODY_COLUMNS]
         head = ["body", "part"] + (["mass of model (g)"] if run.multiplicity > 1 else []) + [

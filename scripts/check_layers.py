@@ -27,6 +27,8 @@ MAY_USE = {
     "md_fitting/data_set": ["src/core/base", "src/core/hdf5"],
     # Reads the store and starts whipple-md as a process: no LAMMPS on the solver's side.
     "md_fitting/simulated_crystal": ["src/core/base", "src/core/process", "eos", "md_fitting/data_set"],
+    # Constants of metals that no simulation determines: eos/data/elements.toml.
+    "md_fitting/elements": ["src/core/base", "src/core/input", "src/core/process"],
     "src/particles": ["src/core/base", "src/core/parallel"],
     "src/grid": ["src/core/base", "src/core/parallel"],
     "src/material": ["src/core/base", "src/core/input", "eos", "eos/files", "src/particles"],
@@ -56,22 +58,23 @@ MAY_USE = {
     "md_fitting/plan": ["src/core/base", "src/core/input"],
     "md_fitting/lammps": ["src/core/base", "md_fitting/data_set"],
     "md_fitting/protocols": ["src/core/base", "eos", "md_fitting/data_set", "md_fitting/plan", "md_fitting/lammps"],
-    "md_fitting/fit": ["src/core/base", "src/core/input", "src/core/process", "eos", "md_fitting/data_set", "md_fitting/plan"],
+    "md_fitting/fit": ["src/core/base", "src/core/input", "src/core/process", "eos", "md_fitting/data_set", "md_fitting/elements",
+                       "md_fitting/plan"],
     # The program whipple-md.
-    "md_fitting": ["src/core/base", "md_fitting/data_set", "md_fitting/plan", "md_fitting/lammps", "md_fitting/protocols"],
+    "md_fitting": ["src/core/base", "md_fitting/elements", "md_fitting/data_set", "md_fitting/plan", "md_fitting/lammps", "md_fitting/protocols"],
     # The program whipple: it starts the other two, so of their side it knows the plan's keys and the source that asks
     # whipple-md for states.
     "src/app": ["src/core/base", "src/core/input", "src/core/parallel", "src/core/process", "eos", "eos/curves", "eos/experiments", "eos/files",
                 "src/particles", "src/grid", "src/material",
                 "src/transfer", "src/io", "src/analysis", "src/view", "src/monitor", "src/decks", "src/case", "src/solver", "src/run", "src/bench",
-                "md_fitting/plan",
+                "md_fitting/elements", "md_fitting/plan",
                 "md_fitting/simulated_crystal"],
     # The Python module whipple.eos: no MPI, no grid.
     "python": ["src/core/base", "eos", "eos/curves", "eos/experiments", "eos/files", "src/material"],
 }
 
 # CMake library -> module, where the name is not the last part of the folder.
-LIBRARY_OF = {"whipple_md_data_set": "md_fitting/data_set", "whipple_md_plan": "md_fitting/plan",
+LIBRARY_OF = {"whipple_md_data_set": "md_fitting/data_set", "whipple_md_elements": "md_fitting/elements", "whipple_md_plan": "md_fitting/plan",
               "whipple_md_lammps": "md_fitting/lammps", "whipple_md_protocols": "md_fitting/protocols",
               "whipple_fit": "md_fitting/fit", "whipple_eos": "eos", "whipple_eos_curves": "eos/curves",
               "whipple_eos_experiments": "eos/experiments", "whipple_eos_files": "eos/files",

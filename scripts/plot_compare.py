@@ -21,7 +21,8 @@ def numbers(values):
 
 
 def label(quantity, unit):
-    names = {"up": "particle velocity", "Us": "shock velocity", "P": "pressure", "V/V0": "$V/V_0$", "T": "temperature"}
+    names = {"up": "particle velocity", "Us": "shock velocity", "P": "pressure", "V/V0": "$V/V_0$", "T": "temperature", "rho": "density",
+             "c": "bulk sound speed"}
     name = names.get(quantity, quantity)
     return f"{name} ({unit})" if unit else name
 
@@ -51,10 +52,12 @@ def main():
             colour = f"C{k}"
             top.plot(numbers(material["x"]), numbers(material["curve"]), color=colour, lw=1.3,
                      label=f"{material['name']} (rms {material['rms']:.2f} {unit})")
+            if "lower" in material:
+                top.fill_between(numbers(material["x"]), numbers(material["lower"]), numbers(material["upper"]),
+                                 color=colour, alpha=0.2, lw=0, label=f"{material['name']}, 95 % band")
             bottom.plot(x, numbers(material["deviation"]), "o", ms=2.8, color=colour)
         bottom.axhline(0.0, color="0.4", lw=0.8)
-        kind = panel["kind"] + (f", {panel['temperature']:g} K" if panel["kind"] == "isotherm" else "")
-        top.set_title(f"{panel['experiment']}\n{kind}", fontsize=9)
+        top.set_title(f"{panel['experiment']}\n{panel['kind']}", fontsize=9)
         top.set_ylabel(label(panel["ordinate"], panel["ordinate_unit"]))
         bottom.set_ylabel(f"material less\nexperiment ({panel['deviation_unit']})")
         bottom.set_xlabel(label(panel["abscissa"], panel["abscissa_unit"]))

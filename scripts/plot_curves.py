@@ -3,12 +3,14 @@
 """Figure of curves and measurements: plot_curves.py FIGURE.json OUTPUT (.png, .pdf or .svg), started by whipple eos.
 
 FIGURE.json: title, axes x and y (label with unit, logarithmic), curves and points, each with label (what it is), material,
-numbers x and y (null: not known), colour (index of the palette; curves of one material share it) and style.
+numbers x and y (null: not known), colour (index of the palette; curves of one material share it) and style; bands with
+label, x, lower, upper and colour.
 """
 import json
 import pathlib
 import re
 import sys
+import textwrap
 
 import matplotlib
 
@@ -74,6 +76,9 @@ def main():
         x, y = numbers(curve["x"]), numbers(curve["y"])
         style = {"marker": "o" if len(x) == 1 else None, **STYLES[curve["style"]]}
         axes.plot(x, y, color=PALETTE[curve["colour"] % len(PALETTE)], zorder=3, **style)
+    for band in description["bands"]:
+        axes.fill_between(numbers(band["x"]), numbers(band["lower"]), numbers(band["upper"]), alpha=0.2, linewidth=0,
+                          color=PALETTE[band["colour"] % len(PALETTE)], label=band["label"], zorder=1)
     for i, points in enumerate(description["points"]):
         axes.plot(numbers(points["x"]), numbers(points["y"]), linestyle="none", marker=MARKERS[i % len(MARKERS)],
                   markersize=3.6, markerfacecolor="white", markeredgecolor="#333333", markeredgewidth=0.7,
@@ -83,7 +88,7 @@ def main():
         if description[name]["logarithmic"]:
             set_scale("log")
     if description["title"]:
-        axes.set_title(description["title"], fontsize=10)
+        axes.set_title("\n".join(textwrap.wrap(description["title"], 76)), fontsize=10)
     axes.grid(True, linewidth=0.3, color="#cccccc", zorder=0)
     entries = legend_entries(description["curves"]) + axes.get_legend_handles_labels()[0]
     if len(entries) > 1:

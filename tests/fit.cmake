@@ -11,4 +11,4 @@ whipple_test(fit_compare_test SOURCES validation/fit_compare_test.cpp property/f
              DEPENDS whipple_material whipple_eos_experiments GTest::gmock LABELS fast)
 whipple_test(fit_compare_command_test SOURCES unit/fit_compare_command_test.cpp unit/eos_md_command_test.cpp DEPENDS whipple_base GTest::gmock fmt::fmt LABELS fast)
 add_dependencies(fit_compare_command_test whipple whipple-md whipple-fit)
-target_compile_definitions(fit_compare_command_test PRIVATE WHIPPLE_EXECUTABLE="$<TARGET_FILE:whipple>")
+target_compile_definitions(fit_compare_command_test PRIVATE WHIPPLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" WHIPPLE_EXECUTABLE="$<TARGET_FILE:whipple>")

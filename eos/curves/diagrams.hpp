@@ -20,12 +20,20 @@ struct FigureCurve {
   LineStyle style = LineStyle::solid;
 };
 
+/// A range about a curve, in the units of the axes.
+struct FigureBand {
+  std::string label;
+  std::vector<double> x, lower, upper;
+  int colour = 0;
+};
+
 struct Figure {
   std::string title;
   Column x, y;  ///< what the axes show
   bool logarithmic_x = false, logarithmic_y = false;
   std::vector<FigureCurve> curves;
   std::vector<FigureCurve> points;  ///< measurements
+  std::vector<FigureBand> bands;
 };
 
 /// Diagrams of several loci.

@@ -20,6 +20,11 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+bool over_volume(ExperimentKind kind) {
+  return kind == ExperimentKind::isotherm || kind == ExperimentKind::isentrope ||
+         kind == ExperimentKind::shock_pressure;
+}
+
 /// rms deviation of points from the quadratic of least squares through them, n - 3.
 double scatter_about_quadratic(const std::vector<double>& x, const std::vector<double>& y) {
   constexpr std::size_t coefficients = 3;
@@ -42,14 +47,14 @@ double scatter_about_quadratic(const std::vector<double>& x, const std::vector<d
 
 std::vector<double> measurement_errors(const Experiment& experiment, std::span<const double> slope) {
   std::vector<double> errors;
-  if (experiment.ordinate_error.empty()) {
+  if (!experiment.states_errors) {
+    if (over_volume(experiment.kind)) return std::vector<double>(experiment.abscissa.size(), nan);
     errors.assign(experiment.abscissa.size(),
                   scatter_about_quadratic(experiment.abscissa, experiment.ordinate));
     return errors;
   }
   for (std::size_t i = 0; i < experiment.abscissa.size(); ++i) {
-    const double across = experiment.abscissa_error.empty() ? 0.0 : slope[i] * experiment.abscissa_error[i];
-    errors.push_back(std::hypot(experiment.ordinate_error[i], across));
+    errors.push_back(std::hypot(experiment.ordinate_error[i], slope[i] * experiment.abscissa_error[i]));
   }
   return errors;
 }
@@ -62,7 +67,9 @@ Calibration calibrate(const EquationOfState& eos, const State& initial,
   const auto values_of = [&](const EquationOfState& model, const State& start, double factor) {
     std::vector<double> abscissa = experiment.abscissa;
     for (double& x : abscissa) x *= factor;
-    return curve(model, start, experiment, abscissa, initial_densities(start.density, experiment));
+    return curve(
+        model, start, experiment,
+        {std::move(abscissa), initial_densities(start.density, experiment), experiment.temperatures});
   };
   Calibration result;
   result.model = values_of(eos, initial, 1.0);
@@ -89,23 +96,25 @@ Calibration calibrate(const EquationOfState& eos, const State& initial,
   int within_band = 0;
   std::array<int, coverage_levels.size()> within{};
   for (std::size_t i = 0; i < count; ++i) {
-    const bool counts = std::isfinite(result.model[i]) && std::isfinite(result.measurement_error[i]) &&
-                        2 * states[i] > samples.size();
-    const double deviation = counts ? std::sqrt(squares[i] / static_cast<double>(states[i] - 1)) : nan;
+    const bool has_band = std::isfinite(result.model[i]) && 2 * states[i] > samples.size();
+    const double deviation = has_band ? std::sqrt(squares[i] / static_cast<double>(states[i] - 1)) : nan;
     result.deviation.push_back(deviation);
     const double off = result.model[i] - experiment.ordinate[i];
+    const bool counts = has_band && std::isfinite(result.measurement_error[i]);
     result.pull.push_back(counts ? off / std::hypot(deviation, result.measurement_error[i]) : nan);
+    if (!has_band) continue;
+    ++result.band_points;
+    if (experiment.ordinate[i] > 0.0) widths.push_back(half_width_95 * deviation / experiment.ordinate[i]);
+    within_band += std::abs(off) <= half_width_95 * deviation ? 1 : 0;
     if (!counts) continue;
     ++result.points;
-    widths.push_back(half_width_95 * deviation / experiment.ordinate[i]);
-    errors.push_back(result.measurement_error[i] / experiment.ordinate[i]);
-    within_band += std::abs(off) <= half_width_95 * deviation ? 1 : 0;
+    if (experiment.ordinate[i] > 0.0) errors.push_back(result.measurement_error[i] / experiment.ordinate[i]);
     const double level = std::erf(std::abs(result.pull[i]) / std::numbers::sqrt2);
     for (std::size_t k = 0; k < coverage_levels.size(); ++k) within[k] += level <= coverage_levels[k] ? 1 : 0;
   }
   for (std::size_t k = 0; k < within.size(); ++k)
     result.coverage[k] = static_cast<double>(within[k]) / result.points;
-  result.coverage_of_band = static_cast<double>(within_band) / result.points;
+  result.coverage_of_band = static_cast<double>(within_band) / result.band_points;
   result.median_half_width = median(widths);
   result.median_error = median(errors);
   return result;

@@ -10,7 +10,19 @@
 #include "src/core/base/error.hpp"
 
 namespace whipple::eos::experiments {
-namespace {}  // namespace
+namespace {
+
+bool is_hugoniot(ExperimentKind kind) {
+  return kind == ExperimentKind::shock_velocity || kind == ExperimentKind::shock_pressure ||
+         kind == ExperimentKind::sound_speed || kind == ExperimentKind::shock_temperature;
+}
+
+/// The model's density that a point of a volume scale means.
+double density_of(VolumeScale scale, double abscissa, double reference) {
+  return scale == VolumeScale::density ? abscissa : reference / abscissa;
+}
+
+}  // namespace
 
 bool belongs_to(const Experiment& experiment, std::string_view material) {
   const auto lower = [](std::string_view text) {
@@ -26,51 +38,69 @@ std::vector<double> initial_densities(double solid, const Experiment& experiment
   for (std::size_t i = 0; i < experiment.abscissa.size(); ++i) {
     const double stated = std::isnan(experiment.initial_density[i]) ? solid / experiment.porosity[i]
                                                                     : experiment.initial_density[i];
-    densities.push_back(stated > 0.0 && stated < (1.0 - same_density) * solid ? stated : solid);
+    const bool porous = is_hugoniot(experiment.kind) && stated > 0.0 && stated < (1.0 - same_density) * solid;
+    densities.push_back(porous ? stated : solid);
   }
   return densities;
 }
 
 std::vector<double> curve(const EquationOfState& eos, const State& initial, const Experiment& experiment,
-                          const std::vector<double>& abscissa, const std::vector<double>& initial_density) {
+                          const CurvePoints& points) {
   std::vector<double> values;
-  values.reserve(abscissa.size());
+  values.reserve(points.abscissa.size());
   const auto guarded = [&](const auto& function) {
-    for (std::size_t i = 0; i < abscissa.size(); ++i) {
+    for (std::size_t i = 0; i < points.abscissa.size(); ++i) {
       try {
-        values.push_back(function(abscissa[i], initial_density[i]));
+        values.push_back(function(i, points.abscissa[i]));
       } catch (const StateError&) {
         values.push_back(nan);  // outside the material's range: counted by the caller
       }
     }
   };
   if (experiment.kind == ExperimentKind::melting) {
-    guarded([&](double pressure, double) {
+    guarded([&](std::size_t, double pressure) {
       const auto melting = melting_point(eos, pressure);
       return melting ? 0.5 * (melting->solidus.temperature + melting->liquidus.temperature) : nan;
     });
     return values;
   }
   if (experiment.kind == ExperimentKind::isotherm) {
-    const double density = density_at_pressure(eos, 0.0, experiment.temperature);
-    guarded([&](double ratio, double) {
-      return eos.state_at_temperature(density / ratio, experiment.temperature).pressure;
+    double reference = nan;
+    if (experiment.volume == VolumeScale::ratio) {
+      try {
+        reference = density_at_pressure(eos, 0.0, experiment.volume_temperature);
+      } catch (const StateError&) {  // no condensed state there: all points are out of range
+        return std::vector<double>(points.abscissa.size(), nan);
+      }
+    }
+    guarded([&](std::size_t i, double x) {
+      return eos.state_at_temperature(density_of(experiment.volume, x, reference), points.temperature[i])
+          .pressure;
     });
     return values;
   }
   if (experiment.kind == ExperimentKind::isentrope) {
-    guarded([&](double ratio, double) {
-      return isentrope(eos, initial, {initial.density / ratio}).back().state.pressure;
+    guarded([&](std::size_t, double x) {
+      return isentrope(eos, initial, {density_of(experiment.volume, x, initial.density)})
+          .back()
+          .state.pressure;
     });
     return values;
   }
   const Hugoniot principal(eos, initial.density, initial.specific_internal_energy);
-  guarded([&](double x, double density) {
-    const Hugoniot hugoniot = density < initial.density ? Hugoniot::porous(eos, density) : principal;
-    if (experiment.kind == ExperimentKind::sound_speed) return hugoniot.at_pressure(x).state.sound_speed;
-    return experiment.kind == ExperimentKind::shock_velocity
-               ? hugoniot.at_particle_velocity(x).shock_velocity
-               : hugoniot.at_density(density / x).state.pressure;
+  guarded([&](std::size_t i, double x) {
+    const double start = points.initial_density[i];
+    const Hugoniot hugoniot = start < initial.density ? Hugoniot::porous(eos, start) : principal;
+    switch (experiment.kind) {
+      case ExperimentKind::sound_speed:
+        return hugoniot.at_pressure(x).state.sound_speed;
+      case ExperimentKind::shock_temperature:
+        return hugoniot.at_pressure(x).state.temperature;
+      case ExperimentKind::shock_velocity:
+        return hugoniot.at_particle_velocity(x).shock_velocity;
+      default:
+        return hugoniot.at_density(density_of(experiment.volume, x, start)).state.pressure;
+    }
   });
   return values;
 }
@@ -78,17 +108,19 @@ std::vector<double> curve(const EquationOfState& eos, const State& initial, cons
 Comparison compare(const EquationOfState& eos, const State& initial, const Experiment& experiment) {
   Comparison result;
   const std::vector<double> densities = initial_densities(initial.density, experiment);
-  result.model = curve(eos, initial, experiment, experiment.abscissa, densities);
+  result.model = curve(eos, initial, experiment, {experiment.abscissa, densities, experiment.temperatures});
   for (std::size_t i = 0; i < experiment.abscissa.size(); ++i) {
     const double measured = experiment.ordinate[i];
     const double difference = result.model[i] - measured;
     const bool relative = experiment.kind == ExperimentKind::shock_velocity ||
                           experiment.kind == ExperimentKind::melting ||
+                          experiment.kind == ExperimentKind::shock_temperature ||
                           experiment.kind == ExperimentKind::sound_speed;
     const double deviation = relative ? 100.0 * difference / measured : difference;
     result.deviation.push_back(deviation);
     if (densities[i] < initial.density) result.porous.push_back(experiment.lines[i]);
-    if (experiment.initial_density[i] > (1.0 + same_density) * initial.density) {
+    if (is_hugoniot(experiment.kind) &&
+        experiment.initial_density[i] > (1.0 + same_density) * initial.density) {
       result.denser.push_back(experiment.lines[i]);
     }
     if (std::isnan(deviation)) {

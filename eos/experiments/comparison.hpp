@@ -28,18 +28,25 @@ bool belongs_to(const Experiment& experiment, std::string_view material);
 constexpr double same_density = 0.01;
 
 /// Returns the density (kg/m^3) from which each point is shocked: that of the row, by `initial_density` or
-/// `porosity`, where it is below that of the solid by more than `same_density`, else that of the solid.
+/// `porosity`, where it is below that of the solid by more than `same_density`, else that of the solid. Points of
+/// other kinds than Hugoniots have that of the solid.
 std::vector<double> initial_densities(double solid, const Experiment& experiment);
 
+/// Where a curve of the kind of an experiment is wanted; SI.
+struct CurvePoints {
+  std::vector<double> abscissa;
+  std::vector<double> initial_density;  ///< `initial_densities`
+  std::vector<double> temperature;      ///< of isotherms
+};
+
 /// Compares an equation of state with every point of an experiment. Of a melting line counts the middle of
-/// solidus and liquidus. The reference volume of an isotherm is the model's own at zero pressure and the
-/// temperature of the isotherm; a Hugoniot from less than the initial density is the porous one.
+/// solidus and liquidus. The reference volume of ratios of an isotherm is the model's own at zero pressure and
+/// `volume_temperature`; a Hugoniot from less than the initial density is the porous one.
 /// @param initial  state ahead of the shock: zero pressure at the reference temperature
 Comparison compare(const EquationOfState& eos, const State& initial, const Experiment& experiment);
 
-/// Computes the curve of the experiment's kind at the given points (SI) from their initial densities
-/// (kg/m^3); NaN where the model has none.
+/// Computes the curve of the experiment's kind (SI); NaN where the model has none.
 std::vector<double> curve(const EquationOfState& eos, const State& initial, const Experiment& experiment,
-                          const std::vector<double>& abscissa, const std::vector<double>& initial_density);
+                          const CurvePoints& points);
 
 }  // namespace whipple::eos::experiments

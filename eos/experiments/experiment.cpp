@@ -21,6 +21,7 @@ namespace whipple::eos::experiments {
 namespace {
 
 constexpr double room_temperature = 298.0;  // K
+constexpr double rest_pressure = 2e5;       // Pa; 1 bar is no load here, also where it is rounded
 
 /// Whether the file name or a comment holds a word.
 bool says(const MeasuredTable& table, const char* pattern) {
@@ -63,60 +64,131 @@ double isotherm_temperature(const MeasuredTable& table) {
                   table.file().string()));
 }
 
-/// V/V0 from whichever column of volume or density there is. The volume of reference is that of the stated
-/// initial density, else that of the row at zero pressure.
-std::vector<double> volume_ratios(const MeasuredTable& table, const std::vector<double>& pressure,
-                                  double& ambient_volume) {
-  if (const auto ratio = table.find(Quantity::volume_ratio)) return table.numbers(*ratio);
-  std::vector<double> volume;
-  bool of_atoms = false;
-  if (const auto atomic = table.find(Quantity::atomic_volume)) {
-    volume = table.numbers(*atomic);
-    of_atoms = true;
-  } else if (const auto specific = table.find(Quantity::specific_volume)) {
-    volume = table.numbers(*specific);
-  } else if (const auto density = table.find(Quantity::density)) {
-    volume = table.numbers(*density);
-    for (double& value : volume) value = 1.0 / value;
-  } else {
-    throw InputError(
-        fmt::format("{}: no column of volume (V_over_V0, atomic_volume_A3, V_cm3_g, rho_g_cm3); the "
-                    "columns are {}",
-                    table.file().string(), table.headings()));
+/// Row at rest, 1 bar and its rounding included; of several the first.
+std::optional<std::size_t> rest_row(const std::vector<double>& pressure) {
+  const auto found = std::ranges::find_if(pressure, [](double p) { return std::abs(p) <= rest_pressure; });
+  if (found == pressure.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - pressure.begin());
+}
+
+/// Volumes of the rows.
+struct Volumes {
+  VolumeScale scale = VolumeScale::ratio;
+  std::vector<double> values;            ///< V/V0 or densities
+  std::vector<double> relative_error;    ///< one standard deviation; empty: no such column
+  double ambient_volume = 0.0;           ///< m^3 per atom
+  std::optional<std::size_t> reference;  ///< row of V0
+};
+
+/// The column of volumes or densities as it is, with `values` as volumes (ratios; m^3 per atom or per kg).
+struct VolumeColumn {
+  Quantity quantity;
+  std::vector<double> values, relative_error;
+};
+VolumeColumn volume_column(const MeasuredTable& table) {
+  for (const Quantity quantity :
+       {Quantity::volume_ratio, Quantity::atomic_volume, Quantity::specific_volume, Quantity::density}) {
+    const auto found = table.find(quantity);
+    if (!found) continue;
+    VolumeColumn column{quantity, table.numbers(*found), table.errors(quantity)};
+    for (std::size_t i = 0; i < column.relative_error.size(); ++i)
+      column.relative_error[i] /= column.values[i];
+    if (quantity == Quantity::density) {
+      for (double& value : column.values) value = 1.0 / value;
+    }
+    return column;
   }
+  throw InputError(
+      fmt::format("{}: no column of volume (V_over_V0, atomic_volume_A3, V_cm3_g, rho_g_cm3); the "
+                  "columns are {}",
+                  table.file().string(), table.headings()));
+}
+
+/// V/V0 by the stated initial density, else by the row at rest; without both, densities.
+Volumes relative_volumes(const MeasuredTable& table, const std::vector<double>& pressure) {
+  VolumeColumn column = volume_column(table);
+  Volumes volumes{VolumeScale::ratio, std::move(column.values), std::move(column.relative_error), 0.0, {}};
+  if (column.quantity == Quantity::volume_ratio) return volumes;
+  const bool of_atoms = column.quantity == Quantity::atomic_volume;
   if (const std::vector<double> initial = table.numbers(Quantity::initial_density);
       !initial.empty() && !of_atoms) {
-    for (std::size_t i = 0; i < volume.size(); ++i) volume[i] *= initial[i];
-    return volume;
+    for (std::size_t i = 0; i < initial.size(); ++i) volumes.values[i] *= initial[i];
+    return volumes;
   }
-  const auto ambient = std::ranges::find(pressure, 0.0);
-  if (ambient == pressure.end()) {
-    throw InputError(
-        fmt::format("{}: volumes without the one at zero pressure; add a row with P = 0, or a column "
-                    "V_over_V0",
-                    table.file().string()));
+  volumes.reference = rest_row(pressure);
+  if (volumes.reference) {
+    const double ambient = volumes.values[*volumes.reference];
+    if (of_atoms) volumes.ambient_volume = ambient;
+    for (double& value : volumes.values) value /= ambient;
+    return volumes;
   }
-  ambient_volume = volume[static_cast<std::size_t>(ambient - pressure.begin())];
-  for (double& value : volume) value /= ambient_volume;
-  return volume;
+  if (of_atoms) {
+    throw InputError(fmt::format(
+        "{}: volumes of atoms without the one at zero pressure; add a row with P = 0 (or 1 bar), or "
+        "give densities or V_over_V0",
+        table.file().string()));
+  }
+  volumes.scale = VolumeScale::density;
+  for (double& value : volumes.values) value = 1.0 / value;
+  return volumes;
+}
+
+/// Volumes of an isotherm: densities and specific volumes are absolute, as the model's are.
+Volumes isothermal_volumes(const MeasuredTable& table, const std::vector<double>& pressure) {
+  VolumeColumn column = volume_column(table);
+  if (column.quantity == Quantity::volume_ratio || column.quantity == Quantity::atomic_volume)
+    return relative_volumes(table, pressure);
+  for (double& value : column.values) value = 1.0 / value;
+  return {VolumeScale::density, std::move(column.values), std::move(column.relative_error), 0.0, {}};
+}
+
+/// Temperature of V0 of an isotherm's ratios, and how it is known.
+double reference_temperature(const MeasuredTable& table, Experiment& experiment, const Volumes& volumes,
+                             const std::vector<double>& pressure, const std::vector<double>& temperatures) {
+  if (volumes.reference) return temperatures[*volumes.reference];
+  static const std::regex stated("V_?0 at ([0-9]+(\\.[0-9]+)?) ?K", std::regex::icase);
+  std::smatch match;
+  for (const std::string& comment : table.comments()) {
+    if (std::regex_search(comment, match, stated)) return std::stod(match[1]);
+  }
+  for (std::size_t i = 0; i < pressure.size(); ++i) {
+    if (std::abs(pressure[i]) <= rest_pressure && std::abs(volumes.values[i] - 1.0) < 1e-6)
+      return temperatures[i];
+  }
+  const auto is_ambient = [](double t) { return t >= 273.0 && t <= 323.0; };
+  if (std::ranges::all_of(temperatures, is_ambient)) return temperatures.front();
+  experiment.remarks.push_back(
+      fmt::format("V0 of the ratios is taken at zero pressure and {:g} K, not at the temperature of the "
+                  "isotherm; a comment "
+                  "\"V0 at 1500 K\" names another temperature",
+                  room_temperature));
+  return room_temperature;
 }
 
 /// Why a row is no measurement of a compressed state; empty: it is one.
-std::string_view fault(ExperimentKind kind, double x, double y) {
+std::string_view fault(const Experiment& experiment, double x, double y) {
   if (!std::isfinite(x) || !std::isfinite(y)) return "a value is missing or no number";
-  switch (kind) {
+  switch (experiment.kind) {
     case ExperimentKind::shock_velocity:
       if (x == 0.0) return "at rest (up = 0: a sound speed, no shock)";
       if (x < 0.0) return "up is negative";
       if (y <= x) return "Us is not above up";
       break;
-    case ExperimentKind::shock_pressure:
     case ExperimentKind::isotherm:
-    case ExperimentKind::isentrope:
-      if (y == 0.0) return "at zero pressure, the reference itself";
-      if (y < 0.0) return "P is negative";
-      if (x <= 0.0) return "V/V0 is not positive";
+      if (x <= 0.0) return "the volume or density is not positive";
+      if (y < -rest_pressure) return "P is negative";
+      if (experiment.volume == VolumeScale::ratio && y <= rest_pressure && std::abs(x - 1.0) < 1e-6)
+        return "at zero pressure, the reference itself";
       break;
+    case ExperimentKind::shock_pressure:
+    case ExperimentKind::isentrope:
+      if (x <= 0.0) return "the volume or density is not positive";
+      if (std::abs(y) <= rest_pressure) return "at zero pressure, the reference itself";
+      if (y < 0.0) return "P is negative";
+      break;
+    case ExperimentKind::shock_temperature:
+      if (x < 0.0) return "P is negative";
+      [[fallthrough]];
     case ExperimentKind::melting:
       if (y <= 0.0) return "T is not positive";
       break;
@@ -128,37 +200,95 @@ std::string_view fault(ExperimentKind kind, double x, double y) {
   return "";
 }
 
+/// A measured quantity of every row with its standard deviations; no errors: no such column.
+struct Measured {
+  std::vector<double> values, errors;
+};
+Measured measured(const MeasuredTable& table, Quantity quantity) {
+  return {table.numbers(quantity), table.errors(quantity)};
+}
+Measured measured(const Volumes& volumes) {
+  Measured of{volumes.values, volumes.relative_error};
+  for (std::size_t i = 0; i < of.errors.size(); ++i) of.errors[i] *= of.values[i];
+  return of;
+}
+
 /// Takes over the rows that are measurements of a compressed state, by rising abscissa.
-void set_points(Experiment& experiment, const MeasuredTable& table, const std::vector<double>& abscissa,
-                const std::vector<double>& ordinate) {
+/// @param temperatures  of the rows of an isotherm; the other kinds have none
+void set_points(Experiment& experiment, const MeasuredTable& table, const Measured& abscissa,
+                const Measured& ordinate, const std::vector<double>& temperatures = {}) {
   std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < abscissa.size(); ++i) {
-    const std::string_view reason = fault(experiment.kind, abscissa[i], ordinate[i]);
+  for (std::size_t i = 0; i < abscissa.values.size(); ++i) {
+    std::string_view reason = fault(experiment, abscissa.values[i], ordinate.values[i]);
+    if (reason.empty() && !temperatures.empty() && !(temperatures[i] > 0.0)) reason = "T is not positive";
     if (reason.empty()) {
       order.push_back(i);
     } else {
       experiment.left_out[std::string(reason)].push_back(table.line(i));
     }
   }
-  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return abscissa[i]; });
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return abscissa.values[i]; });
+  const auto stated = [](const std::vector<double>& values, std::size_t i, double otherwise) {
+    return values.empty() ? otherwise : values[i];
+  };
   const std::vector<double> density = table.numbers(Quantity::initial_density);
   const std::vector<double> porosity = table.numbers(Quantity::porosity);
-  const bool isotherm = experiment.kind == ExperimentKind::isotherm;
-  const std::vector<double> none;
-  const std::vector<double> pressure_error = isotherm ? table.numbers(Quantity::pressure_error) : none;
-  const std::vector<double> volume_error =
-      isotherm && experiment.ambient_volume > 0.0 ? table.numbers(Quantity::volume_error) : none;
+  experiment.states_errors = !ordinate.errors.empty() || !abscissa.errors.empty();
+  const double no_column = experiment.states_errors ? 0.0 : nan;
   for (const std::size_t i : order) {
-    if (!pressure_error.empty()) experiment.ordinate_error.push_back(pressure_error[i]);
-    if (!volume_error.empty())
-      experiment.abscissa_error.push_back(volume_error[i] / experiment.ambient_volume);
-    experiment.abscissa.push_back(abscissa[i]);
-    experiment.ordinate.push_back(ordinate[i]);
+    experiment.ordinate_error.push_back(stated(ordinate.errors, i, no_column));
+    experiment.abscissa_error.push_back(stated(abscissa.errors, i, no_column));
+    experiment.abscissa.push_back(abscissa.values[i]);
+    experiment.ordinate.push_back(ordinate.values[i]);
     experiment.lines.push_back(table.line(i));
-    experiment.initial_density.push_back(density.empty() ? nan : density[i]);
-    experiment.porosity.push_back(porosity.empty() ? nan : porosity[i]);
+    experiment.initial_density.push_back(stated(density, i, nan));
+    experiment.porosity.push_back(stated(porosity, i, nan));
+    experiment.temperatures.push_back(stated(temperatures, i, nan));
   }
   if (order.empty()) throw InputError(fmt::format("{}: no compressed state in it", experiment.file.string()));
+  for (const std::string& heading : table.unknown_errors()) {
+    experiment.remarks.push_back(
+        fmt::format("column \"{}\" is not used: it is the error of no quantity known here", heading));
+  }
+}
+
+/// Whether P and T without a volume are those of a Hugoniot; else of a melting line. The first mention counts: in the
+/// name, the headings, the comments.
+bool is_shock_temperature(const MeasuredTable& table) {
+  static const std::regex word("(hugoniot|shock temperature)|melt|solidus|liquidus", std::regex::icase);
+  const std::string heading = table.headings();
+  static const std::regex melting_heading("(^|, )Tm($|[^a-z])", std::regex::icase);
+  std::smatch match;
+  const std::string stem = table.file().stem().string();
+  if (std::regex_search(stem, match, word)) return match[1].matched;
+  if (std::regex_search(heading, match, word)) return match[1].matched;
+  if (std::regex_search(heading, melting_heading)) return false;
+  for (const std::string& comment : table.comments()) {
+    if (std::regex_search(comment, match, word)) return match[1].matched;
+  }
+  throw InputError(
+      fmt::format("{}: pressures and temperatures of what? Write \"melting line\" or \"Hugoniot\" into a "
+                  "comment or the name",
+                  table.file().string()));
+}
+
+/// An isotherm, or a table of pressure, volume and temperature.
+void set_isotherm(Experiment& experiment, const MeasuredTable& table, std::optional<double> temperature) {
+  experiment.kind = ExperimentKind::isotherm;
+  const Measured pressure = measured(table, Quantity::pressure);
+  std::vector<double> temperatures = table.numbers(Quantity::temperature);
+  if (temperatures.empty())
+    temperatures.assign(table.rows(), temperature ? *temperature : isotherm_temperature(table));
+  const Volumes volumes = isothermal_volumes(table, pressure.values);
+  experiment.volume = volumes.scale;
+  experiment.ambient_volume = volumes.ambient_volume;
+  if (volumes.scale == VolumeScale::ratio) {
+    experiment.volume_temperature =
+        reference_temperature(table, experiment, volumes, pressure.values, temperatures);
+  }
+  set_points(experiment, table, measured(volumes), pressure, temperatures);
+  const auto [least, most] = std::ranges::minmax(experiment.temperatures);
+  if (least == most) experiment.temperature = least;
 }
 
 /// Us = C + S up + S2 up^2/Us + S3 up^3/Us^2 (Steinberg), up and Us in m/s.
@@ -224,6 +354,9 @@ std::vector<Experiment> shock_fits(const MeasuredTable& table, const Experiment&
       fit.lines.push_back(table.line(row));
       fit.initial_density.push_back(density[row] > 0.0 ? density[row] : nan);
       fit.porosity.push_back(nan);
+      fit.temperatures.push_back(nan);
+      fit.ordinate_error.push_back(nan);
+      fit.abscissa_error.push_back(nan);
     }
     if (!fit.abscissa.empty()) fits.push_back(std::move(fit));
   }
@@ -249,8 +382,8 @@ std::vector<double> measured_quantity(const std::filesystem::path& file, std::st
   if (wanted == Quantity::volume_ratio) {
     if (shocks) return by_row([&](std::size_t i) { return 1 - up[i] / us[i]; });
     if (const auto p = table.find(Quantity::pressure)) {
-      double ambient_volume = 0.0;
-      return volume_ratios(table, table.numbers(*p), ambient_volume);
+      Volumes volumes = relative_volumes(table, table.numbers(*p));
+      if (volumes.scale == VolumeScale::ratio) return volumes.values;
     }
   } else if (wanted == Quantity::pressure) {
     const std::vector<double> rho0 = table.numbers(Quantity::initial_density);
@@ -271,43 +404,43 @@ std::vector<Experiment> read_experiments(const std::filesystem::path& file,
   if (table.find(Quantity::hugoniot_intercept) && table.find(Quantity::hugoniot_slope)) {
     return shock_fits(table, experiment);
   }
-  const auto us = table.find(Quantity::shock_velocity);
-  const auto up = table.find(Quantity::particle_velocity);
-  if (us && up) {
+  const auto has = [&](Quantity quantity) { return table.find(quantity).has_value(); };
+  if (has(Quantity::shock_velocity) && has(Quantity::particle_velocity)) {
     experiment.kind = ExperimentKind::shock_velocity;
-    set_points(experiment, table, table.numbers(*up), table.numbers(*us));
+    set_points(experiment, table, measured(table, Quantity::particle_velocity),
+               measured(table, Quantity::shock_velocity));
     return {experiment};
   }
-  const auto p = table.find(Quantity::pressure);
-  if (!p) {
-    throw InputError(fmt::format(
-        "{}: neither a Hugoniot (columns us_km_s, up_km_s) nor pressures (P_GPa) with volumes, "
-        "melting temperatures (T_K) or bulk sound speeds (c_bulk_km_s), nor fits of shock velocities "
-        "(C_km_s, S); the columns are {}",
-        file.string(), table.headings()));
+  if (!has(Quantity::pressure)) {
+    throw InputError(
+        fmt::format("{}: neither a Hugoniot (columns us_km_s, up_km_s) nor pressures (P_GPa) with volumes, "
+                    "temperatures (T_K) or bulk sound speeds (c_bulk_km_s), nor fits of shock velocities "
+                    "(C_km_s, S); the columns are {}",
+                    file.string(), table.headings()));
   }
-  const std::vector<double> pressure = table.numbers(*p);
-  if (const auto sound = table.find(Quantity::bulk_sound_speed)) {
+  const Measured pressure = measured(table, Quantity::pressure);
+  if (has(Quantity::bulk_sound_speed)) {
     experiment.kind = ExperimentKind::sound_speed;
-    set_points(experiment, table, pressure, table.numbers(*sound));
+    set_points(experiment, table, pressure, measured(table, Quantity::bulk_sound_speed));
     return {experiment};
   }
-  if (const auto melting = table.find(Quantity::temperature); melting && !has_volumes(table)) {
-    experiment.kind = ExperimentKind::melting;
-    set_points(experiment, table, pressure, table.numbers(*melting));
+  if (has(Quantity::temperature) && !has_volumes(table)) {
+    experiment.kind =
+        is_shock_temperature(table) ? ExperimentKind::shock_temperature : ExperimentKind::melting;
+    set_points(experiment, table, pressure, measured(table, Quantity::temperature));
     return {experiment};
   }
-  const std::vector<double> ratios = volume_ratios(table, pressure, experiment.ambient_volume);
   // An isentrope's comments may well speak of the Hugoniot.
-  if (says(table, "isentrop")) {
-    experiment.kind = ExperimentKind::isentrope;
-  } else if (says(table, "hugoniot")) {
-    experiment.kind = ExperimentKind::shock_pressure;
-  } else {
-    experiment.kind = ExperimentKind::isotherm;
-    experiment.temperature = temperature ? *temperature : isotherm_temperature(table);
+  const bool along_isentrope = says(table, "isentrop");
+  if (!along_isentrope && !says(table, "hugoniot")) {
+    set_isotherm(experiment, table, temperature);
+    return {experiment};
   }
-  set_points(experiment, table, ratios, pressure);
+  experiment.kind = along_isentrope ? ExperimentKind::isentrope : ExperimentKind::shock_pressure;
+  const Volumes volumes = relative_volumes(table, pressure.values);
+  experiment.volume = volumes.scale;
+  experiment.ambient_volume = volumes.ambient_volume;
+  set_points(experiment, table, measured(volumes), pressure);
   return {experiment};
 }
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <limits>
 #include <span>
 #include <sstream>
@@ -46,8 +47,6 @@ constexpr std::array spellings = {
     Spelling{Quantity::bulk_sound_speed,
              "m/s",
              {"cb", "cbulk", "bulksoundspeed", "bulksoundvelocity", "soundspeed"}},
-    Spelling{Quantity::pressure_error, "Pa", {"perr", "perror"}},
-    Spelling{Quantity::volume_error, "m^3", {"atomicvolumeerr", "atomicvolumeerror"}},
 };
 
 /// The line of a quantity above.
@@ -100,6 +99,21 @@ bool read_number(std::string_view cell, double& value) {
   if (cell.front() == '+') cell.remove_prefix(1);
   const auto [rest, status] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   return status == std::errc() && rest == cell.data() + cell.size();
+}
+
+constexpr std::string_view percent = "%";
+
+/// The quantity of which a heading gives the error: "us" of "us_err", "sigma_us" and "dus"; both as `plain` leaves
+/// them. Empty: it is no error.
+std::string_view subject_of_error(std::string_view heading) {
+  for (const std::string_view end : {"err", "error", "uncertainty", "unc", "sigma", "std", "sd"}) {
+    if (heading.size() > end.size() && heading.ends_with(end))
+      return heading.substr(0, heading.size() - end.size());
+  }
+  for (const std::string_view start : {"sigma", "error", "err", "delta", "\u03c3", "\u03b4", "\u0394", "d"}) {
+    if (heading.size() > start.size() && heading.starts_with(start)) return heading.substr(start.size());
+  }
+  return "";
 }
 
 char separator_of(const std::string& headings) {
@@ -185,43 +199,51 @@ MeasuredTable MeasuredTable::read(const std::filesystem::path& file) {
 }
 
 MeasuredTable::Column MeasuredTable::understand(const std::string& heading, int line) const {
-  Column column{heading, std::nullopt, 0, std::nullopt};
-  const auto spelt = [](std::string_view text, const Spelling& known) -> std::optional<std::size_t> {
-    const std::string bare = plain(text);
-    const auto found = std::ranges::find(known.words, bare);
-    if (!bare.empty() && found != known.words.end()) {
+  struct Spelt {
+    std::size_t spelling;
+    bool is_error;
+  };
+  const auto spelt = [](std::string_view text, const Spelling& known) -> std::optional<Spelt> {
+    const auto place = [&](std::string_view bare) -> std::optional<std::size_t> {
+      const auto found = std::ranges::find(known.words, bare);
+      if (bare.empty() || found == known.words.end()) return std::nullopt;
       return static_cast<std::size_t>(found - known.words.begin());
-    }
+    };
+    const std::string bare = plain(text);
+    if (const auto found = place(bare)) return Spelt{*found, false};
+    const std::string_view subject = subject_of_error(bare);
+    if (const auto found = place(subject)) return Spelt{*found, true};
     const bool scale =
         known.quantity == Quantity::pressure && (text.starts_with("P_") || text.starts_with("p_"));
-    if (scale && plain(text).find("err") == std::string::npos) return other_scale;
+    if (scale) return Spelt{other_scale, !subject.empty()};
     return std::nullopt;
   };
-  const auto take = [&](const Spelling& known, std::size_t spelling, std::optional<std::string> unit) {
-    column.quantity = known.quantity;
-    column.spelling = spelling;
-    column.unit = std::move(unit);
-    return column;
+  const auto fits_column = [](std::string_view unit, const Spelling& known, const Spelt& found) {
+    return fits(unit, known.si_unit) || (found.is_error && unit == percent);
   };
+  const auto column = [&](const Spelling& known, const Spelt& found, std::optional<std::string> unit) {
+    return Column{heading, known.quantity, found.spelling, found.is_error, std::move(unit)};
+  };
+  const Column unknown{heading, std::nullopt, 0, false, std::nullopt};
   const std::size_t bracket = heading.find_first_of("[(");
   if (bracket != std::string::npos && (heading.back() == ']' || heading.back() == ')')) {
     const std::string name = trimmed(heading.substr(0, bracket));
     const std::string unit = unit_text(heading.substr(bracket + 1, heading.size() - bracket - 2));
     for (const Spelling& known : spellings) {
-      const auto spelling = spelt(name, known);
-      if (!spelling) continue;
-      if (fits(unit, known.si_unit)) return take(known, *spelling, unit);
-      if (plain(name).size() > 1) {
+      const auto found = spelt(name, known);
+      if (!found) continue;
+      if (fits_column(unit, known, *found)) return column(known, *found, unit);
+      if (plain(name).size() > 1 && !found->is_error) {
         throw InputError(fmt::format("{}:{}: column '{}': '{}' is no unit of the kind '{}'", file_.string(),
                                      line, heading, unit, known.si_unit));
       }
     }
-    return column;
+    return unknown;
   }
   for (const Spelling& known : spellings) {
-    if (const auto spelling = spelt(heading, known); spelling && *spelling != other_scale) {
-      return take(known, *spelling, known.si_unit.empty() ? std::optional<std::string>("") : std::nullopt);
-    }
+    const auto found = spelt(heading, known);
+    if (found && found->spelling != other_scale)
+      return column(known, *found, known.si_unit.empty() ? std::optional<std::string>("") : std::nullopt);
   }
   // "up_km_s": the shortest ending that is a unit, so that P_revised_ruby_GPa is a P_revised_ruby.
   for (const Spelling& known : spellings) {
@@ -230,13 +252,13 @@ MeasuredTable::Column MeasuredTable::understand(const std::string& heading, int 
       std::string unit = heading.substr(at + 1);
       std::ranges::replace(unit, '_', '/');
       unit = unit_text(unit);
-      const auto spelling = spelt(heading.substr(0, at), known);
-      if (spelling && !unit.empty() && !known.si_unit.empty() && fits(unit, known.si_unit)) {
-        return take(known, *spelling, unit);
-      }
+      const auto found = spelt(heading.substr(0, at), known);
+      const bool needs_one = !known.si_unit.empty() || (found && found->is_error);
+      if (found && !unit.empty() && needs_one && fits_column(unit, known, *found))
+        return column(known, *found, unit);
     }
   }
-  return column;
+  return unknown;
 }
 
 bool MeasuredTable::take_units(const std::vector<std::string>& cells) {
@@ -251,7 +273,7 @@ bool MeasuredTable::take_units(const std::vector<std::string>& cells) {
     Column& column = with_units[i];
     if (!column.quantity) continue;
     const Spelling& known = spelling_of(*column.quantity);
-    if (!fits(unit_text(unit), known.si_unit)) return false;
+    if (!fits(unit_text(unit), known.si_unit) && !(column.is_error && unit == percent)) return false;
     column.unit = unit_text(unit);
     any = true;
   }
@@ -260,7 +282,8 @@ bool MeasuredTable::take_units(const std::vector<std::string>& cells) {
 }
 
 std::optional<Quantity> MeasuredTable::quantity_of(const std::string& heading) {
-  return MeasuredTable().understand(heading, 0).quantity;
+  const Column column = MeasuredTable().understand(heading, 0);
+  return column.is_error ? std::nullopt : column.quantity;
 }
 
 std::string MeasuredTable::headings() const {
@@ -272,7 +295,7 @@ std::string MeasuredTable::headings() const {
 std::optional<std::size_t> MeasuredTable::find(Quantity quantity) const {
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < columns_.size(); ++i) {
-    if (columns_[i].quantity != quantity) continue;
+    if (columns_[i].quantity != quantity || columns_[i].is_error) continue;
     if (!best || columns_[i].spelling < columns_[*best].spelling) best = i;
   }
   return best;
@@ -294,7 +317,12 @@ std::vector<double> MeasuredTable::numbers(std::size_t index) const {
           fmt::format("{}: column '{}' gives no unit: write \"{} [{}]\", with the unit of the file",
                       file_.string(), column.heading, column.heading, known.si_unit));
     }
-    conversion = units::conversion(*column.unit, known.si_unit);
+    if (*column.unit == percent) {
+      conversion.factor = 0.01;  // of the quantity, see errors()
+    } else {
+      conversion = units::conversion(*column.unit, known.si_unit);
+    }
+    if (column.is_error) conversion.offset = 0.0;  // one of 5 degC is of 5 K
   }
   std::vector<double> values(rows());
   for (std::size_t row = 0; row < rows(); ++row) {
@@ -312,6 +340,32 @@ std::vector<double> MeasuredTable::numbers(std::size_t index) const {
 std::vector<double> MeasuredTable::numbers(Quantity quantity) const {
   const auto column = find(quantity);
   return column ? numbers(*column) : std::vector<double>();
+}
+
+std::vector<double> MeasuredTable::errors(Quantity quantity) const {
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    if (columns_[i].quantity != quantity || !columns_[i].is_error) continue;
+    std::vector<double> values = numbers(i);
+    if (columns_[i].unit != percent) return values;
+    const std::vector<double> whole = numbers(quantity);
+    for (std::size_t row = 0; row < values.size(); ++row) {
+      values[row] *= whole.empty() ? std::numeric_limits<double>::quiet_NaN() : std::abs(whole[row]);
+    }
+    return values;
+  }
+  return {};
+}
+
+std::vector<std::string> MeasuredTable::unknown_errors() const {
+  std::vector<std::string> found;
+  for (const Column& column : columns_) {
+    const std::string bare = plain(column.heading);
+    const bool of_error =
+        std::ranges::any_of(std::array{"err", "sigma", "uncert", "\u00b1"},
+                            [&](const char* word) { return bare.find(word) != std::string::npos; });
+    if (!column.quantity && of_error) found.push_back(column.heading);
+  }
+  return found;
 }
 
 std::vector<std::string> MeasuredTable::texts(std::size_t column) const {

@@ -28,8 +28,6 @@ enum class Quantity {
   hugoniot_quadratic,  ///< S2
   hugoniot_cubic,      ///< S3
   bulk_sound_speed,    ///< [(dP/drho)_S]^(1/2), m/s
-  pressure_error,      ///< of P, one standard deviation, Pa
-  volume_error,        ///< of the atomic volume, m^3 per atom
 };
 
 /// A text table of measurements, as people and programs write them (docs/manual/equations_of_state.md,
@@ -61,6 +59,11 @@ class MeasuredTable {
   [[nodiscard]] std::vector<double> numbers(std::size_t column) const;
   /// The numbers of a quantity; empty without such a column.
   [[nodiscard]] std::vector<double> numbers(Quantity quantity) const;
+  /// One standard deviation of a quantity in every row, SI: a column "us_err", "sigma_us", "dus" or "us_unc" in a unit
+  /// of the quantity or in "%" of it; empty without such a column.
+  [[nodiscard]] std::vector<double> errors(Quantity quantity) const;
+  /// Headings of errors that belong to no quantity known here.
+  [[nodiscard]] std::vector<std::string> unknown_errors() const;
   [[nodiscard]] std::vector<std::string> texts(std::size_t column) const;
 
  private:
@@ -68,6 +71,7 @@ class MeasuredTable {
     std::string heading;
     std::optional<Quantity> quantity;
     std::size_t spelling = 0;  ///< place among its spellings, the best first
+    bool is_error = false;     ///< the standard deviation of the quantity
     std::optional<std::string> unit;
   };
   [[nodiscard]] Column understand(const std::string& heading, int line) const;

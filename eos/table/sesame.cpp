@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "src/core/base/error.hpp"
+#include "src/core/base/log.hpp"
 
 namespace whipple::eos {
 namespace {
@@ -14,6 +15,10 @@ namespace {
 constexpr std::string_view density_bound = "density outside the table";
 constexpr std::string_view energy_bound = "specific internal energy above the table";
 constexpr std::string_view number_bound = "density and specific internal energy must be finite";
+
+/// Limits of what is cured of a table whose energy does not rise with the temperature (`raise_energies`).
+constexpr double most_raised = 0.01;     // of the steps
+constexpr double greatest_raise = 0.02;  // of the temperature
 
 /// Limits the pressure of the reference state over rho c^2; beyond, the material is a gas.
 constexpr double greatest_condensed_pressure = 0.1;
@@ -71,7 +76,7 @@ Sesame::Sesame(const SesameMaterial& material, double reference_temperature, std
       temperature_(material.total.temperature),
       reference_density_(material.reference_density),
       reference_temperature_(reference_temperature) {
-  const SesameGrid& grid = material.total;
+  SesameGrid grid = material.total;
   const std::size_t nr = density_.size(), nt = temperature_.size();
   const auto refuse = [&](const std::string& what) {
     throw InputError(fmt::format("{}: material {}: {}", origin_, number_, what));
@@ -79,6 +84,21 @@ Sesame::Sesame(const SesameMaterial& material, double reference_temperature, std
   if (nr < 2 || nt < 2 || grid.pressure.size() != nr * nt || grid.energy.size() != nr * nt ||
       (!grid.helmholtz.empty() && grid.helmholtz.size() != nr * nt)) {
     refuse("table 301 needs two densities and temperatures at least, and one value for each pair");
+  }
+  const EnergyRepair repair = raise_energies(grid);
+  if (repair.raised > 0) {
+    const std::string what = fmt::format(
+        "the energy does not rise with the temperature in {} of {} steps; the largest raise that cures it is "
+        "that of "
+        "{:.3g} K, at {:.6g} kg/m^3 and {:.6g} K",
+        repair.raised, repair.steps, repair.largest, repair.density, repair.temperature);
+    if (static_cast<double>(repair.raised) > most_raised * static_cast<double>(repair.steps) ||
+        repair.fraction > greatest_raise) {
+      refuse(
+          fmt::format("{}: more than {:g} % of the steps, or than {:g} % of the temperature, are not cured",
+                      what, 100 * most_raised, 100 * greatest_raise));
+    }
+    log::warning("{}: material {}: {}: raised", origin_, number_, what);
   }
   for (std::size_t j = 1; j < nt; ++j) {
     for (std::size_t i = 0; i < nr; ++i) {
@@ -121,7 +141,7 @@ Sesame::Sesame(const SesameMaterial& material, double reference_temperature, std
     for (std::size_t j = 0; j < nt; ++j) {
       std::vector<double> s(nr, 0.0);  // of T = 0: third law
       for (std::size_t i = 0; i < nr && temperature_[j] > 0; ++i)
-        s[i] = (grid.energy[j * nr + i] - grid.helmholtz[j * nr + i]) / temperature_[j];
+        s[i] = (material.total.energy[j * nr + i] - grid.helmholtz[j * nr + i]) / temperature_[j];
       add_row(entropies_, j, s, monotone_slopes(density_, s));
     }
   }

@@ -25,8 +25,9 @@ class Sesame final : public EquationOfState {
 
   /// @param reference_temperature K; with the reference density of table 201 the reference state
   /// @param origin what messages call the table, usually its file
-  /// @throws InputError naming origin, density and temperatures if the energy does not rise with the
-  /// temperature, or if the reference state lies outside
+  /// Energies of a few steps that do not rise with the temperature are raised, with a warning that counts them.
+  /// @throws InputError naming origin, density and temperatures if more than a hundredth of the steps do not rise, or
+  /// one needs a raise of more than the heat of 2 % of its temperature, or if the reference state lies outside
   Sesame(const SesameMaterial& material, double reference_temperature, std::string origin);
 
   [[nodiscard]] double minimum_density() const { return density_.front(); }

@@ -14,6 +14,7 @@ namespace {
 constexpr double thin_ratio = 1.25, middle_ratio = 1.01, dense_ratio = 1.05, temperature_ratio = 1.05;
 constexpr double default_thinness = 1e-4;     ///< least density over the reference density
 constexpr double default_compression = 10;    ///< greatest over the reference density
+constexpr double below_the_limit = 1 - 1e-9;  ///< a model whose pressure has a pole ends below its limit
 constexpr double coldest_saturation = 100.0;  ///< Pa: colder rows of the dome are left out
 constexpr double least_rise = 1e-6;           ///< of the energy from one temperature to the next
 
@@ -55,6 +56,37 @@ SesameVaporisation vaporisation_of(const VapourDome& dome) {
 
 }  // namespace
 
+EnergyRepair raise_energies(SesameGrid& grid) {
+  constexpr double least_heat_capacity = 1e-3;  // of the mean one
+  const std::size_t nr = grid.density.size(), nt = grid.temperature.size();
+  EnergyRepair repair;
+  repair.steps = nr * (nt - 1);
+  for (std::size_t i = 0; i < nr; ++i) {
+    const double range = grid.temperature.back() - grid.temperature.front();
+    const double mean = (grid.energy[(nt - 1) * nr + i] - grid.energy[i]) / range;
+    if (!(mean > 0)) continue;  // refused by the reader
+    for (std::size_t j = 1; j < nt; ++j) {
+      const double low = grid.energy[(j - 1) * nr + i];
+      double& high = grid.energy[j * nr + i];
+      if (high > low) continue;
+      // A rise below the digits of the energy is none.
+      const double least =
+          std::max(least_heat_capacity * mean * (grid.temperature[j] - grid.temperature[j - 1]),
+                   1e-14 * std::abs(low));
+      const double raise = low + least - high;
+      high = low + least;
+      ++repair.raised;
+      if (raise / mean / grid.temperature[j] > repair.fraction) {
+        repair.largest = raise / mean;
+        repair.fraction = raise / mean / grid.temperature[j];
+        repair.density = grid.density[i];
+        repair.temperature = grid.temperature[j];
+      }
+    }
+  }
+  return repair;
+}
+
 SesameMaterial sesame_of(const EquationOfState& eos, const SesameRequest& request) {
   if (eos.initial_distension() != 1.0) {
     throw InputError(
@@ -65,7 +97,7 @@ SesameMaterial sesame_of(const EquationOfState& eos, const SesameRequest& reques
   const double thinnest = request.minimum_density > 0 ? request.minimum_density : default_thinness * rho0;
   const double densest = request.maximum_density > 0
                              ? request.maximum_density
-                             : std::min(eos.maximum_density(), default_compression * rho0);
+                             : std::min(below_the_limit * eos.maximum_density(), default_compression * rho0);
   const double coldest = request.least_temperature, hottest = request.greatest_temperature;
   if (!(thinnest > 0 && thinnest < densest) || !(coldest > 0 && coldest < hottest)) {
     throw InputError(

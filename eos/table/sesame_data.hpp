@@ -19,6 +19,18 @@ struct SesameGrid {
   std::vector<double> helmholtz;    ///< J/kg; empty: not in the table
 };
 
+/// What `raise_energies` did to a table.
+struct EnergyRepair {
+  std::size_t steps = 0, raised = 0;  ///< steps from one temperature to the next; energies that were raised
+  double largest = 0;  ///< raise, as a temperature: over the mean heat capacity of the isochore (K)
+  double density = 0, temperature = 0;  ///< where that was
+  double fraction = 0;                  ///< largest raise over its temperature
+};
+
+/// Raises energies that do not rise with the temperature, as tables have them from phase changes and from round-off in
+/// the cold, to the least rise: a thousandth of the mean heat capacity of the isochore.
+EnergyRepair raise_energies(SesameGrid& grid);
+
 /// Table 401, liquid and vapour in equilibrium; one entry per temperature.
 struct SesameVaporisation {
   std::vector<double> pressure;                            ///< Pa

@@ -41,12 +41,17 @@ double as_written(double value, const std::string& si_unit) {
 
 double electronic_coefficient(const ElementDefaults& table, const std::string& choice, Sources& sources) {
   std::vector<std::string> names;
-  for (const NamedDefault& entry : table.electronic) {
-    if (choice.empty() || entry.name == choice) {
-      sources.by_default(entry);
-      return entry.value;
+  if (choice.empty()) {
+    const NamedDefault& entry = table.at("electronic_heat_coefficient");
+    sources.by_default(entry);
+    return entry.value;
+  }
+  for (const NamedDefault* entry : table.choices("electronic_heat_coefficient")) {
+    if (entry->name == choice) {
+      sources.by_default(*entry);
+      return entry->value;
     }
-    names.emplace_back(entry.name);
+    names.push_back(entry->name);
   }
   try {
     const double value = units::parse_quantity(choice, "J/(mol K^2)");

@@ -5,11 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "md_fitting/fit/element_defaults.hpp"
+#include "md_fitting/elements/element_defaults.hpp"
 #include "md_fitting/fit/fit_result.hpp"
 #include "src/core/base/parameter_table.hpp"
 
 namespace whipple::fit {
+
+using elements::ElementDefaults;
+using elements::NamedDefault;
 
 /// Where the constants that are not fitted come from, by name.
 struct Sources {
@@ -27,8 +30,8 @@ struct Sources {
     entries[name] = {Origin::given, text, Evidence::measured};
   }
   void by_default(const NamedDefault& entry) {
-    entries[std::string(entry.parameter)] = {Origin::by_default, named(entry), entry.evidence, entry.error,
-                                             std::string(entry.error_source)};
+    entries[entry.parameter] = {Origin::by_default, named(entry), entry.evidence, entry.error,
+                                entry.error_source};
   }
   static std::string named(const NamedDefault& entry);
 };

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <map>
 #include <optional>
@@ -25,6 +26,7 @@
 #include "src/core/base/error.hpp"
 #include "src/core/base/error_tier.hpp"
 #include "src/core/base/files.hpp"
+#include "src/core/base/log.hpp"
 #include "src/core/base/option_quantity.hpp"
 #include "src/core/base/words.hpp"
 #include "src/core/process/scripts.hpp"
@@ -38,6 +40,7 @@ struct Options {
   std::string model = "gray";
   std::string density;
   std::string electrons;
+  std::string defaults;
   int bootstrap = 0;
   int samples = 0;
   std::uint64_t seed = 1;
@@ -75,6 +78,7 @@ FitSettings settings(const Options& options) {
   }
   settings.melting = value_of<eos::MeltingTransition>(options.melting).value();
   settings.electrons = options.electrons;
+  if (!options.defaults.empty()) settings.defaults = options.defaults;
   settings.bootstrap = options.bootstrap;
   settings.nuclei = value_of<Nuclei>(options.nuclei).value();
   settings.structure = value_of<ErrorStructure>(options.discrepancy).value();
@@ -98,6 +102,21 @@ std::string stem(const std::filesystem::path& store) {
     if (name.ends_with(ending)) return name.substr(0, name.size() - ending.size());
   }
   return name;
+}
+
+/// @throws InputError for a file that is no store of points, such as a potential
+void require_store(const std::filesystem::path& file) {
+  constexpr std::string_view signature = "\x89HDF";
+  if (!std::filesystem::is_regular_file(file)) return;  // the reader says so
+  std::ifstream stream(file, std::ios::binary);
+  std::string begin(signature.size(), '\0');
+  stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  if (stream && begin != signature) {
+    throw InputError(
+        fmt::format("{} is no store of points (NAME.md.h5): simulate first, whipple md PLAN.toml, where the "
+                    "plan names the potential",
+                    file.string()));
+  }
 }
 
 /// One material file per store: as many -o as stores, or one -o that is a folder (it exists, or ends with
@@ -131,7 +150,8 @@ std::vector<std::filesystem::path> material_files(const Options& options) {
 }
 
 /// An ensemble beside the material NAME.toml: NAME_samples/NAME_1.toml, ...
-void write_samples(const Fit& fit, const StoreOrigin& origin, const std::filesystem::path& template_file,
+void write_samples(const Fit& fit, const StoreOrigin& origin,
+                   const std::optional<std::filesystem::path>& template_file,
                    const std::filesystem::path& material, const std::optional<PotentialSpread>& spread,
                    const Options& options) {
   const FitSamples samples =
@@ -231,6 +251,7 @@ void run(const Options& options) {
   if (options.samples > 0 && files.empty()) throw InputError("--samples: name the material with -o");
   for (std::size_t i = 0; i < options.stores.size(); ++i) {
     const std::filesystem::path& store = options.stores[i];
+    require_store(store);
     const std::vector<md::PointRecord> points = md::read_store(store);
     fits.push_back({stem(store), fit_model(model_of(options.model), points, chosen, store.string())});
     origins.push_back(store_origin(store, points));
@@ -238,9 +259,19 @@ void run(const Options& options) {
   const std::map<std::string, PotentialSpread> spreads = spreads_of(fits, origins);
   for (std::size_t i = 0; i < files.size(); ++i) {
     const Fit& fit = fits[i].fit;
-    const std::filesystem::path model = options.template_file.empty()
-                                            ? default_template(fit.element)
-                                            : std::filesystem::path(options.template_file);
+    std::optional<std::filesystem::path> model;
+    if (options.template_file.empty()) {
+      const auto table = elements::element_defaults(fit.element, fit.settings.defaults);
+      model = default_template(table);
+      if (!model) {
+        log::warning(
+            "{}: without strength and failure, a fluid: the library has no material of {} to take them from; "
+            "--template FILE names one",
+            files[i].string(), table.metal);
+      }
+    } else {
+      model = options.template_file;
+    }
     const auto found = spreads.find(fit.element);
     const std::optional<PotentialSpread> spread =
         found == spreads.end() ? std::nullopt : std::optional(found->second);
@@ -293,6 +324,9 @@ int main_program(int argc, char** argv) {
       "Their heat coefficient g_el, which simulations do not contain: a choice of the element's table "
       "(measured, none, for copper liu2013), or a quantity such as \"0.69 mJ/(mol K^2)\" (default: the "
       "first of the table)");
+  app.add_option("--defaults", options.defaults,
+                 "Constants of elements that the program does not know, or better ones, FILE.toml "
+                 "(whipple describe element)");
   app.add_option("--bootstrap", options.bootstrap,
                  "Errors from so many replicates of the store, drawn from the blocks of its points")
       ->check(CLI::Range(2, 100000));

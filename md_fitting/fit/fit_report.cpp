@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "md_fitting/fit/constant_list.hpp"
-#include "md_fitting/fit/element_defaults.hpp"
 #include "md_fitting/fit/identifiability.hpp"
+#include "md_fitting/fit/published_rows.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/text_table.hpp"
 

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "md_fitting/elements/element_defaults.hpp"
 #include "md_fitting/fit/bootstrap.hpp"
 #include "md_fitting/fit/cross_validation.hpp"
 #include "md_fitting/fit/fit_settings.hpp"
@@ -19,8 +20,7 @@
 namespace whipple::fit {
 
 enum class Origin { fitted, given, by_default };
-/// What a constant that is not fitted rests on.
-enum class Evidence { chosen, measured };
+using elements::Evidence;
 
 /// One numerical constant of the material.
 struct Constant {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -79,7 +80,8 @@ struct FitSettings {
   WindowChoice windows = WindowChoice::averaged;
   Nuclei nuclei = Nuclei::quantum;
   std::string electrons;  ///< name of a choice of the element's table, or a quantity; empty: the first choice
-  int bootstrap = 0;      ///< replicates; 0: none
+  std::optional<std::filesystem::path> defaults{};  ///< a file of the user with constants of elements
+  int bootstrap = 0;                                ///< replicates; 0: none
   std::optional<double> density;  ///< kg/m^3: replaces the fitted reference volume by a measured one
 };
 

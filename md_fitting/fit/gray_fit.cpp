@@ -9,8 +9,8 @@
 #include <exception>
 #include <stdexcept>
 
+#include "md_fitting/elements/element_defaults.hpp"
 #include "md_fitting/fit/constant_list.hpp"
-#include "md_fitting/fit/element_defaults.hpp"
 #include "md_fitting/fit/model_check.hpp"
 #include "md_fitting/fit/solid_fit.hpp"
 #include "md_fitting/fit/structure_limit.hpp"
@@ -36,7 +36,9 @@ constexpr std::array join_steps = {0.0, -0.05, 0.05, -0.1, 0.1};
 /// @param join_step  from the table's V_J/V0
 SolidConstants fixed_constants(const Observations& data, const FitSettings& settings, double join_step,
                                Sources& sources) {
-  const ElementDefaults& table = element_defaults(data.element);
+  const ElementDefaults table = elements::element_defaults(data.element, settings.defaults);
+  const auto missing = elements::missing_for_gray(table, !data.melting.empty());
+  if (!missing.empty()) throw InputError(elements::missing_text(table.element, missing));
   SolidConstants solid = fixed_solid(data);
   GrayConstants& constants = solid.gray;
   sources.given("molar_mass", "the store");
@@ -45,15 +47,23 @@ SolidConstants fixed_constants(const Observations& data, const FitSettings& sett
   sources.entries["reference_energy"] = {Origin::by_default,
                                          "\"zero\": energies count from the reference state"};
   constants.melting = settings.melting;
-  constants.vapour = table.vapour;
-  for (const NamedDefault& entry : table.constants) {
-    number_of(constants, entry.parameter) = entry.value;
+  const bool boils = table.find("vapour_attraction") == nullptr;
+  constants.vapour = boils ? eos::VapourCondition::boiling : eos::VapourCondition::attraction;
+  for (const char* parameter :
+       {"hugoniot_quadratic", "hugoniot_cubic", "electronic_gruneisen", "melting_entropy",
+        "liquid_heat_coefficient", "hot_liquid_ratio", "covolume_ratio", "join_shape", "join_volume_ratio",
+        boils ? "boiling_temperature" : "vapour_attraction"}) {
+    const NamedDefault& entry = table.at(parameter);
+    number_of(constants, parameter) = entry.value;
     sources.by_default(entry);
   }
   constants.join_volume_ratio += join_step;
   constants.electronic_heat_coefficient = electronic_coefficient(table, settings.electrons, sources);
-  constants.melting_temperature = table.melting_temperature.value;
-  sources.by_default(table.melting_temperature);
+  const NamedDefault* melting = table.find("melting_temperature");
+  if (melting == nullptr && !data.melting.empty()) melting = table.find("melting_point");
+  if (melting == nullptr) melting = &table.at("melting_temperature");
+  constants.melting_temperature = melting->value;
+  sources.by_default(*melting);
   return solid;
 }
 

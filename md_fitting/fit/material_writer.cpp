@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
+#include "md_fitting/elements/element_defaults.hpp"
 #include "md_fitting/fit/constant_list.hpp"
-#include "md_fitting/fit/element_defaults.hpp"
 #include "md_fitting/fit/fit_report.hpp"
 #include "md_fitting/fit/identifiability.hpp"
 #include "src/core/base/error.hpp"
@@ -293,8 +293,9 @@ std::string strength_and_failure(const std::filesystem::path& material) {
   return begin == std::string::npos ? std::string() : text.substr(begin);
 }
 
-std::filesystem::path default_template(const std::string& element) {
-  const std::string file = fmt::format("{}.toml", element_defaults(element).metal);
+std::optional<std::filesystem::path> default_template(const elements::ElementDefaults& table) {
+  if (table.template_name.empty()) return std::nullopt;
+  const std::string file = table.template_name + ".toml";
   std::vector<std::filesystem::path> folders;
   if (const char* variable = std::getenv("WHIPPLE_MATERIALS")) folders.emplace_back(variable);
   folders.push_back(std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() /
@@ -303,6 +304,8 @@ std::filesystem::path default_template(const std::string& element) {
   for (const std::filesystem::path& folder : folders) {
     if (std::filesystem::exists(folder / file)) return folder / file;
   }
+  if (table.template_name == table.metal)
+    return std::nullopt;  // a name for people, no material of the library
   std::vector<std::string> names;
   for (const std::filesystem::path& folder : folders) names.push_back(folder.string());
   throw InputError(
@@ -312,9 +315,9 @@ std::filesystem::path default_template(const std::string& element) {
 }
 
 std::string material_text(const Fit& fit, const StoreOrigin& origin,
-                          const std::filesystem::path& template_file,
+                          const std::optional<std::filesystem::path>& template_file,
                           const std::optional<PotentialSpread>& spread) {
-  const std::string_view metal = element_defaults(fit.element).metal;
+  const std::string metal = elements::element_defaults(fit.element, fit.settings.defaults).metal;
   const bool gray = fit.model == FitModel::gray;
   std::string text = comment_lines(sources_table(fit));
   text += fmt::format("\nname = \"{} ({} fitted to molecular dynamics, {})\"\n", metal,
@@ -322,9 +325,10 @@ std::string material_text(const Fit& fit, const StoreOrigin& origin,
   text += fmt::format("source = {}\n", toml_string(fmt::format("whipple fit of {}; interatomic potential {}",
                                                                origin.name, fit.potential)));
   text +=
-      fmt::format("note = \"solid from molecular dynamics; {} strength and failure as in {}\"\n\n",
-                  gray ? "electrons, liquid and vapour from the named defaults as far as not fitted;" : "",
-                  template_file.filename().string());
+      fmt::format("note = \"solid from molecular dynamics; {}{}\"\n\n",
+                  gray ? "electrons, liquid and vapour from the named defaults as far as not fitted; " : "",
+                  template_file ? "strength and failure as in " + template_file->filename().string()
+                                : "without strength and failure: a fluid");
   text += fmt::format("[eos]\nmodel = \"{}\"\n", name_of(fit.model));
   text +=
       fmt::format("source = {}\n",
@@ -334,7 +338,13 @@ std::string material_text(const Fit& fit, const StoreOrigin& origin,
   for (const Constant& constant : fit.constants) text += constant_line(constant);
   for (const auto& [name, word] : fit.words) text += fmt::format("{} = {}\n", name, toml_string(word));
   text += "\n";
-  text += strength_and_failure(template_file);
+  text +=
+      template_file
+          ? strength_and_failure(*template_file)
+          : fmt::format(
+                "[strength]\nmodel = \"none\"\nnote = \"the library has no material of {} to take strength "
+                "and failure from; whipple fit --template FILE names one\"\n",
+                metal);
   const std::string covariance = covariance_table(fit);
   text += fmt::format("\n{}{}\n{}", covariance.empty() ? covariance : covariance + "\n",
                       provenance_table(fit, origin), defaults_table(fit));

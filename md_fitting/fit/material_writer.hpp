@@ -27,17 +27,17 @@ StoreOrigin store_origin(const std::filesystem::path& store, std::span<const md:
 /// @throws InputError if the file cannot be read
 std::string strength_and_failure(const std::filesystem::path& material);
 
-/// The material file that strength and failure of an element are taken from by default:
-/// eos/materials/METAL.toml of $WHIPPLE_MATERIALS, the installation or the source tree.
-/// @throws InputError if there is none
-std::filesystem::path default_template(const std::string& element);
+/// The material file that strength and failure of an element are taken from by default: that of its table, in
+/// $WHIPPLE_MATERIALS, the installation or the source tree. Elements without one have materials without strength.
+/// @throws InputError if the file that the table names is missing
+std::optional<std::filesystem::path> default_template(const elements::ElementDefaults& table);
 
 /// Text of the complete material file: [eos] with every constant in practical units, its error or the name of
 /// its default beside it; [covariance] with the correlations; [provenance]; [defaults]; [strength] and
 /// [[failure]] of the template.
 /// @param spread  over the potentials of the element: the table [potential_spread]
 std::string material_text(const Fit& fit, const StoreOrigin& origin,
-                          const std::filesystem::path& template_file,
+                          const std::optional<std::filesystem::path>& template_file,
                           const std::optional<PotentialSpread>& spread = std::nullopt);
 
 /// Writes a file as a whole (temporary name, then renamed).

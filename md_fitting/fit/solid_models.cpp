@@ -11,8 +11,8 @@
 #include "eos/model_equation_of_state.hpp"
 #include "eos/models/debye_gruneisen.hpp"
 #include "eos/models/mie_gruneisen.hpp"
+#include "md_fitting/elements/element_defaults.hpp"
 #include "md_fitting/fit/constant_list.hpp"
-#include "md_fitting/fit/element_defaults.hpp"
 #include "md_fitting/fit/model_check.hpp"
 #include "md_fitting/fit/solid_fit.hpp"
 #include "md_fitting/fit/structure_limit.hpp"
@@ -82,14 +82,23 @@ void replace_density(Fit& fit, double& density, Sources& sources) {
   fit.fitted_names.erase(place);
 }
 
+/// Melting temperature on the isochore V0 above which simulated solids are left out as superheated; where none is
+/// known, no solid is.
+double superheating_limit(const ElementDefaults& table) {
+  constexpr double unlimited = 1e6;  // K
+  const NamedDefault* melting = table.find("melting_temperature");
+  return melting == nullptr ? unlimited : melting->value;
+}
+
 }  // namespace
 
 Fit fit_mie_gruneisen(std::span<const md::PointRecord> points, const FitSettings& settings,
                       const std::string& store_name) {
   Observations data = observe(points, settings, {}, store_name);
-  const ElementDefaults& table = element_defaults(data.element);
+  const std::string element = data.element;
+  const ElementDefaults table = elements::element_defaults(element, settings.defaults);
   SolidConstants start = fixed_solid(data);
-  start.gray.melting_temperature = table.melting_temperature.value;  // superheated states are left out
+  start.gray.melting_temperature = superheating_limit(table);
   SolidModel model;
   model.free = {Place::volume,    Place::intercept,       Place::slope,
                 Place::gruneisen, Place::gruneisen_slope, Place::heat_capacity};
@@ -132,6 +141,12 @@ Fit fit_mie_gruneisen(std::span<const md::PointRecord> points, const FitSettings
   list_constants(fit, whipple::bind(eos::MieGruneisenCurve::parameters(), constants), sources);
   fit.remarks.emplace_back(
       "the model has one heat capacity for nuclei and electrons: the fitted one is that of classical nuclei");
+  if (table.find("melting_temperature") == nullptr) {
+    fit.remarks.push_back(
+        fmt::format("no melting temperature of {} is known: superheated states count as solid (--defaults "
+                    "FILE names one)",
+                    element));
+  }
   return fit;
 }
 
@@ -150,9 +165,9 @@ Fit fit_debye_gruneisen(std::span<const md::PointRecord> points, const FitSettin
                         const std::string& store_name) {
   const Needs needs{.hugoniot = false, .isotherm = true};
   Observations data = observe(points, settings, needs, store_name);
-  const ElementDefaults& table = element_defaults(data.element);
+  const ElementDefaults table = elements::element_defaults(data.element, settings.defaults);
   SolidConstants start = fixed_solid(data);
-  start.gray.melting_temperature = table.melting_temperature.value;
+  start.gray.melting_temperature = table.at("melting_temperature").value;
   SolidModel model;
   model.free = {Place::volume, Place::bulk_modulus, Place::bulk_modulus_slope, Place::gruneisen,
                 Place::gruneisen_slope};
@@ -186,7 +201,7 @@ Fit fit_debye_gruneisen(std::span<const md::PointRecord> points, const FitSettin
   constants.reference_temperature = settings.reference_temperature;
   sources.given("reference_temperature", "temperature of the fitted isotherm");
   constants.melting_temperature = solid.constants.gray.melting_temperature;
-  if (!melts) sources.by_default(table.melting_temperature);
+  if (!melts) sources.by_default(table.at("melting_temperature"));
   const std::vector<ElasticState>& elastic = solid.data.elastic;
   const std::vector<QuantumState>& quantum = solid.data.quantum;
   const bool quantum_nuclei = solid.data.nuclei.contained;
@@ -198,8 +213,8 @@ Fit fit_debye_gruneisen(std::span<const md::PointRecord> points, const FitSettin
         "debye_temperature",
         fmt::format("second moment of the vibrations of the crystal at V/V0 = {:.3f}", near.volume / v0));
   } else if (elastic.empty()) {
-    constants.debye_temperature = table.debye_temperature.value;
-    sources.by_default(table.debye_temperature);
+    constants.debye_temperature = table.at("debye_temperature").value;
+    sources.by_default(table.at("debye_temperature"));
   } else {
     const ElasticState& near = *std::min_element(
         elastic.begin(), elastic.end(),

@@ -26,6 +26,11 @@ auto refusal(Kind& result) {
 
 /// @throws InputError if states are those of another material
 void require_same(const Material& material, const States& states) {
+  if (states.restored) {
+    throw InputError(
+        "the start is a state from a pickle, which belongs to no material: compute it again, "
+        "material.states(density=s.density, energy=s.energy)");
+  }
   if (states.eos != material.eos) {
     throw InputError(
         fmt::format("the start is a state of another equation of state than that of '{}'", material.name));
@@ -330,19 +335,33 @@ void add_results(py::module_& module) {
   py::enum_<ExperimentKind>(module, "ExperimentKind", "The two measured quantities of an experiment.")
       .value("shock_velocity", ExperimentKind::shock_velocity, "Us (m/s) over up (m/s).")
       .value("shock_pressure", ExperimentKind::shock_pressure, "Shock pressure (Pa) over V/V0.")
-      .value("isotherm", ExperimentKind::isotherm, "Pressure (Pa) over V/V0 at constant temperature.")
+      .value("isotherm", ExperimentKind::isotherm,
+             "Pressure (Pa) over V/V0 or density at the temperature of each point.")
       .value("melting", ExperimentKind::melting, "Melting temperature (K) over pressure (Pa).")
       .value("isentrope", ExperimentKind::isentrope, "Pressure (Pa) over V/V0 along the principal isentrope.")
       .value("sound_speed", ExperimentKind::sound_speed,
-             "Bulk sound speed (m/s) over pressure (Pa) behind shocks.");
+             "Bulk sound speed (m/s) over pressure (Pa) behind shocks.")
+      .value("shock_temperature", ExperimentKind::shock_temperature,
+             "Temperature (K) over pressure (Pa) behind shocks.");
   py::class_<Experiment>(module, "Measurements", "Measured points of a text table, in SI units.")
       .def_readonly("name", &Experiment::name, "Name of the data set.")
       .def_readonly("source", &Experiment::source, "Source of the data set.")
       .def_readonly("kind", &Experiment::kind, "Which quantities were measured.")
-      .def_readonly("temperature", &Experiment::temperature, "Temperature of an isotherm, K.")
+      .def_readonly("temperature", &Experiment::temperature,
+                    "Temperature of an isotherm, K; NaN where its points have several.")
+      .def_property_readonly(
+          "temperatures", [](const Experiment& e) { return list_of(e.temperatures); },
+          "Temperature of each point of an isotherm, K.")
+      .def_property_readonly(
+          "is_density",
+          [](const Experiment& e) { return e.volume == eos::experiments::VolumeScale::density; },
+          "Whether pressures are given over density instead of V/V0.")
+      .def_property_readonly(
+          "errors", [](const Experiment& e) { return list_of(e.ordinate_error); },
+          "One standard deviation of each measured value; NaN: not stated.")
       .def_property_readonly(
           "abscissa", [](const Experiment& e) { return list_of(e.abscissa); },
-          "Measured up (m/s), V/V0 or pressure (Pa).")
+          "Measured up (m/s), V/V0, density (kg/m^3) or pressure (Pa).")
       .def_property_readonly(
           "measured", [](const Experiment& e) { return list_of(e.ordinate); },
           "Measured Us (m/s), pressure (Pa) or temperature (K).")

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/ranges.h>
+
 #include "eos/audit.hpp"
 #include "eos/curves/queries.hpp"
 #include "eos/files/table_file.hpp"
 #include "eos/table/builder.hpp"
 #include "python/eos/bindings.hpp"
+#include "python/eos/pickling.hpp"
 #include "python/eos/states.hpp"
 #include "src/core/base/log.hpp"
 #include "src/material/material_file.hpp"
@@ -29,6 +32,13 @@ struct Evaluation {
     return {&pressure, &temperature, &sound_speed, &melted_fraction, &vaporised_fraction};
   }
 };
+
+/// A copy with arrays of its own.
+Evaluation copy_of(const Evaluation& evaluation) {
+  Evaluation copy = evaluation;
+  for (Numbers* column : copy.columns()) *column = Numbers(column->attr("copy")());
+  return copy;
+}
 
 /// Evaluates points one by one where some of a batch have no state, and makes those NaN.
 void skip_points_out_of_range(const eos::EquationOfState& eos, const eos::Batch& batch) {
@@ -120,11 +130,37 @@ py::dict sources(const Material& material) {
 
 States reference(const Material& material) { return {material.eos, {}, {material.reference}}; }
 
-Material read(const std::filesystem::path& name, const std::map<std::string, std::string>& changes) {
-  const std::filesystem::path file = find_material(name);
+/// The file of a material of the library, by its key, its name or its entry in the list, or a path.
+std::filesystem::path file_of(const py::object& name) {
+  if (py::isinstance<LibraryMaterial>(name)) return name.cast<const LibraryMaterial&>().file;
+  const auto path = name.cast<std::filesystem::path>();
+  try {
+    return find_material(path);
+  } catch (const InputError&) {
+    std::vector<std::string> keys;
+    std::filesystem::path found;
+    for (const LibraryMaterial& entry : library_materials()) {
+      if (entry.name != path.string()) continue;
+      found = entry.file;
+      keys.push_back(entry.file.stem().string());
+    }
+    if (keys.empty()) throw;
+    if (keys.size() > 1) {
+      throw InputError(
+          fmt::format("'{}' is the name of several materials: {}", path.string(), fmt::join(keys, ", ")));
+    }
+    return found;
+  }
+}
+
+py::object read(const py::object& name, const std::map<std::string, std::string>& changes) {
+  const std::filesystem::path file = file_of(name);
   const std::vector<std::pair<std::string, std::string>> list(changes.begin(), changes.end());
-  py::gil_scoped_release unlocked;
-  return read_changed_material(file, list);
+  const auto unlocked = [&] {
+    const py::gil_scoped_release released;
+    return read_changed_material(file, list);
+  };
+  return material_of_file(unlocked(), list);
 }
 
 Material tabulated(const Material& material, double error,
@@ -226,21 +262,41 @@ void add_material(py::module_& module, py::class_<Material>& material) {
   py::class_<Evaluation>(module, "Evaluation",
                          "What a simulation asks of an equation of state, as arrays of one shape (SI).")
       .def_property_readonly(
-          "pressure", [](const Evaluation& e) { return number_or_array(e.pressure); }, "Pressure, Pa.")
+          "pressure", [](const Evaluation& e) { return read_only(e.pressure); }, "Pressure, Pa.")
       .def_property_readonly(
-          "temperature", [](const Evaluation& e) { return number_or_array(e.temperature); },
-          "Temperature, K.")
+          "temperature", [](const Evaluation& e) { return read_only(e.temperature); }, "Temperature, K.")
       .def_property_readonly(
-          "sound_speed", [](const Evaluation& e) { return number_or_array(e.sound_speed); },
+          "sound_speed", [](const Evaluation& e) { return read_only(e.sound_speed); },
           "Isentropic (bulk) sound speed, m/s.")
       .def_property_readonly(
-          "melted_fraction", [](const Evaluation& e) { return number_or_array(e.melted_fraction); },
+          "melted_fraction", [](const Evaluation& e) { return read_only(e.melted_fraction); },
           "Mass fraction of liquid and vapour, 0 to 1.")
       .def_property_readonly(
-          "vaporised_fraction", [](const Evaluation& e) { return number_or_array(e.vaporised_fraction); },
+          "vaporised_fraction", [](const Evaluation& e) { return read_only(e.vaporised_fraction); },
           "Mass fraction of vapour, 0 to 1.")
       .def_property_readonly(
-          "shape", [](const Evaluation& e) { return py::tuple(py::cast(e.shape)); }, "Shape of the arrays.");
+          "shape", [](const Evaluation& e) { return py::tuple(py::cast(e.shape)); }, "Shape of the arrays.")
+      .def(
+          "__len__",
+          [](const Evaluation& e) {
+            if (e.shape.empty()) throw py::type_error("a single point has no length");
+            return e.shape.front();
+          },
+          "Number of points along the first axis.")
+      .def("__copy__", [](const Evaluation& e) { return copy_of(e); })
+      .def("__deepcopy__", [](const Evaluation& e, const py::dict&) { return copy_of(e); })
+      .def(py::pickle(
+          [](const Evaluation& e) {
+            py::list columns;
+            for (Numbers* column : Evaluation(e).columns()) columns.append(*column);
+            return py::make_tuple(py::tuple(py::cast(e.shape)), columns);
+          },
+          [](const py::tuple& pack) {
+            Evaluation result(pack[0].cast<Shape>());
+            const auto columns = pack[1].cast<std::vector<Numbers>>();
+            for (std::size_t k = 0; k < columns.size(); ++k) *result.columns()[k] = columns[k];
+            return result;
+          }));
 
   material.def_readonly("name", &Material::name, "Name of the material.")
       .def_property_readonly(
@@ -292,13 +348,26 @@ void add_material(py::module_& module, py::class_<Material>& material) {
            "skip_invalid: points without a state become NaN; else they raise StateError. Raises InputError "
            "for other\n"
            "combinations of quantities.")
-      .def("table", &tabulated, py::arg("error") = 1e-4, py::kw_only(), py::arg("densities") = py::none(),
-           py::arg("temperatures") = py::none(), py::arg("file") = py::none(),
-           "Return the material with its equation of state tabulated.\n\n"
-           "error: relative error of temperature and pressure, 1e-8 to 0.05.\n"
-           "densities, temperatures: least and greatest, kg/m^3 and K; default: those of `whipple eos "
-           "table`.\n"
-           "file: also written there (NAME.eos.h5). Raises InputError if the model knows no entropy.")
+      .def(
+          "table",
+          [](const py::object& self, double error, const std::optional<std::pair<double, double>>& densities,
+             const std::optional<std::pair<double, double>>& temperatures,
+             const std::optional<std::filesystem::path>& file) {
+            // Its pickle builds the table again.
+            const py::object again =
+                py::module_::import("operator")
+                    .attr("methodcaller")("table", error, py::arg("densities") = densities,
+                                          py::arg("temperatures") = temperatures);
+            return with_recipe(tabulated(self.cast<const Material&>(), error, densities, temperatures, file),
+                               again, py::make_tuple(self));
+          },
+          py::arg("error") = 1e-4, py::kw_only(), py::arg("densities") = py::none(),
+          py::arg("temperatures") = py::none(), py::arg("file") = py::none(),
+          "Return the material with its equation of state tabulated.\n\n"
+          "error: relative error of temperature and pressure, 1e-8 to 0.05.\n"
+          "densities, temperatures: least and greatest, kg/m^3 and K; default: those of `whipple eos "
+          "table`.\n"
+          "file: also written there (NAME.eos.h5). Raises InputError if the model knows no entropy.")
       .def("__repr__", [](const Material& m) {
         return fmt::format("<material '{}', model {}>", m.name, m.eos->model());
       });
@@ -320,17 +389,25 @@ void add_library(py::module_& module) {
   module.def(
       "samples",
       [](const std::filesystem::path& name, int count, std::uint64_t seed) {
-        py::gil_scoped_release unlocked;
-        return sample_material(name, count, seed).materials;
+        const auto drawn = [&] {
+          const py::gil_scoped_release unlocked;
+          return sample_material(name, count, seed);
+        };
+        const MaterialSamples samples = drawn();
+        py::list materials;
+        for (std::size_t i = 0; i < samples.materials.size(); ++i)
+          materials.append(material_of_file(samples.materials[i], samples.changes[i]));
+        return materials;
       },
       py::arg("name"), py::arg("count"), py::arg("seed") = 1,
       "Draw materials from the covariance of a fitted one, written by `whipple fit`.\n\n"
       "Raises InputError if the file has no covariance.");
-  module.def("material", &read, py::arg("name"), py::arg("changes") = std::map<std::string, std::string>(),
-             "Read a material.\n\n"
-             "name: of the library (\"copper\"), or the path of a material file.\n"
-             "changes: keys of the file with other values as in the file, {\"eos.gruneisen\": \"1.9\"}.\n"
-             "Raises InputError with the file and line of each fault.");
+  module.def(
+      "material", &read, py::arg("name"), py::arg("changes") = std::map<std::string, std::string>(),
+      "Read a material.\n\n"
+      "name: of the library (\"copper\", or an entry of `materials`), or the path of a material file.\n"
+      "changes: keys of the file with other values as in the file, {\"eos.gruneisen\": \"1.9\"}.\n"
+      "Raises InputError with the file and line of each fault.");
 }
 
 }  // namespace
@@ -343,9 +420,10 @@ PYBIND11_MODULE(eos, module) {
   add_errors(module);
   add_states(module);
   add_validity(module);
-  py::class_<whipple::Material> material(module, "Material",
-                                         "A material with its equation of state (SI units).");
+  py::class_<whipple::Material> material(
+      module, "Material", "A material with its equation of state (SI units).", py::dynamic_attr());
   add_material(module, material);
+  add_material_pickling(module, material);
   add_library(module);
   add_loci(module, material);
   add_explosives(module, material);

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "python/eos/states.hpp"
 
+#include <algorithm>
+
+#include "python/eos/pickling.hpp"
+#include "src/core/base/text_table.hpp"
+
 namespace whipple::python {
 namespace {
 
@@ -47,7 +52,13 @@ py::object view(const py::object& self, double eos::State::* member) {
 }
 
 py::object further(const States& s, std::size_t place) {
-  return number_or_array(Numbers(s.shape, s.further[place].data()));
+  return read_only(Numbers(s.shape, s.further[place].data()));
+}
+
+/// Length of arrays of a shape, as len() of numpy has it.
+py::ssize_t length_of(const Shape& shape) {
+  if (shape.empty()) throw py::type_error("a single state has no length");
+  return shape.front();
 }
 
 py::object phases(const States& s) {
@@ -55,6 +66,22 @@ py::object phases(const States& s) {
   for (const eos::State& state : s.states) names.append(py::str(std::string(state.phase)));
   py::array array = py::module_::import("numpy").attr("array")(names, "str").attr("reshape")(s.shape);
   return number_or_array(array);
+}
+
+/// Some quantities of the first states as a table.
+std::string table_text(const States& s) {
+  constexpr std::size_t most_rows = 20;
+  std::vector<std::vector<std::string>> rows = {
+      {"density [kg/m^3]", "temperature [K]", "pressure [Pa]", "energy [J/kg]", "phase"}};
+  for (std::size_t i = 0; i < std::min(most_rows, s.states.size()); ++i) {
+    const eos::State& state = s.states[i];
+    rows.push_back({fmt::format("{:.6g}", state.density), fmt::format("{:.6g}", state.temperature),
+                    fmt::format("{:.6g}", state.pressure),
+                    fmt::format("{:.6g}", state.specific_internal_energy), std::string(state.phase)});
+  }
+  std::string text = text_table(rows, "rrrrl");
+  if (s.states.size() > most_rows) text += fmt::format("... {} states in all\n", s.states.size());
+  return text;
 }
 
 /// The states at an index or slice of numpy.
@@ -67,6 +94,7 @@ Kind subset(const Kind& s, const py::object& index) {
   if (!chosen) throw py::error_already_set();
   Kind result;
   result.eos = s.eos;
+  result.restored = s.restored;
   result.shape = Shape(chosen.shape(), chosen.shape() + chosen.ndim());
   result.further.resize(s.further.size());
   for (py::ssize_t i = 0; i < chosen.size(); ++i) {
@@ -78,6 +106,36 @@ Kind subset(const Kind& s, const py::object& index) {
 }
 
 }  // namespace
+
+std::optional<Numbers> numbers_of(const py::handle& argument) {
+  if (!PyFloat_Check(argument.ptr()) && !PyLong_Check(argument.ptr())) {
+    const py::module_ numpy = py::module_::import("numpy");
+    if (numpy.attr("ma").attr("is_masked")(argument).cast<bool>()) {
+      throw InputError(
+          "masked values name no state: fill them, x.filled(numpy.nan) with skip_invalid=True, or leave them "
+          "out, "
+          "x.compressed()");
+    }
+    const auto array = py::array::ensure(argument);
+    if (!array) {
+      PyErr_Clear();
+      return std::nullopt;
+    }
+    if (array.dtype().kind() == 'c') throw InputError("complex numbers name no state");
+  }
+  const auto numbers = Numbers::array_t::ensure(argument);
+  if (!numbers) {
+    PyErr_Clear();
+    return std::nullopt;
+  }
+  return Numbers(numbers);
+}
+
+py::object read_only(const py::array& array) {
+  py::object view = array.attr("view")();
+  view.attr("setflags")(py::arg("write") = false);
+  return view.attr("__getitem__")(py::tuple());
+}
 
 Points broadcast(std::initializer_list<OptionalNumbers> given) {
   Points points;
@@ -135,27 +193,43 @@ void add_states(py::module_& module) {
           "shape", [](const States& s) { return py::tuple(py::cast(s.shape)); }, "Shape of the arrays.")
       .def("__getitem__", &subset<States>, py::arg("index"),
            "Choose points by an index, slice or mask of numpy.")
+      .def(
+          "__len__", [](const States& s) { return length_of(s.shape); },
+          "Number of points along the first axis.")
+      .def("__str__", &table_text)
       .def("__repr__", [](const States& s) {
-        return fmt::format("<{} states of model {}>", s.states.size(), s.eos->model());
+        return fmt::format("<{} states of model {}>", s.states.size(), s.model());
       });
+  static const std::vector<double eos::State::*> quantities = [] {
+    std::vector<double eos::State::*> members;
+    for (const Property& p : properties) members.push_back(p.member);
+    return members;
+  }();
+  add_state_pickling<States>(states, quantities);
   const auto velocity = [](std::size_t place) {
     return [place](const States& s) { return further(s, place); };
   };
-  py::class_<Shocks, States>(module, "Shocks",
-                             "States behind steady shocks, with the velocities of the shocks.")
+  py::class_<Shocks, States> shocks(module, "Shocks",
+                                    "States behind steady shocks, with the velocities of the shocks.");
+  add_state_pickling<Shocks>(shocks, quantities);
+  shocks
       .def_property_readonly("shock_velocity", velocity(0),
                              "Velocity of the shock against the material ahead, m/s.")
       .def_property_readonly("particle_velocity", velocity(1),
                              "Velocity of the material behind the shock, m/s.")
       .def("__getitem__", &subset<Shocks>, py::arg("index"),
            "Choose points by an index, slice or mask of numpy.");
-  py::class_<Isentropes, States>(module, "Isentropes", "States on an isentrope.")
+  py::class_<Isentropes, States> isentropes(module, "Isentropes", "States on an isentrope.");
+  add_state_pickling<Isentropes>(isentropes, quantities);
+  isentropes
       .def_property_readonly(
           "riemann_velocity", velocity(0),
           "Integral of c d(rho)/rho from the start of the isentrope, m/s; negative on expansion.")
       .def("__getitem__", &subset<Isentropes>, py::arg("index"),
            "Choose points by an index, slice or mask of numpy.");
-  py::class_<Releases, States>(module, "Releases", "States after release to a pressure.")
+  py::class_<Releases, States> releases(module, "Releases", "States after release to a pressure.");
+  add_state_pickling<Releases>(releases, quantities);
+  releases
       .def_property_readonly(
           "riemann_velocity", velocity(0),
           "Integral of c d(rho)/rho from the start, m/s; NaN of liquid and vapour in equilibrium.")

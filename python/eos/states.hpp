@@ -10,6 +10,8 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,10 +24,20 @@ namespace whipple::python {
 
 namespace py = pybind11;
 
-/// Any sequence of numbers that numpy converts, as doubles side by side.
-using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+/// Any sequence of numbers that numpy converts without losing a part of them, as doubles side by side: no complex
+/// numbers, no masked values.
+class Numbers : public py::array_t<double, py::array::c_style | py::array::forcecast> {
+ public:
+  using array_t::array_t;
+};
+/// Converts an argument.
+/// @throws InputError for complex numbers and masked values; returns nothing if numpy has no numbers of it
+std::optional<Numbers> numbers_of(const py::handle& argument);
 using OptionalNumbers = std::optional<Numbers>;
 using Shape = std::vector<py::ssize_t>;
+
+/// The same numbers as an array that cannot be written, or a number if there is one.
+py::object read_only(const py::array& array);
 
 /// Arrays of one shape.
 struct Points {
@@ -46,6 +58,12 @@ Points broadcast(std::initializer_list<OptionalNumbers> given);
 /// A number if the shape is that of one, else the array itself.
 py::object number_or_array(const py::array& array);
 
+/// Names of states that were read from a pickle.
+struct RestoredNames {
+  std::string model;
+  std::set<std::string> phases;
+};
+
 /// States of an equation of state over an array of points. Each property is an array on these states, without a copy.
 struct States {
   std::shared_ptr<const eos::EquationOfState> eos;  ///< owns the names of phases
@@ -53,7 +71,10 @@ struct States {
   std::vector<eos::State> states;
   /// What the points have besides a state: velocities of shocks, Riemann velocities.
   std::vector<std::vector<double>> further = {};
+  std::shared_ptr<const RestoredNames> restored =
+      {};  ///< of a pickle; these states have no equation of state
 
+  [[nodiscard]] std::string model() const { return eos ? std::string(eos->model()) : restored->model; }
   /// The only state.
   /// @throws InputError if there are several
   [[nodiscard]] const eos::State& single() const;
@@ -133,3 +154,18 @@ States states_of(std::shared_ptr<const eos::EquationOfState> eos, const Points& 
 }
 
 }  // namespace whipple::python
+
+/// Arguments of functions: `whipple::python::Numbers` by `numbers_of`.
+template <>
+struct pybind11::detail::type_caster<whipple::python::Numbers> {
+  PYBIND11_TYPE_CASTER(whipple::python::Numbers, const_name("numpy.ndarray[numpy.float64]"));
+
+  bool load(handle source, bool) {
+    const std::optional<whipple::python::Numbers> numbers = whipple::python::numbers_of(source);
+    if (numbers) value = *numbers;
+    return numbers.has_value();
+  }
+  static handle cast(const whipple::python::Numbers& numbers, return_value_policy, handle) {
+    return numbers.inc_ref();
+  }
+};

@@ -2,10 +2,13 @@
 """Tests of whipple.eos: numbers of the library, shapes and kinds of arrays, errors. PYTHONPATH names the folder of the
 built package (tests/python.cmake)."""
 import contextlib
+import copy
 import importlib
 import io
 import logging
+import os
 import pathlib
+import pickle
 import re
 import subprocess
 import sys
@@ -366,6 +369,92 @@ class Module(unittest.TestCase):
                 "except KeyboardInterrupt:\n    print('ended')\n")
         run = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True, timeout=60)
         self.assertEqual(run.stdout.strip(), "ended")
+
+
+class Copies(unittest.TestCase):
+    """Pickles and copies are the same numbers; arrays of results cannot be written."""
+
+    def setUp(self):
+        self.material = eos.material("copper", {"eos.gruneisen": "1.9"})
+
+    def test_materials(self):
+        for copy_of in (lambda x: pickle.loads(pickle.dumps(x)), copy.copy, copy.deepcopy):
+            again = copy_of(self.material)
+            self.assertEqual(again.constants, self.material.constants)
+            self.assertEqual(again.evaluate(9000.0, 2e5).pressure, self.material.evaluate(9000.0, 2e5).pressure)
+        again = pickle.loads(pickle.dumps(self.material.table(1e-3)))
+        self.assertEqual(again.model, "table")
+
+    def test_a_changed_file_is_not_the_material_that_was_pickled(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "mine.toml"
+            text = pathlib.Path(self.material.file).read_text(encoding="utf-8")
+            file.write_text(text, encoding="utf-8")
+            packed = pickle.dumps(eos.material(file))
+            file.write_text(text.replace("gruneisen = 1.97", "gruneisen = 1.96"), encoding="utf-8")
+            with self.assertRaisesRegex(eos.InputError, "has changed since"):
+                pickle.loads(packed)
+
+    def test_states(self):
+        states = self.material.states(pressure=np.linspace(1e9, 4e11, 6).reshape(2, 3), temperature=2000.0)
+        shocks = self.material.hugoniot(particle_velocity=[500.0, 3000.0])
+        for states in (states, shocks, states[1, 2]):
+            again = pickle.loads(pickle.dumps(states))
+            self.assertIs(type(again), type(states))
+            for name in ("density", "energy", "temperature", "entropy", "phase", "melted_fraction"):
+                np.testing.assert_array_equal(getattr(again, name), getattr(states, name))
+        again = pickle.loads(pickle.dumps(shocks))
+        np.testing.assert_array_equal(again.shock_velocity, shocks.shock_velocity)
+        self.assertEqual(len(again), 2)
+        with self.assertRaisesRegex(eos.InputError, "from a pickle"):
+            self.material.release(again, 1e5)
+        self.material.release(copy.deepcopy(shocks), 1e5)
+        self.assertIn("temperature [K]", str(shocks))
+        with self.assertRaises(TypeError):
+            len(shocks[0])
+
+    def test_arrays_cannot_be_written(self):
+        result = self.material.evaluate([9000.0, 9500.0], 2e5)
+        shocks = self.material.hugoniot(particle_velocity=[500.0, 3000.0])
+        for array in (result.pressure, shocks.density, shocks.shock_velocity):
+            with self.assertRaisesRegex(ValueError, "read-only"):
+                array[0] = 1.0
+        again = pickle.loads(pickle.dumps(result))
+        np.testing.assert_array_equal(again.sound_speed, result.sound_speed)
+        self.assertEqual(len(again), 2)
+        # An earlier result can be overwritten by the module itself.
+        self.material.evaluate([9500.0, 9000.0], 2e5, out=result)
+        np.testing.assert_array_equal(result.pressure, again.pressure[::-1])
+
+    def test_masks_and_complex_numbers_are_refused(self):
+        for bad in (np.ma.array([9000.0, 9100.0], mask=[False, True]), np.array([9000 + 1j]), [9000 + 0j]):
+            with self.assertRaisesRegex(eos.InputError, "name no state"):
+                self.material.evaluate(bad, 2e5)
+        clear = np.ma.array([9000.0, 9100.0], mask=[False, False])
+        self.assertEqual(len(self.material.evaluate(clear, 2e5)), 2)
+
+    def test_entries_of_the_library_name_materials(self):
+        for entry in eos.materials()[:5]:
+            self.assertEqual(eos.material(entry).name, entry.name)
+            self.assertEqual(eos.material(entry.name).name, entry.name)
+
+
+class Package(unittest.TestCase):
+    """Without the compiled module the package says how to get it."""
+
+    def test_remedy(self):
+        package = pathlib.Path(eos.__file__).with_name("__init__.py")
+        with tempfile.TemporaryDirectory() as folder:
+            target = pathlib.Path(folder) / "whipple"
+            target.mkdir()
+            (target / "__init__.py").write_text(package.read_text(encoding="utf-8"), encoding="utf-8")
+            call = [sys.executable, "-c", "from whipple import eos"]
+            environment = {**os.environ, "PYTHONPATH": folder}
+            found = subprocess.run(call, env=environment, capture_output=True, text=True, check=False)
+            self.assertIn("cmake --build --preset release --target whipple_python_eos", found.stderr)
+            (target / "eos.cpython-399-x86_64-linux-gnu.so").write_text("")
+            found = subprocess.run(call, env=environment, capture_output=True, text=True, check=False)
+            self.assertIn("another Python", found.stderr)
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ import unittest
 from whipple import eos
 
 STUBS = pathlib.Path(eos.__file__).with_name("eos.pyi")
-HIDDEN = {"__getitem__"}  # special methods that users call
+HIDDEN = {"__getitem__", "__len__"}  # special methods that users call
 
 
 def public(owner):

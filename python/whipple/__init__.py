@@ -4,6 +4,35 @@ import os
 import pathlib
 
 # An installed module finds the material library of its own installation, as the installed program does.
-_library = pathlib.Path(__file__).resolve().parents[4] / "share" / "whipple" / "materials"
+_above = pathlib.Path(__file__).resolve().parents  # PREFIX/lib/python3/dist-packages/whipple/__init__.py
+_library = _above[min(4, len(_above) - 1)] / "share" / "whipple" / "materials"
 if _library.is_dir():
     os.environ.setdefault("WHIPPLE_MATERIALS", str(_library))
+
+
+def _restored_material(file, changes, constants):
+    """Read the material of a pickle again; a function of Python, as pickles name one by its module."""
+    from whipple import eos
+    return eos._restored_material(file, changes, constants)
+
+
+def __getattr__(name):
+    """Import the compiled module on its first use, and say what to do where it is missing."""
+    if name != "eos":
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    import importlib
+    import sys
+    try:
+        return importlib.import_module(f"{__name__}.eos")
+    except ModuleNotFoundError as missing:
+        if missing.name != f"{__name__}.eos":
+            raise
+    folder = pathlib.Path(__file__).resolve().parent
+    built = sorted(path.name for path in folder.glob("eos.*.so"))
+    if built:
+        remedy = (f"it was built for another Python ({', '.join(built)}), this one is {sys.version.split()[0]} of "
+                  f"{sys.executable}: use /usr/bin/python3")
+    else:
+        remedy = ("it is built by `cmake --build --preset release --target whipple_python_eos` in the source folder "
+                  "(scripts/run.sh leaves it out) into build/release/python, which PYTHONPATH names")
+    raise ImportError(f"whipple.eos is not in {folder}: {remedy} (docs/manual/python.md)", name=f"{__name__}.eos")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Colours, scales, small copies and widths of the figures; expectations beside a run; differences of inputs."""
+import fcntl
 import io
 import math
 import pathlib
@@ -12,8 +13,10 @@ import numpy as np
 import PIL.Image
 from matplotlib.colors import to_hex
 
-from report import comparison, curves, expected, pictures, style
+from report import comparison, curves, expected, gauges, pictures, style
 from report.expectations import Case
+from report.history import History
+from report.run import Run
 from report.views import Picture
 
 VIEWER = pathlib.Path(__file__).resolve().parents[2] / "web" / "viewer" / "colours.js"
@@ -110,6 +113,50 @@ material = "copper.toml"
 velocity = ["0 m/s", "0 m/s", "1 km/s"]
 shape = { sphere = { center = ["0 mm", "0 mm", "4 mm"], radius = "1 mm" } }
 """
+
+
+class Radiographs(unittest.TestCase):
+    """The scale is that of the cloud: walls, which attenuate much more, were there at the start."""
+
+    def test_the_cloud_has_the_scale(self):
+        first, last = (np.ones((40, 60)) for _ in range(2))
+        for picture in (first, last):
+            picture[:, 20:23] = 0.2  # a wall
+        last[10:30, 30:50] = 0.97
+        last[19:21, 38:40] = 0.94
+        shots = [types.SimpleNamespace(transmission=picture) for picture in (first, last)]
+        self.assertAlmostEqual(pictures.darkest_of_cloud(shots), 0.94, delta=0.031)
+        # Nothing new: the scale of all that attenuates.
+        self.assertAlmostEqual(pictures.darkest_of_cloud([shots[0], shots[0]]), 0.2)
+        clear = types.SimpleNamespace(transmission=np.ones((4, 4)))
+        self.assertEqual(pictures.darkest_of_cloud([clear]), 0.5)
+
+
+class Gauges(unittest.TestCase):
+    def test_round_off_has_no_height(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "gauges.csv"
+            columns = ["time [s]", "rest.pressure [Pa]", *(f"rest.velocity_{axis} [m/s]" for axis in "xyz"),
+                       "rest.temperature [K]"]
+            rows = [[k * 1e-6, (-1) ** k * 1e-7, 1e-14 * k, 0, 0, 293.0 + 1e-12 * k] for k in range(5)]
+            file.write_text(",".join(columns) + "\n" + "".join(",".join(map(str, row)) + "\n" for row in rows))
+            figure = gauges.figure(History(file))
+            for ax, least in zip(figure.axes, (1e-4, 1e-5, 0.1)):
+                low, high = ax.get_ylim()
+                self.assertGreaterEqual(high - low, 0.99 * least)
+
+
+class Locks(unittest.TestCase):
+    def test_a_run_that_is_being_written_goes_on(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            run = types.SimpleNamespace(folder=folder)
+            self.assertFalse(Run.goes_on.fget(run))
+            with open(folder / ".lock", "w", encoding="ascii") as lock:
+                self.assertFalse(Run.goes_on.fget(run))
+                fcntl.flock(lock, fcntl.LOCK_EX)
+                self.assertTrue(Run.goes_on.fget(run))
+            self.assertFalse(Run.goes_on.fget(run))
 
 
 class Expectations(unittest.TestCase):

@@ -3,12 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "src/app/build_info.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
 #include "src/core/base/text_table.hpp"
 #include "src/core/input/document.hpp"
 #include "src/material/material_file.hpp"
@@ -37,8 +40,26 @@ void add_sources(Lines& lines, input::Table table, const std::string& name) {
   }
 }
 
-std::string sources_of(const std::string& name) {
-  const std::filesystem::path file = find_material(name);
+/// The materials of a run, or the one material of this name.
+std::vector<std::filesystem::path> materials_of(const std::filesystem::path& name) {
+  if (!std::filesystem::exists(name / "run.toml")) return {find_material(name)};
+  input::Document document =
+      input::Document::from_text(read_text(name / "run.toml"), (name / "run.toml").string());
+  struct Named {
+    std::string material;
+  };
+  std::vector<std::filesystem::path> files;
+  for (input::Table body : document.root().list("body")) {
+    Named named;
+    body.read(ParameterTable<Named>{text("material", &Named::material, "material of the body")}, named);
+    const std::filesystem::path file = find_material(named.material, name);
+    if (std::ranges::find(files, file) == files.end()) files.push_back(file);
+  }
+  document.finish_partly_read();
+  return files;
+}
+
+std::string sources_of(const std::filesystem::path& file) {
   input::Document document = input::Document::from_text(material_text(file), file.string());
   Lines lines;
   add_sources(lines, document.root(), "material");
@@ -68,11 +89,13 @@ void print_program() {
 void add_cite_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("cite", "How to cite the program, and the sources of materials");
   const auto names = std::make_shared<std::vector<std::string>>();
-  command->add_option("materials", *names, "Material files, or names of the library");
+  command->add_option("materials", *names, "Material files, names of the library, or run directories");
   command->footer("Example:\n  whipple cite copper aluminium");
   command->callback([names] {
     std::string sources;
-    for (const std::string& name : *names) sources += sources_of(name);
+    for (const std::string& name : *names) {
+      for (const std::filesystem::path& file : materials_of(name)) sources += sources_of(file);
+    }
     print_program();
     fmt::print("{}", sources);
   });

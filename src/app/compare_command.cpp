@@ -6,13 +6,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "eos/curves/samples.hpp"
 #include "eos/curves/table.hpp"
+#include "eos/experiments/calibration.hpp"
 #include "eos/experiments/comparison.hpp"
 #include "src/app/compare_calibration.hpp"
 #include "src/app/eos_figure.hpp"
@@ -33,6 +36,7 @@ using eos::experiments::Comparison;
 using eos::experiments::Experiment;
 using eos::experiments::ExperimentKind;
 using eos::experiments::same_density;
+using eos::experiments::VolumeScale;
 
 struct CompareOptions {
   std::vector<std::string> materials;
@@ -52,12 +56,15 @@ struct Style {
   eos::curves::Column abscissa, ordinate;
 };
 
-Style style(ExperimentKind kind) {
+Style style(const Experiment& experiment) {
   using eos::curves::plain_column;
   using eos::curves::quantity_column;
   const auto pressure = quantity_column("P", "GPa", "Pa", "pressure");
-  const auto volume = plain_column("V/V0", "relative volume");
-  switch (kind) {
+  const auto temperature = quantity_column("T", "K", "K", "temperature");
+  const auto volume = experiment.volume == VolumeScale::density
+                          ? quantity_column("rho", "g/cm^3", "kg/m^3", "density")
+                          : plain_column("V/V0", "relative volume");
+  switch (experiment.kind) {
     case ExperimentKind::shock_velocity:
       return {"Hugoniot", "% of Us", 1.0, quantity_column("up", "km/s", "m/s", "particle velocity"),
               quantity_column("Us", "km/s", "m/s", "shock velocity")};
@@ -66,7 +73,9 @@ Style style(ExperimentKind kind) {
     case ExperimentKind::isotherm:
       return {"isotherm", "GPa", pressure.size, volume, pressure};
     case ExperimentKind::melting:
-      return {"melting line", "% of T", 1.0, pressure, quantity_column("T", "K", "K", "temperature")};
+      return {"melting line", "% of T", 1.0, pressure, temperature};
+    case ExperimentKind::shock_temperature:
+      return {"Hugoniot", "% of T", 1.0, pressure, temperature};
     case ExperimentKind::isentrope:
       return {"isentrope", "GPa", pressure.size, volume, pressure};
     case ExperimentKind::sound_speed:
@@ -74,6 +83,14 @@ Style style(ExperimentKind kind) {
               quantity_column("c", "km/s", "m/s", "bulk sound speed")};
   }
   throw InternalError("unknown kind of experiment");
+}
+
+/// " 298 K" or " 300 ... 1500 K" of isotherms; nothing of other kinds.
+std::string temperatures_of(const Experiment& experiment) {
+  if (experiment.kind != ExperimentKind::isotherm) return "";
+  if (std::isfinite(experiment.temperature)) return fmt::format(" {:g} K", experiment.temperature);
+  const auto [least, most] = std::ranges::minmax(experiment.temperatures);
+  return fmt::format(" {:g} ... {:g} K", least, most);
 }
 
 struct Row {
@@ -102,10 +119,8 @@ void print_table(const std::vector<Row>& rows) {
       {"experiment", "kind", "material", "points", "range", "rms", "mean", "largest", "unit"}};
   for (const Row& row : rows) {
     const Experiment& experiment = *row.experiment;
-    const Style s = style(experiment.kind);
-    const std::string kind = experiment.kind == ExperimentKind::isotherm
-                                 ? fmt::format("{} {} K", s.kind, experiment.temperature)
-                                 : std::string(s.kind);
+    const Style s = style(experiment);
+    const std::string kind = s.kind + temperatures_of(experiment);
     const auto figure = [&](double value) { return fmt::format("{:.2f}", value / s.deviation_size); };
     const auto signed_figure = [&](double value) { return fmt::format("{:+.2f}", value / s.deviation_size); };
     const bool any = row.comparison.points > 0;
@@ -127,6 +142,7 @@ void print_table(const std::vector<Row>& rows) {
     };
     if (&experiment != last) {
       for (const auto& [reason, lines] : experiment.left_out) note(lines, "left out: " + reason);
+      for (const std::string& remark : experiment.remarks) fmt::print("{}: {}\n", experiment.name, remark);
     }
     last = &experiment;
     const Comparison& c = row.comparison;
@@ -146,7 +162,7 @@ std::string csv_text(const std::vector<Row>& rows) {
           "deviation_unit\n";
   for (const Row& row : rows) {
     const Experiment& experiment = *row.experiment;
-    const Style s = style(experiment.kind);
+    const Style s = style(experiment);
     const std::string name = csv_cell(experiment.name);
     for (std::size_t i = 0; i < experiment.abscissa.size(); ++i) {
       file << fmt::format("{},\"{}\",{},{:.8g},{},{},{:.8g},{:.8g},{},{:.6g},{}\n", name, row.label,
@@ -168,27 +184,66 @@ nlohmann::json numbers(const std::vector<double>& values, double size) {
   return list;
 }
 
-/// The values, without those that lie within `same_density` above another.
-std::vector<double> apart(std::vector<double> values) {
-  std::ranges::sort(values);
-  const auto repeated =
-      std::ranges::unique(values, [](double a, double b) { return b / a - 1.0 < same_density; });
-  values.erase(repeated.begin(), repeated.end());
-  return values;
+/// Points for curves through a number of groups of measured ones: those of one initial density, or of one isotherm.
+/// Groups are parted by a point without a value; more groups than can be told apart in a figure have no curves.
+eos::experiments::CurvePoints curve_points(const Material& material, const Experiment& experiment,
+                                           int count) {
+  constexpr std::size_t most_groups = 12;
+  const std::vector<double> stated = initial_densities(material.reference.density, experiment);
+  const bool by_temperature = experiment.kind == ExperimentKind::isotherm;
+  std::map<double, std::vector<std::size_t>> groups;
+  for (std::size_t i = 0; i < stated.size(); ++i) {
+    const double value = by_temperature ? experiment.temperatures[i] : stated[i];
+    auto group = groups.lower_bound(value * (1.0 - same_density));
+    if (group == groups.end() || group->first > value * (1.0 + same_density))
+      group = groups.emplace(value, std::vector<std::size_t>()).first;
+    group->second.push_back(i);
+  }
+  eos::experiments::CurvePoints points;
+  if (groups.size() > most_groups) return points;
+  for (const auto& [value, members] : groups) {
+    const double least = experiment.abscissa[members.front()], most = experiment.abscissa[members.back()];
+    for (int i = 0; i < count; ++i) points.abscissa.push_back(least + (most - least) * i / (count - 1));
+    points.abscissa.push_back(std::numeric_limits<double>::quiet_NaN());
+    points.initial_density.resize(points.abscissa.size(), stated[members.front()]);
+    points.temperature.resize(points.abscissa.size(), experiment.temperatures[members.front()]);
+  }
+  return points;
 }
 
-void draw(const std::vector<Row>& rows, const std::string& path) {
-  constexpr int curve_points = 200;
+/// Limits of the 95 % band of a fitted material at some points: the material's own curve and two standard deviations
+/// of its samples about it; no value where half of the samples have none.
+std::pair<std::vector<double>, std::vector<double>> band(const Row& row, const MaterialSamples& samples,
+                                                         const std::vector<double>& central,
+                                                         const eos::experiments::CurvePoints& points) {
+  std::vector<eos::curves::Scatter> at(central.size());
+  for (const auto& [eos, initial] : states_at_rest(samples)) {
+    const std::vector<double> values = curve(*eos, initial, *row.experiment, points);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (std::isfinite(values[i])) at[i].add(values[i]);
+    }
+  }
+  std::vector<double> lower = central, upper = central;
+  for (std::size_t i = 0; i < central.size(); ++i) {
+    const bool known = 2 * at[i].count() > static_cast<int>(samples.materials.size());
+    const double width = known ? eos::experiments::half_width_95 * at[i].deviation()
+                               : std::numeric_limits<double>::quiet_NaN();
+    lower[i] -= width;
+    upper[i] += width;
+  }
+  return {lower, upper};
+}
+
+void draw(const std::vector<Row>& rows, const DrawnMaterials& drawn, const std::string& path) {
   nlohmann::json panels = nlohmann::json::array();
   const Experiment* last = nullptr;
   for (const Row& row : rows) {
     const Experiment& experiment = *row.experiment;
-    const Style s = style(experiment.kind);
+    const Style s = style(experiment);
     if (&experiment != last) {
       panels.push_back({{"experiment", experiment.name},
                         {"source", experiment.source},
-                        {"kind", s.kind},
-                        {"temperature", experiment.temperature},
+                        {"kind", s.kind + temperatures_of(experiment)},
                         {"abscissa", s.abscissa.name},
                         {"abscissa_unit", s.abscissa.unit},
                         {"ordinate", s.ordinate.name},
@@ -199,29 +254,21 @@ void draw(const std::vector<Row>& rows, const std::string& path) {
                         {"materials", nlohmann::json::array()}});
       last = &experiment;
     }
-    // One curve for each initial density, with a gap between them.
-    std::vector<double> x, densities;
     const Material& material = *row.material;
-    const std::vector<double> stated =
-        eos::experiments::initial_densities(material.reference.density, experiment);
-    for (const double density : apart(stated)) {
-      std::vector<double> own;
-      for (std::size_t i = 0; i < stated.size(); ++i) {
-        const double above = stated[i] / density - 1.0;
-        if (above >= 0.0 && above < same_density) own.push_back(experiment.abscissa[i]);
-      }
-      const auto [least, most] = std::ranges::minmax(own);
-      for (int i = 0; i < curve_points; ++i) x.push_back(least + (most - least) * i / (curve_points - 1));
-      x.push_back(std::numeric_limits<double>::quiet_NaN());
-      densities.resize(x.size(), density);
+    const auto samples = drawn.find(&material);
+    const auto points = curve_points(material, experiment, samples == drawn.end() ? 200 : 40);
+    const std::vector<double> central = curve(*material.eos, material.reference, experiment, points);
+    nlohmann::json entry = {{"name", row.label},
+                            {"x", numbers(points.abscissa, s.abscissa.size)},
+                            {"curve", numbers(central, s.ordinate.size)},
+                            {"deviation", numbers(row.comparison.deviation, s.deviation_size)},
+                            {"rms", row.comparison.rms / s.deviation_size}};
+    if (samples != drawn.end()) {
+      const auto [lower, upper] = band(row, samples->second, central, points);
+      entry["lower"] = numbers(lower, s.ordinate.size);
+      entry["upper"] = numbers(upper, s.ordinate.size);
     }
-    panels.back()["materials"].push_back(
-        {{"name", row.label},
-         {"x", numbers(x, s.abscissa.size)},
-         {"curve",
-          numbers(curve(*material.eos, material.reference, experiment, x, densities), s.ordinate.size)},
-         {"deviation", numbers(row.comparison.deviation, s.deviation_size)},
-         {"rms", row.comparison.rms / s.deviation_size}});
+    panels.back()["materials"].push_back(std::move(entry));
   }
   process::draw_json("scripts/plot_compare.py", panels.dump(1), path);
 }
@@ -263,14 +310,16 @@ void run(const CompareOptions& options) {
   const bool csv_alone = is_standard_output(options.csv);
   if (!csv_alone) print_table(rows);
   write_output(options.csv, csv_text(rows));
+  DrawnMaterials drawn;
   if (options.calibration.samples > 0) {
     std::vector<CalibratedPair> pairs;
     for (const Row& row : rows) pairs.push_back({row.experiment, row.material, row.label});
-    const std::string report = calibration_report(pairs, options.calibration);
+    drawn = draw_fitted(pairs, options.calibration);
+    const std::string report = calibration_report(pairs, drawn, options.calibration);
     if (!csv_alone) fmt::print("{}", report);
   }
   if (options.plot.empty()) return;
-  draw(rows, options.plot);
+  draw(rows, drawn, options.plot);
   if (!csv_alone) fmt::print("written: {}\n", options.plot);
 }
 

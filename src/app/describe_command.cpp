@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "eos/files/models.hpp"
+#include "md_fitting/elements/element_defaults.hpp"
 #include "md_fitting/plan/plan.hpp"
 #include "src/case/case.hpp"
 #include "src/case/shapes/shape.hpp"
@@ -71,6 +72,9 @@ const std::vector<Topic>& topics() {
       {"md", "Plans of molecular dynamics (`whipple md PLAN.toml`)",
        [](const std::string& name) { return single("md", name, md::describe_plan()); },
        [] { return std::vector<std::string>(); }, &md::plan_schema},
+      {"element", "Constants of elements (`whipple fit --defaults FILE.toml`)",
+       [](const std::string& name) { return single("element", name, elements::describe_elements()); },
+       [] { return std::vector<std::string>(); }, nullptr},
   };
   return all;
 }

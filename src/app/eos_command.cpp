@@ -15,6 +15,7 @@
 #include "eos/curves/diagrams.hpp"
 #include "eos/curves/samples.hpp"
 #include "eos/curves/tables.hpp"
+#include "eos/experiments/calibration.hpp"
 #include "src/app/eos_audit.hpp"
 #include "src/app/eos_card_command.hpp"
 #include "src/app/eos_figure.hpp"
@@ -50,7 +51,10 @@ struct Output {
   std::string x, y;                  ///< columns of the figure
   std::string logarithmic;           ///< "x", "y", "xy" or nothing
   std::vector<std::string> overlay;  ///< measurements
+  bool json = false;                 ///< the table as JSON to standard output, and nothing else
   bool force = false;
+
+  [[nodiscard]] bool alone() const { return json || is_standard_output(csv); }
 };
 
 /// Draws from the covariance of a fitted material.
@@ -132,37 +136,60 @@ void warn_beyond_audit(const CurveTable& table, const Subjects& subjects) {
   }
 }
 
-/// The band of Hugoniots instead of one: mean, and two standard deviations to both sides in the figure.
+/// The figure of a sampled Hugoniot: the curves of the materials themselves, the fitted one with its 95 % band.
+Figure figure_with_band(const Request& request, const Subjects& subjects, std::size_t fitted,
+                        const eos::curves::SampledHugoniot& sampled, const eos::curves::CurveRange& range) {
+  constexpr double half_width = eos::experiments::half_width_95;
+  const CurveTable own = hugoniot_table(subjects, {}, {}, eos::curves::Variable::particle_velocity, range);
+  const bool is_of_one =
+      std::ranges::find(own.columns, request.output.y, &eos::curves::Column::name) != own.columns.end();
+  Figure figure = figure_of(is_of_one ? own : sampled.table, request.output);
+  const std::size_t y = column_index(sampled.table, request.output.y);
+  FigureCurve& central = figure.curves[is_of_one ? fitted : 0];
+  if (!is_of_one) central.label = "mean of the samples";
+  eos::curves::FigureBand band{"95 % band", {}, {}, {}, central.colour};
+  const auto& rows = sampled.table.series.front().rows;
+  for (std::size_t i = 0; i < std::min(rows.size(), central.y.size()); ++i) {
+    const double width = half_width * std::get<double>(rows[i][y + 1]) / figure.y.size;
+    band.x.push_back(central.x[i]);
+    band.lower.push_back(central.y[i] - width);
+    band.upper.push_back(central.y[i] + width);
+  }
+  figure.bands.push_back(std::move(band));
+  return figure;
+}
+
+/// The scatter of Hugoniots of a fitted material; further materials are drawn beside it.
 void run_samples(const Request& request) {
-  if (request.materials.size() != 1) throw InputError("--samples: one material at a time");
+  std::vector<Material> materials;
+  for (const std::string& name : request.materials) materials.push_back(read_material(name));
+  const auto fitted = std::ranges::find_if(materials, has_covariance);
+  if (fitted == materials.end()) {
+    throw InputError(
+        fmt::format("{} has no table [covariance]: only a fitted material can be sampled (whipple fit)",
+                    materials.front().file.string()));
+  }
+  if (std::ranges::count_if(materials, has_covariance) > 1)
+    throw InputError("--samples: one fitted material at a time; others may be drawn next to it");
   const EosOptions& o = request.options;
   const double last = quantity("--to", o.to, "m/s").value_or(4000.0);
   const double first = quantity("--from", o.from, "m/s").value_or(last / o.points);
   const double release_pressure = *quantity("--release-pressure", request.samples.release_pressure, "Pa");
-  const MaterialSamples drawn =
-      sample_material(request.materials.front(), request.samples.count, request.samples.seed,
-                      value_of<ErrorTier>(request.samples.tier).value());
+  const MaterialSamples drawn = sample_material(fitted->file, request.samples.count, request.samples.seed,
+                                                value_of<ErrorTier>(request.samples.tier).value());
   const eos::curves::SampledHugoniot sampled = eos::curves::sampled_hugoniot(
       subjects_of(drawn.materials), eos::curves::spaced(first, last, o.points), release_pressure);
   const Output& output = request.output;
-  if (!is_standard_output(output.csv)) print(sampled.table);
+  if (output.json) fmt::print("{}", json_text(sampled.table));
+  if (!output.alone()) print(sampled.table);
   write_output(output.csv, csv_text(sampled.table));
   if (!output.plot.empty()) {
-    Figure figure = figure_of(sampled.table, output);
-    const std::size_t y = column_index(sampled.table, output.y);
-    const FigureCurve mean = figure.curves.front();
-    for (const double side : {-2.0, 2.0}) {
-      FigureCurve edge = mean;
-      edge.label = "two standard deviations";
-      edge.style = LineStyle::dashed;
-      for (std::size_t i = 0; i < edge.y.size(); ++i) {
-        edge.y[i] += side * std::get<double>(sampled.table.series.front().rows[i][y + 1]) / figure.y.size;
-      }
-      figure.curves.push_back(std::move(edge));
-    }
-    draw(figure, output.plot);
+    draw(figure_with_band(request, subjects_of(materials),
+                          static_cast<std::size_t>(fitted - materials.begin()), sampled,
+                          {first, last, o.points}),
+         output.plot);
   }
-  if (is_standard_output(output.csv)) return;
+  if (output.alone()) return;
   for (const std::string& remark : sample_remarks(sampled, drawn.materials.size()))
     fmt::print("{}\n", remark);
   for (const std::string& remark : drawn_remarks(drawn)) fmt::print("{}\n", remark);
@@ -179,6 +206,8 @@ void add_query(CLI::App& command, const EosQuery& query) {
   sub->add_option(
       "--csv", request->output.csv,
       "Write the table, units in the names of the columns; -: to standard output, and nothing else");
+  sub->add_flag("--json", request->output.json, "The table as JSON to standard output, and nothing else")
+      ->excludes(sub->get_option("--csv"));
   if (query.x != nullptr) {
     sub->add_option("--points", request->options.points, "Points of the curve")
         ->check(CLI::Range(2, 100000))
@@ -221,11 +250,11 @@ void add_query(CLI::App& command, const EosQuery& query) {
     const bool one_each =
         std::ranges::all_of(table.series, [](const Series& s) { return s.rows.size() == 1; });
     const bool is_list = query.as_list && one_each;
-    if (!is_standard_output(output.csv)) (is_list ? print_list : print)(table);
+    if (output.json) fmt::print("{}", json_text(table));
+    if (!output.alone()) (is_list ? print_list : print)(table);
     write(table, output);
     warn_beyond_audit(table, subjects);
-    if (query.remarks == nullptr || is_standard_output(output.csv) || !request->options.states.empty())
-      return;
+    if (query.remarks == nullptr || output.alone() || !request->options.states.empty()) return;
     for (const std::string& remark : query.remarks(request->options, subjects)) fmt::print("{}\n", remark);
   });
 }

@@ -8,6 +8,7 @@
 
 #include "eos/experiments/experiment.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/base/log.hpp"
 #include "src/core/process/paths.hpp"
 #include "src/core/process/scripts.hpp"
 
@@ -98,14 +99,23 @@ void add_measurements(Figure& figure, const std::vector<std::string>& experiment
 }
 
 void draw(const Figure& figure, const std::filesystem::path& path) {
+  nlohmann::json bands = nlohmann::json::array();
+  for (const eos::curves::FigureBand& band : figure.bands) {
+    bands.push_back({{"label", band.label},
+                     {"x", numbers(band.x)},
+                     {"lower", numbers(band.lower)},
+                     {"upper", numbers(band.upper)},
+                     {"colour", band.colour}});
+  }
   const nlohmann::json description = {
       {"title", figure.title},
       {"x", {{"label", axis_label(figure.x)}, {"logarithmic", figure.logarithmic_x}}},
       {"y", {{"label", axis_label(figure.y)}, {"logarithmic", figure.logarithmic_y}}},
       {"curves", lines(figure.curves)},
-      {"points", lines(figure.points)}};
+      {"points", lines(figure.points)},
+      {"bands", bands}};
   process::draw_json("scripts/plot_curves.py", description.dump(1), path);
-  fmt::print("written: {}\n", path.string());
+  log::info("written: {}", path.string());
 }
 
 }  // namespace whipple::app

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string_view>
 
@@ -121,6 +122,28 @@ std::string csv_text(const CurveTable& table) {
     }
   }
   return file.str();
+}
+
+std::string json_text(const CurveTable& table) {
+  nlohmann::ordered_json all = {{"title", table.title}, {"materials", nlohmann::json::array()}};
+  for (const Series& series : table.series) {
+    nlohmann::ordered_json rows = nlohmann::json::array();
+    for (const CurveRow& row : series.rows) {
+      nlohmann::ordered_json cells;
+      for (std::size_t i = 0; i < row.size(); ++i) {
+        nlohmann::ordered_json& cell = cells[table.columns[i].name];
+        if (!known(row[i])) continue;  // null
+        if (const double* number = std::get_if<double>(&row[i])) {
+          cell = *number / table.columns[i].size;
+        } else {
+          cell = std::get<std::string>(row[i]);
+        }
+      }
+      rows.push_back(std::move(cells));
+    }
+    all["materials"].push_back({{"material", series.name}, {"end", series.end}, {"rows", std::move(rows)}});
+  }
+  return all.dump(1) + "\n";
 }
 
 bool is_standard_output(const std::string& name) {

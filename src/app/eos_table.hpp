@@ -15,6 +15,8 @@ void print_list(const eos::curves::CurveTable& table);
 
 /// Returns a table as CSV, its title in the first line.
 std::string csv_text(const eos::curves::CurveTable& table);
+/// The table as JSON: for each material a list of rows, each with the columns of the CSV; null for what is not known.
+std::string json_text(const eos::curves::CurveTable& table);
 
 /// Returns whether the name of an output file, "-", means standard output, which then holds nothing else.
 bool is_standard_output(const std::string& name);

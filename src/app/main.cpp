@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "eos/models/simulated_crystal.hpp"
 #include "md_fitting/simulated_crystal/worker_source.hpp"
@@ -95,6 +96,18 @@ int whipple_main(int argc, char** argv) {
   return run_command_line(app, argc, argv);
 }
 
+/// "whipple help run" is "whipple run --help".
+std::vector<char*> arguments_of(int argc, char** argv) {
+  static char help[] = "--help";
+  std::vector<char*> arguments(argv, argv + argc);
+  if (argc > 1 && std::string_view(argv[1]) == std::string_view("help")) {
+    arguments.erase(arguments.begin() + 1);
+    arguments.push_back(help);
+  }
+  arguments.push_back(nullptr);
+  return arguments;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -106,5 +119,7 @@ int main(int argc, char** argv) {
   mallopt(M_MMAP_THRESHOLD, 4 << 20);
   // Smaller ones stay: every step takes and frees some, and new pages cost more than what is done with them.
   mallopt(M_TRIM_THRESHOLD, 32 << 20);
-  return whipple::run_guarded("whipple", whipple_main, argc, argv);
+  std::vector<char*> arguments = arguments_of(argc, argv);
+  return whipple::run_guarded("whipple", whipple_main, static_cast<int>(arguments.size()) - 1,
+                              arguments.data());
 }

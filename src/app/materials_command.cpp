@@ -50,20 +50,35 @@ std::string lower(std::string text) {
   return text;
 }
 
-/// The material files with all words in their names or texts, in which sources, models and notes are.
+/// The materials with all words in their names, groups or notes, then those that hold them in their sources, models or
+/// comments only.
 void search_materials(const std::vector<std::string>& words) {
-  std::vector<LibraryMaterial> found = library_materials();
-  std::erase_if(found, [&](const LibraryMaterial& material) {
-    const std::string text = lower(material.file.stem().string() + "\n" + read_text(material.file));
-    return !std::ranges::all_of(words,
-                                [&](const std::string& word) { return text.find(lower(word)) != text.npos; });
-  });
-  if (found.empty()) throw InputError("no material of the library holds all of these words");
+  const auto holds = [&](const std::string& text) {
+    return std::ranges::all_of(words,
+                               [&](const std::string& word) { return text.find(lower(word)) != text.npos; });
+  };
+  std::vector<LibraryMaterial> named, cited;
   std::size_t width = 0;
-  for (const LibraryMaterial& material : found) width = std::max(width, material.file.stem().string().size());
-  for (const LibraryMaterial& material : found) {
-    fmt::print("{:<{}}  {}\n", material.file.stem().string(), width, material.note);
+  for (const LibraryMaterial& material : library_materials()) {
+    const std::string stem = material.file.stem().string();
+    std::vector<LibraryMaterial>* list = nullptr;
+    if (holds(lower(fmt::format("{}\n{}\n{}\n{}", stem, material.name, material.group, material.note)))) {
+      list = &named;
+    } else if (holds(lower(stem + "\n" + read_text(material.file)))) {
+      list = &cited;
+    }
+    if (list == nullptr) continue;
+    list->push_back(material);
+    width = std::max(width, stem.size());
   }
+  if (named.empty() && cited.empty()) throw InputError("no material of the library holds all of these words");
+  const auto print = [&](const std::vector<LibraryMaterial>& list) {
+    for (const LibraryMaterial& material : list)
+      fmt::print("{:<{}}  {}\n", material.file.stem().string(), width, material.note);
+  };
+  print(named);
+  if (!named.empty() && !cited.empty()) fmt::print("\nin sources, models or comments only:\n");
+  print(cited);
 }
 
 /// The file itself, which holds constants and sources, and where its equation of state is valid.

@@ -62,10 +62,12 @@ std::string measure(const std::string& folder, const ReportOptions& options,
   const analysis::Run run = analysis::read_run(folder);
   if (run.snapshots.empty()) return "";  // it has its input and history to show
   AnalysisWords words = options.analysis;
+  log::info("{}: measures and views of {} snapshots", folder, run.snapshots.size());
   constexpr double panel_width = 4.5;  // inches, somewhat more than that of one of several panels
   words.views.columns = static_cast<std::size_t>(std::lround(panel_width * options.dots_per_inch));
   run_analysis(folder, words, output);
   write_planar_impacts(run, output);
+  if (with_view && options.view_megabytes > 0.0) log::info("{}: page in three dimensions", folder);
   return with_view ? write_view(run, options.view_megabytes, output) : "";
 }
 
@@ -85,6 +87,7 @@ int run_report(const ReportOptions& options) {
     const std::string view = measure(run, options, one ? output : std::filesystem::path(run) / "report", one);
     if (!view.empty()) arguments.insert(arguments.end(), {"--view", view});
   }
+  log::info("{}: figures and page", output.string());
   for (const std::string& figure : options.figures) arguments.insert(arguments.end(), {"--figure", figure});
   return process::run_script("report", arguments);
 }

@@ -151,6 +151,20 @@ void write_preview(const Arguments& arguments, const std::string& page_file) {
              page.one_of == 1 ? "all particles" : fmt::format("about one of {} particles", page.one_of));
 }
 
+/// @throws InputError for a folder, with the case file in it
+void require_case_file(const std::filesystem::path& path) {
+  if (!std::filesystem::is_directory(path)) return;
+  if (std::filesystem::exists(path / "run.toml")) {
+    throw InputError(
+        fmt::format("{0} is the folder of a run: to go on with it, whipple run --restart {0}; its case is "
+                    "{0}/run.toml",
+                    path.string()));
+  }
+  const std::filesystem::path inside = path / "case.toml";
+  throw InputError(fmt::format("{} is a folder: give the case file{}", path.string(),
+                               std::filesystem::exists(inside) ? ", " + inside.string() : " in it"));
+}
+
 void add_common(CLI::App& command, Arguments& arguments) {
   command.add_option("case", arguments.case_file, "The case (CASE.toml)");
   command
@@ -206,6 +220,7 @@ void add_run_command(CLI::App& app) {
       "Exit codes: 0 done, 2 wrong input, 3 the physics left its range, or disk or memory did not suffice\n"
       "  (state saved), 128 + signal when stopped, 124 at the limit of wall time");
   command->callback([arguments] {
+    require_case_file(arguments->case_file);
     const int code = arguments->ranks > 0 ? run_on_ranks(*arguments) : run_here(*arguments);
     if (code != 0) throw CLI::RuntimeError(code);
   });
@@ -227,6 +242,10 @@ void add_check_command(CLI::App& app) {
       "  whipple check cases/copper_disk_on_aluminium/case.toml --preview disk.html");
   command->callback([arguments, preview] {
     if (arguments->case_file.empty()) throw InputError("expected a case file (CASE.toml)");
+    require_case_file(arguments->case_file);
+    if (!preview->empty() && !preview->ends_with(".html"))
+      throw InputError(
+          fmt::format("--preview {}: a page for the browser: its name ends with .html", *preview));
     require_new_file(*preview, arguments->force);
     fmt::print("{}", run::check_case(run_options(*arguments), parallel::world()));
     if (!preview->empty()) write_preview(*arguments, *preview);

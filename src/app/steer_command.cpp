@@ -6,11 +6,13 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
 #include "src/core/base/text.hpp"
 #include "src/core/base/text_table.hpp"
 #include "src/run/directory_control.hpp"
@@ -22,11 +24,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void print_status(const fs::path& folder) {
+/// The status files of runs as one list, each with its folder.
+void print_status_as_json(const std::vector<fs::path>& runs) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const fs::path& path : runs) {
+    nlohmann::json entry = nlohmann::json::parse(read_text(path / "status.json"));
+    entry["run"] = path.string();
+    list.push_back(std::move(entry));
+  }
+  fmt::print("{}\n", list.dump(1));
+}
+
+void print_status(const fs::path& folder, bool json) {
   std::vector<std::vector<std::string>> rows = {
       {"run", "state", "done", "step", "t [us]", "end [us]", "left", "message"}};
   const std::vector<fs::path> runs = run::find_runs(folder);
   if (runs.empty()) throw InputError(fmt::format("{}: contains no run with a status.json", folder.string()));
+  if (json) return print_status_as_json(runs);
   for (const fs::path& path : runs) {
     const run::RunStatus s = run::read_status(path);
     rows.push_back({path.string(), std::string(word_of(s.state)),
@@ -72,7 +86,9 @@ void add_status_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("status", "How far runs are");
   command->add_option("dir", *folder, "A run directory, or a folder with some at any depth (default: run)");
   command->footer("Example:\n  whipple status run/disk");
-  command->callback([folder] { print_status(*folder); });
+  auto json = std::make_shared<bool>(false);
+  command->add_flag("--json", *json, "The same as a list for programs");
+  command->callback([folder, json] { print_status(*folder, *json); });
 }
 
 }  // namespace whipple::app

@@ -126,9 +126,20 @@ void remark_on_burn(const Case& setup, std::size_t b, std::vector<std::string>& 
 /// A detonator outside of all explosive lights their surfaces; beside a mirror plane it has an image that lights, too.
 void remark_on_detonators(const Case& setup, std::vector<std::string>& remarks) {
   if (!setup.has_burn()) return;
+  constexpr double still_pushes = 1e9;  // Pa: a hundredth or more of detonation pressures
+  if (setup.burn.retire_below > still_pushes) {
+    remarks.push_back(
+        fmt::format("burn.retire_below = {:.4g} GPa: products are removed while they still push",
+                    1e-9 * setup.burn.retire_below));
+  }
   for (std::size_t d = 0; d < setup.detonations.size(); ++d) {
     const Detonation& detonation = setup.detonations[d];
     const Vector3& at = detonation.position;
+    if (detonation.delay >= setup.time.end) {
+      remarks.push_back(
+          fmt::format("detonation {} starts at {:.4g} us, after the end of the run: it lights nothing", d + 1,
+                      1e6 * detonation.delay));
+    }
     const auto holds = [&](std::size_t b) {
       return setup.materials[b]->burns() && setup.holds(setup.bodies[b], at);
     };

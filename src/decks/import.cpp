@@ -41,6 +41,8 @@ Format format_of(const fs::path& deck, std::string_view text) {
   if (start.front() == '*' || start.front() == '$') {
     refuse(deck, "a keyword deck, but not of LS-DYNA: those of Abaqus are not read");
   }
+  if (text.find("#ISINP") != std::string_view::npos || text.find("#ISMAT") != std::string_view::npos)
+    refuse(deck, "an input of iSALE, which is not read");
   const auto has = [&](std::string_view command) { return text.find(command) != std::string_view::npos; };
   if (start.front() == '#' || has("region(") || has("solid(")) {
     refuse(

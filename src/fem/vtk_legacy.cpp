@@ -69,6 +69,13 @@ class LegacyReader {
     while (!rest_.empty() && rest_.front() != '\n' && rest_.front() != '\r') line_of_text();
   }
 
+  /// Leaves out an array of so many numbers for each point or cell, behind its name and type.
+  void skip_array(std::size_t components) {
+    word();
+    word();
+    for (std::size_t i = 0; i < components * of_cells_; ++i) number<double>();
+  }
+
   void read_section(std::string_view section) {
     if (section == "POINTS") {
       const std::size_t points = count();
@@ -97,14 +104,22 @@ class LegacyReader {
     } else if (section == "METADATA") {
       skip_metadata();
     } else if (section == "VECTORS" || section == "NORMALS") {
+      skip_array(3);
+    } else if (section == "TENSORS") {
+      skip_array(9);
+    } else if (section == "TENSORS6") {
+      skip_array(6);
+    } else if (section == "GLOBAL_IDS" || section == "PEDIGREE_IDS") {
+      skip_array(1);
+    } else if (section == "TEXTURE_COORDINATES") {
       word();
+      const std::size_t components = count();
       word();
-      for (std::size_t i = 0; i < 3 * of_cells_; ++i) number<double>();
+      for (std::size_t i = 0; i < components * of_cells_; ++i) number<double>();
     } else {
       fail(
           fmt::format("\"{}\" is not read here; known are POINTS, CELLS, CELL_TYPES, CELL_DATA and "
-                      "POINT_DATA with SCALARS, "
-                      "VECTORS, FIELD",
+                      "POINT_DATA with SCALARS, VECTORS, NORMALS, TENSORS, GLOBAL_IDS, FIELD",
                       section));
     }
   }

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <map>
 #include <system_error>
@@ -167,6 +168,34 @@ Declared declare_file(const fs::path& file,
   return declared;
 }
 
+/// ", did you mean ...?" with the name that a person has misspelt, or those that share most of its words: "Al 6061-T6" is
+/// near aluminium_6061_t6.
+std::string near_names(const std::string& wanted, const std::vector<std::string>& known) {
+  const std::string misspelt = did_you_mean(wanted, known);
+  if (!misspelt.empty()) return misspelt;
+  std::vector<std::string> words(1);
+  for (const char c : wanted) {
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
+      words.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    } else if (!words.back().empty()) {
+      words.emplace_back();
+    }
+  }
+  std::erase_if(words, [](const std::string& word) { return word.size() < 2; });
+  const auto shared = [&](const std::string& name) {
+    return std::ranges::count_if(words,
+                                 [&](const std::string& word) { return name.find(word) != name.npos; });
+  };
+  std::ptrdiff_t most = 0;
+  for (const std::string& name : known) most = std::max(most, shared(name));
+  if (most == 0) return "";
+  std::vector<std::string> found;
+  for (const std::string& name : known) {
+    if (shared(name) == most && found.size() < 4) found.push_back('"' + name + '"');
+  }
+  return fmt::format(", did you mean {}?", fmt::join(found, " or "));
+}
+
 }  // namespace
 
 std::vector<fs::path> library_folders() {
@@ -202,7 +231,7 @@ fs::path find_material(const fs::path& path, const fs::path& beside) {
   for (const auto& [stem, file] : library_files()) known.push_back(stem);
   throw InputError(fmt::format(
       "no material file '{}'{}; searched: {}; 'whipple materials' lists the {} of the library", path.string(),
-      did_you_mean(path.stem().string(), known), fmt::join(searched, ", "), known.size()));
+      near_names(path.stem().string(), known), fmt::join(searched, ", "), known.size()));
 }
 
 Material read_material(const fs::path& path, const fs::path& beside) {

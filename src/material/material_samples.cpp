@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
+#include <regex>
 
 #include "src/core/base/error.hpp"
+#include "src/core/base/log.hpp"
 #include "src/core/base/normal_samples.hpp"
 #include "src/core/input/document.hpp"
 #include "src/material/material_file.hpp"
@@ -155,7 +158,23 @@ Errors read_errors(const std::filesystem::path& file, ErrorTier tier) {
   return errors;
 }
 
+/// Warns once of each kind of warning of the draws; those of a kind differ in numbers only.
+void warn_of_draws(const std::filesystem::path& file, const std::vector<std::string>& warnings, int draws) {
+  static const std::regex number("[0-9]+([.][0-9]+)?([eE][-+]?[0-9]+)?");
+  std::map<std::string, std::vector<std::string>> kinds;
+  for (const std::string& warning : warnings)
+    kinds[std::regex_replace(warning, number, "#")].push_back(warning);
+  for (const auto& [kind, messages] : kinds)
+    log::warning("{}: {} of {} draws: {}", file.filename().string(), messages.size(), draws,
+                 messages.front());
+}
+
 }  // namespace
+
+bool has_covariance(const Material& material) {
+  if (material.file.empty()) return false;
+  return input::Document::from_file(material.file).root().has("covariance");
+}
 
 MaterialSamples sample_material(const std::filesystem::path& path, int count, std::uint64_t seed,
                                 ErrorTier tier, const std::filesystem::path& beside) {
@@ -177,7 +196,12 @@ MaterialSamples sample_material(const std::filesystem::path& path, int count, st
   }
   if (over_potentials(tier)) covariance = joined(covariance, *errors.spread);
   samples.names = covariance.names;
-  NormalSamples distribution(values_of(read_material(file), covariance), covariance.matrix, seed);
+  std::vector<std::string> warnings;
+  const auto central = [&] {
+    const log::WarningsAside aside;  // those of the material itself are of whoever read it first
+    return values_of(read_material(file), covariance);
+  };
+  NormalSamples distribution(central(), covariance.matrix, seed);
   while (static_cast<int>(samples.materials.size()) < count) {
     const Eigen::VectorXd values = distribution.draw();
     std::vector<std::pair<std::string, std::string>> changes;
@@ -196,13 +220,17 @@ MaterialSamples sample_material(const std::filesystem::path& path, int count, st
       }
     };
     try {
+      const log::WarningsAside aside;
       samples.materials.push_back(read_changed_material(file, changes));
+      samples.changes.push_back(changes);
+      warnings.insert(warnings.end(), aside.messages().begin(), aside.messages().end());
     } catch (const InputError& error) {
       refuse(error.what());
     } catch (const StateError& error) {  // constants without the states that the model is built from
       refuse(error.what());
     }
   }
+  warn_of_draws(file, warnings, count);
   return samples;
 }
 

@@ -16,15 +16,20 @@ namespace whipple {
 /// Materials whose constants are drawn from the covariance of a fitted one.
 struct MaterialSamples {
   std::vector<Material> materials;
+  std::vector<std::vector<std::pair<std::string, std::string>>>
+      changes;                        ///< keys and values of each, "eos.gruneisen"
   std::vector<std::string> names;     ///< of the drawn constants
   std::vector<std::string> defaults;  ///< of them, defaults with the errors of their sources
   std::vector<std::string> unknown;   ///< defaults without a known error: the same in all samples
   int refused = 0;  ///< draws of which the model makes no material; another one was drawn for each
 };
 
+/// Tells whether a material is a fitted one, whose file has a table [covariance].
+bool has_covariance(const Material& material);
+
 /// Reads the tables [covariance], [default_errors] and [potential_spread] of a material file (names, units, and a row
 /// of the matrix for each name; [default_errors] holds an error for each name) and draws its constants from the normal
-/// distribution about their values in [eos].
+/// distribution about their values in [eos]. What several draws are warned of is one warning that counts them.
 /// @param tier          which errors: of the fit (with those of the defaults), over the potentials, or both
 /// @param path, beside  as of read_material
 /// @throws InputError if the file lacks a table that the tier needs, a table is at fault, or four of five draws are

@@ -33,7 +33,8 @@ std::string at_faces(const cases::Case& setup, const solver::Simulation& simulat
     list += (list.empty() ? "" : ", ") + std::string(names[face]);
   }
   std::string text;
-  if (!held.empty()) text += fmt::format("  held at {}: touches at the start\n", held);
+  if (!held.empty())
+    text += fmt::format("  one with its mirror image or the wall at {}, where it begins\n", held);
   if (!met.empty()) text += fmt::format("  contact at {} when it comes there\n", met);
   return text;
 }
@@ -95,11 +96,18 @@ std::string check_case(const RunOptions& options, MPI_Comm communicator) {
   text += fmt::format("steps: {:.0f} to {:.0f} to t = {:.6g} us\n", cost.least_steps, cost.most_steps,
                       1e6 * setup.time.end);
   text += fmt::format(
-      "estimated time: {} to {} on {} threads ({:.0f} ns per particle{} and step, measured; on average "
+      "estimated time: {} to {} on {} thread{} ({:.0f} ns per particle{} and step, measured; on average "
       "{:.0f} % of "
       "them take part)\n",
       format_duration(cost.least_time), format_duration(cost.most_time), parallel::threads(),
-      cost.nanoseconds, setup.has_elements() ? " or element" : "", 1e2 * cost.moving_share);
+      parallel::threads() == 1 ? "" : "s", cost.nanoseconds, setup.has_elements() ? " or element" : "",
+      1e2 * cost.moving_share);
+  constexpr double long_time = 86400.0;  // s
+  if (cost.least_time > long_time) {
+    text += fmt::format(
+        "that is more than a day: is time.end = {:.6g} us meant, or are the cells of {:.6g} mm too fine?\n",
+        1e6 * setup.time.end, 1e3 * setup.geometry.cell_size);
+  }
   return text;
 }
 

@@ -210,6 +210,20 @@ void append_ids(const analysis::Snapshot& snapshot, const std::vector<std::size_
                                    {"increments", true}});
 }
 
+/// Direction in which the fastest body flies against the slowest one at the start; none where all move alike. Of two
+/// that fly against each other equally fast the first counts.
+std::optional<Vector3> flight_of(const analysis::Run& run) {
+  if (run.bodies.empty()) return std::nullopt;
+  const auto speed = [](const analysis::BodyInput& body) { return body.velocity.norm(); };
+  const auto [slowest, fastest] = std::ranges::minmax_element(run.bodies, {}, speed);
+  Vector3 flight = fastest->velocity - slowest->velocity;
+  if (speed(*fastest) <= (1.0 + 1e-9) * speed(*slowest))
+    flight = run.bodies.front().velocity - run.bodies.back().velocity;
+  const double size = flight.norm();
+  if (!(size > 0.0)) return std::nullopt;
+  return Vector3(flight / size);
+}
+
 nlohmann::ordered_json header_of(const analysis::Run& run, const analysis::Snapshot& snapshot,
                                  std::size_t kept, std::uint64_t one_of) {
   nlohmann::ordered_json header = {{"n", kept},          {"of", snapshot.size()},
@@ -221,6 +235,8 @@ nlohmann::ordered_json header_of(const analysis::Run& run, const analysis::Snaps
   for (const analysis::BodyInput& body : run.bodies) {
     header["bodies"].push_back({{"name", body.name}, {"spacing", body.spacing}});
   }
+  if (const std::optional<Vector3> flight = flight_of(run))
+    header["flight"] = {flight->x(), flight->y(), flight->z()};
   header["fields"] = nlohmann::ordered_json::array();
   return header;
 }

@@ -43,6 +43,7 @@ Experiment measured(double intercept, double slope, std::mt19937_64& generator) 
     experiment.lines.push_back(i);
     experiment.initial_density.push_back(std::numeric_limits<double>::quiet_NaN());
     experiment.porosity.push_back(std::numeric_limits<double>::quiet_NaN());
+    experiment.temperatures.push_back(std::numeric_limits<double>::quiet_NaN());
   }
   return experiment;
 }
@@ -114,6 +115,7 @@ TEST(Calibration, WidthAndErrorsAreThoseOfTheirSources) {
                   std::hypot(scatter.deviation[3], scatter.measurement_error[3]),
               1e-12);
   // Stated errors replace the scatter; that of the abscissa counts by the slope of the model.
+  experiment.states_errors = true;
   experiment.ordinate_error.assign(24, 30.0);
   experiment.abscissa_error.assign(24, 20.0);
   const Calibration stated = calibrate(*central, initial, samples.all, experiment);
@@ -125,7 +127,11 @@ TEST(Calibration, WidthAndErrorsAreThoseOfTheirSources) {
   EXPECT_TRUE(std::isnan(gap.pull[5]));
   EXPECT_EQ(std::lround(gap.coverage.back() * gap.points),
             std::lround(stated.coverage.back() * stated.points) - 1);
-  experiment.ordinate_error.clear();
+  // Rows of which one error is known count with it. Pressures over volume without errors have a band and no verdict.
+  experiment.states_errors = false;
+  experiment.kind = ExperimentKind::isentrope;
+  EXPECT_TRUE(std::isnan(measurement_errors(experiment, {}).front()));
+  experiment.kind = ExperimentKind::shock_velocity;
   for (auto* column : {&experiment.abscissa, &experiment.ordinate}) column->resize(3);
   EXPECT_THROW(measurement_errors(experiment, {}), InputError);
 }

@@ -336,6 +336,42 @@ TEST_F(CommandLine, WhatADeckMakesMissingIsRefused) {
   EXPECT_THAT(whipple("import " + deck + " -o other --format mpm3d").err, HasSubstr("known: mpm3d_f90"));
 }
 
+// What newcomers try and what is no such thing: the message says what to do instead.
+TEST_F(CommandLine, NaturalMistakesAreNamedWithTheirRemedy) {
+  write("case.toml", text_of(WHIPPLE_SOURCE_DIR "/tests/data/small_impact.toml"));
+  const Result preview = whipple("check case.toml --preview pv.png");
+  EXPECT_EQ(preview.code, 2);
+  EXPECT_THAT(preview.err, HasSubstr("its name ends with .html"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "pv.png"));
+  const Result folder = whipple("run .");
+  EXPECT_EQ(folder.code, 2);
+  EXPECT_THAT(folder.err, HasSubstr("is a folder: give the case file, ./case.toml"));
+  write("Cu.eam", "copper\n29 63.5 3.6 fcc\n");
+  EXPECT_THAT(whipple("fit Cu.eam").err, HasSubstr("simulate first, whipple md PLAN.toml"));
+  EXPECT_THAT(whipple("eos audit 'Al 6061-T6'").err, HasSubstr("did you mean \"aluminium_6061_t6\"?"));
+  EXPECT_THAT(whipple("eos audit aluminium_foam").err, HasSubstr("did you mean \"aluminium"));
+  EXPECT_EQ(whipple("help run").out, whipple("run --help").out);
+  EXPECT_EQ(whipple("help").out, whipple("--help").out);
+  // Names before sources.
+  const std::string found = whipple("materials search copper").out;
+  EXPECT_LT(found.find("copper_ofhc"), found.find("in sources, models or comments only:"));
+  EXPECT_GT(found.find("\ntungsten"), found.find("in sources, models or comments only:"));
+}
+
+TEST_F(CommandLine, TablesAndStatesOfRunsAreWrittenForPrograms) {
+  const Result state = whipple("eos state copper --density '9 g/cm^3' --temperature '300 K' --json");
+  ASSERT_EQ(state.code, 0) << state.err;
+  const auto table = nlohmann::json::parse(state.out);
+  EXPECT_NEAR(table["materials"][0]["rows"][0]["rho_kg_m3"].get<double>(), 9000.0, 1e-6);
+  EXPECT_EQ(table["materials"][0]["rows"][0]["phase"], "solid");
+  std::filesystem::create_directories(folder_ / "run");
+  write("run/status.json", R"({"state": "finished", "step": 7, "time": 1e-6, "end": 1e-6})");
+  write("run/run.toml", "");
+  const Result status = whipple("status run --json");
+  EXPECT_EQ(status.code, 0) << status.err;
+  EXPECT_EQ(nlohmann::json::parse(status.out)[0]["step"], 7);
+}
+
 // `whipple edit` writes what passes the checks, and nothing else into the file.
 TEST_F(CommandLine, EditChangesAValueAndKeepsTheRest) {
   const std::string before = text_of(WHIPPLE_SOURCE_DIR "/tests/data/small_impact.toml");

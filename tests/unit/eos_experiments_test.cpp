@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 
 #include "eos/experiments/comparison.hpp"
 #include "eos/experiments/measured_table.hpp"
+#include "eos/inversions.hpp"
+#include "eos/loci.hpp"
 #include "src/core/base/error.hpp"
 #include "tests/unit/eos_support.hpp"
 #include "tests/unit/temporary_folder.hpp"
@@ -48,6 +51,120 @@ TEST(EosExperiments, HeadingsNameQuantities) {
   EXPECT_EQ(MeasuredTable::quantity_of("P [GPa]"), Quantity::pressure);
   EXPECT_EQ(MeasuredTable::quantity_of("rho0_g_cm3"), Quantity::initial_density);
   EXPECT_EQ(MeasuredTable::quantity_of("solidus_K"), std::nullopt);
+  for (const char* heading :
+       {"us_err_km_s", "sigma_us [m/s]", "dus (km/s)", "P_error_GPa", "us_err [%]", "us_unc_%"})
+    EXPECT_EQ(MeasuredTable::quantity_of(heading), std::nullopt) << heading;
+}
+
+/// A table of measurements as it is read.
+Experiment experiment_of(const std::string& text, const std::string& name = "points.csv") {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / name) << text;
+  return read_experiments(folder.path() / name).front();
+}
+
+class Isotherms : public ::testing::Test {
+ protected:
+  test::MieGruneisenEos eos{test::aluminium_2024()};
+  State initial = eos.state(eos.reference_density(), eos.reference_energy());
+  double ambient = density_at_pressure(eos, 0.0, 298.0), hot = density_at_pressure(eos, 0.0, 900.0);
+
+  /// Largest deviation of the model from points of its own isotherm of 900 K, Pa.
+  [[nodiscard]] double largest(const std::string& headings, const auto& row,
+                               const std::string& comment = "900 K") const {
+    std::string text = fmt::format("# {}\n{}\n", comment, headings);
+    for (const double density : {1.02 * hot, 1.1 * hot, 1.3 * hot})
+      text += row(eos.state_at_temperature(density, 900.0).pressure * 1e-9, density) + "\n";
+    const Comparison own = compare(eos, initial, experiment_of(text));
+    EXPECT_EQ(own.points, 3) << text;
+    EXPECT_TRUE(own.porous.empty() && own.denser.empty()) << text;
+    return std::abs(own.maximum);
+  }
+};
+
+// Of points of its own isotherms the model has no deviation, however they are written, at any temperature.
+TEST_F(Isotherms, OfAnyTemperatureLeaveNoDeviation) {
+  constexpr double exact = 1e4;  // Pa of up to 40 GPa, by the digits of the tables
+  EXPECT_LT(
+      largest("P_GPa,rho_kg_m3", [](double p, double rho) { return fmt::format("{:.12g},{:.12g}", p, rho); }),
+      exact);
+  // Density of the sample at rest, at whichever temperature: densities stay absolute.
+  for (const double rest : {ambient, hot, 2000.0}) {
+    EXPECT_LT(
+        largest("P_GPa,rho_kg_m3,rho0_kg_m3",
+                [&](double p, double rho) { return fmt::format("{:.12g},{:.12g},{:.12g}", p, rho, rest); }),
+        exact);
+  }
+  EXPECT_LT(largest("P_GPa,V_cm3_g",
+                    [](double p, double rho) { return fmt::format("{:.12g},{:.12g}", p, 1e3 / rho); }),
+            exact);
+  const auto ratio_to = [&](double reference) {
+    return [reference](double p, double rho) { return fmt::format("{:.12g},{:.12g}", p, reference / rho); };
+  };
+  EXPECT_LT(largest("P_GPa,V_over_V0", ratio_to(ambient)), exact);
+  EXPECT_LT(largest("P_GPa,V_over_V0", ratio_to(hot), "900 K, V0 at 900 K"), exact);
+  EXPECT_GT(largest("P_GPa,V_over_V0", ratio_to(hot)), 1e9);  // V0 of another temperature shows
+  EXPECT_LT(largest(
+                "P_GPa,rho_kg_m3,T_K",
+                [](double p, double rho) { return fmt::format("{:.12g},{:.12g},900", p, rho); }, "no word"),
+            exact);
+}
+
+// Several isotherms in one table, with a row at 1 bar that is the volume of reference.
+TEST_F(Isotherms, ATemperatureOfEachRowCounts) {
+  constexpr double atom = 27.0 * 1.66053906660e-27 * 1e30;  // A^3 kg/m^3
+  std::string text = "P_GPa,atomic_volume_A3,T_K\n";
+  text += fmt::format("0.0001,{:.12g},298\n", atom / ambient);
+  text += fmt::format("0,{:.12g},900\n", atom / hot);
+  for (const double temperature : {300.0, 600.0, 1200.0}) {
+    const double density = 1.15 * ambient;
+    text +=
+        fmt::format("{:.12g},{:.12g},{}\n", eos.state_at_temperature(density, temperature).pressure * 1e-9,
+                    atom / density, temperature);
+  }
+  const Experiment table = experiment_of(text);
+  EXPECT_EQ(table.kind, ExperimentKind::isotherm);
+  EXPECT_TRUE(std::isnan(table.temperature));
+  EXPECT_EQ(table.volume_temperature, 298.0);
+  EXPECT_EQ(table.left_out.size(), 1U);  // the row of reference
+  const Comparison own = compare(eos, initial, table);
+  EXPECT_EQ(own.points, 4);  // the hot row at rest is one
+  EXPECT_LT(std::abs(own.maximum), 1e4);
+}
+
+TEST_F(Isotherms, PressuresAndTemperaturesBelongToWhatTheTableSays) {
+  const Hugoniot hugoniot(eos, initial.density, initial.specific_internal_energy);
+  std::string rows = "P_GPa,T_K\n";
+  for (const double pressure : {20.0, 60.0})
+    rows +=
+        fmt::format("{},{:.12g}\n", pressure, 1.01 * hugoniot.at_pressure(pressure * 1e9).state.temperature);
+  const Experiment shocks = experiment_of("# Hugoniot temperatures below melting\n" + rows);
+  EXPECT_EQ(shocks.kind, ExperimentKind::shock_temperature);
+  EXPECT_NEAR(compare(eos, initial, shocks).mean, -100.0 / 101.0, 1e-6);  // % of T
+  EXPECT_EQ(experiment_of("# melting line up to the shock\n" + rows).kind, ExperimentKind::melting);
+  EXPECT_EQ(experiment_of(rows, "al_hugoniot.csv").kind, ExperimentKind::shock_temperature);
+  EXPECT_THROW(experiment_of(rows), InputError);
+}
+
+// Columns of errors of every kind are one standard deviation of their quantity, SI.
+TEST(EosExperiments, ErrorColumnsAreThoseOfTheirQuantity) {
+  const Experiment shocks =
+      experiment_of("up_km_s,us_km_s,us_err_km_s,sigma_up [m/s]\n1,6.6,0.05,12\n2,8,,12\n");
+  EXPECT_TRUE(shocks.states_errors);
+  EXPECT_NEAR(shocks.ordinate_error[0], 50.0, 1e-9);
+  EXPECT_TRUE(std::isnan(shocks.ordinate_error[1]));
+  EXPECT_NEAR(shocks.abscissa_error[1], 12.0, 1e-9);
+  const Experiment ramp =
+      experiment_of("# an isentrope\nP_GPa,rho_g_cm3,rho0_g_cm3,P_err [%],drho_g_cm3\n50,4,2.7,4,0.04\n");
+  EXPECT_NEAR(ramp.ordinate_error[0], 2e9, 1.0);
+  EXPECT_NEAR(ramp.abscissa_error[0], 0.01 * 2.7 / 4, 1e-9);
+  const Experiment melt = experiment_of("# melting line\nP_GPa,T_K,T_err_K\n10,1300,25\n");
+  EXPECT_NEAR(melt.ordinate_error[0], 25.0, 1e-9);
+  EXPECT_EQ(melt.abscissa_error[0], 0.0);
+  const Experiment none = experiment_of("up_km_s,us_km_s,error of all\n1,6.6,3\n");
+  EXPECT_FALSE(none.states_errors);
+  ASSERT_EQ(none.remarks.size(), 1U);
+  EXPECT_NE(none.remarks[0].find("error of all"), std::string::npos);
 }
 
 }  // namespace

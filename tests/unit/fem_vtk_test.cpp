@@ -95,6 +95,22 @@ TEST_F(Vtk, VoxelsAreHexahedraWithAnotherOrder) {
   EXPECT_NEAR(fem::volume(fem::MeshFile::read(folder_ / "voxel.vtk").hexahedra("all")), 1.0, 1e-12);
 }
 
+// Arrays that a mesh does not need are left out, whatever they are.
+TEST_F(Vtk, ArraysThatAreNotNeededAreLeftOut) {
+  std::string text = "# vtk DataFile Version 3.0\nc\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 float\n";
+  for (const char* point : {"0 0 0", "1 0 0", "1 1 0", "0 1 0", "0 0 1", "1 0 1", "1 1 1", "0 1 1"})
+    text += std::string(point) + "\n";
+  text +=
+      "CELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 1\n12\nCELL_DATA 1\nGLOBAL_IDS ids vtkIdType\n7\n"
+      "TENSORS stress float\n1 0 0\n0 1 0\n0 0 1\n\nTENSORS6 strain float\n1 2 3 4 5 6\n"
+      "POINT_DATA 8\nTEXTURE_COORDINATES place 2 float\n";
+  for (int i = 0; i < 16; ++i) text += "0.5 ";
+  text += "\nVECTORS u float\n";
+  for (int i = 0; i < 24; ++i) text += "0 ";
+  std::ofstream(folder_ / "arrays.vtk") << text << "\n";
+  EXPECT_NEAR(fem::volume(fem::MeshFile::read(folder_ / "arrays.vtk").hexahedra("all")), 1.0, 1e-12);
+}
+
 TEST_F(Vtk, DamageIsNamed) {
   EXPECT_EQ(fault("boxes_ascii.vtu", "Name=\"pressure\"", "Name=\"other\""), "");
   EXPECT_THAT(fault("boxes_ascii.vtu", "<Cells>", "<Cells"), HasSubstr("changed.vtu:"));

@@ -60,12 +60,30 @@ TEST_F(CompareCommand, WritesPointsAndFigureOnce) {
   EXPECT_EQ(run(arguments + " --force"), 0) << output();
 }
 
+// Beside a fitted material one without errors has its deviations and no band; a warning of many draws is one line.
+TEST_F(CompareCommand, FittedMaterialsStandBesideOthers) {
+  std::string text = read_text(std::filesystem::path(WHIPPLE_SOURCE_DIR) / "eos/materials/copper.toml");
+  text +=
+      "\n[covariance]\nnames = [\"hugoniot_intercept\"]\nunits = [\"m/s\"]\n[covariance.matrix]\n"
+      "hugoniot_intercept = [400.0]\n";
+  std::ofstream(folder.path() / "fitted.toml") << text;
+  std::ofstream(folder.path() / "ramp.csv") << "# an isentrope\nP_GPa,V_over_V0\n20,0.9\n50,0.81\n";
+  ASSERT_EQ(run("fitted.toml copper --with cu_hugoniot_marsh1980 ramp.csv --samples 6"), 0) << output();
+  EXPECT_THAT(output(), ::testing::ContainsRegex("marsh1980 +fitted +144 +[0-9.]+ % +[0-9.]+ % +[0-9.]+ %"));
+  EXPECT_THAT(output(), ::testing::ContainsRegex("marsh1980 +copper +- +-"));
+  EXPECT_THAT(output(), ::testing::ContainsRegex("ramp +fitted +2 +[0-9.]+ % +- +[0-9.]+ % +- +- +-"));
+  EXPECT_THAT(output(), HasSubstr("ramp: no column of errors of P or V/V0"));
+  EXPECT_THAT(output(), HasSubstr("copper: not a fitted material"));
+}
+
 TEST_F(CompareCommand, RefusesWithReasons) {
   EXPECT_EQ(run("copper --with nothing.csv"), 2);
   EXPECT_THAT(output(), HasSubstr("no experiment 'nothing.csv'"));
   EXPECT_EQ(run("coper --with cu_hugoniot_marsh1980"), 2);
   EXPECT_THAT(output(), HasSubstr("copper"));
   EXPECT_EQ(run("copper"), 2);
+  EXPECT_EQ(run("copper --with cu_hugoniot_marsh1980 --samples 4"), 2);
+  EXPECT_THAT(output(), HasSubstr("no table [covariance]"));
   EXPECT_EQ(run("copper --with cu_thermal_expansion_nist_hahn1"), 2);  // of no kind that is compared
 }
 

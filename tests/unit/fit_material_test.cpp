@@ -11,8 +11,8 @@
 
 #include "eos/model_equation_of_state.hpp"
 #include "eos/models/gray.hpp"
+#include "md_fitting/elements/element_defaults.hpp"
 #include "md_fitting/fit/constant_list.hpp"
-#include "md_fitting/fit/element_defaults.hpp"
 #include "md_fitting/fit/fit_report.hpp"
 #include "md_fitting/fit/fit_samples.hpp"
 #include "md_fitting/fit/gray_fit.hpp"
@@ -281,7 +281,7 @@ TEST_F(FitMaterial, RefusesPointsOfTwoPotentials) {
 
 TEST_F(FitMaterial, UnknownElementNamesTheKnownOnes) {
   for (md::PointRecord& point : store.points) point.provenance["element"] = "Xx";
-  EXPECT_THAT(refusal(store.points), HasSubstr("element 'Xx': known are Cu"));
+  EXPECT_THAT(refusal(store.points), HasSubstr("for the element 'Xx': give it in a file, --defaults FILE"));
 }
 
 TEST_F(FitMaterial, TableHoldsThePublishedRows) {
@@ -307,14 +307,49 @@ TEST_F(FitMaterial, ElementsStandSideBySideEachWithItsPublishedRows) {
 
 // The defaults' table says what the documents say: units and values of the public constants.
 TEST(ElementDefaults, CopperHoldsThePublishedConstants) {
-  const ElementDefaults& copper = element_defaults("Cu");
+  const ElementDefaults copper = elements::element_defaults("Cu");
   for (const NamedDefault& entry : copper.constants) {
     EXPECT_FALSE(entry.source.empty()) << entry.parameter;
     if (entry.parameter == "vapour_attraction") {
       EXPECT_NEAR(entry.value, units::convert(0.62, "kJ cm^3/g^2", "J m^3/kg^2"), 1e-9);
     }
   }
-  EXPECT_EQ(copper.electronic.front().name, "measured");
+  EXPECT_EQ(copper.at("electronic_heat_coefficient").name, "measured");
+}
+
+// Every metal of the program has what GRAY needs, each number with its source; another one has it from a file.
+TEST_F(FitMaterial, MetalsHaveTheirConstantsFromTheProgramOrAFile) {
+  for (const char* metal :
+       {"Ag", "Al", "Au", "Cr", "Cu", "Fe", "Mo", "Nb", "Ni", "Pb", "Pd", "Pt", "Ta", "V", "W"}) {
+    const ElementDefaults table = elements::element_defaults(metal);
+    EXPECT_TRUE(elements::missing_for_gray(table, false).empty()) << metal;
+    for (const NamedDefault& entry : table.constants)
+      EXPECT_GT(entry.source.size(), 10U) << metal << entry.parameter;
+    const double melting = table.at("melting_point").value;
+    EXPECT_GT(table.at("melting_temperature").value, melting) << metal;
+    if (const NamedDefault* boiling = table.find("boiling_temperature")) {
+      EXPECT_GT(boiling->value, melting) << metal;
+    }
+  }
+  const auto strontium = folder.path() / "sr.toml";
+  std::ofstream(strontium)
+      << "[[source]]\nname = \"crc\"\ntext = \"CRC Handbook\"\n"
+         "[[element]]\nsymbol = \"Sr\"\nmetal = \"strontium\"\n"
+         "[[element.constant]]\nparameter = \"melting_temperature\"\nvalue = \"1365 K\"\n"
+         "source = \"1.3 times the melting point\"\n"
+         "[[element.constant]]\nparameter = \"electronic_heat_coefficient\"\n"
+         "value = \"3.6 mJ/(mol K^2)\"\nclass = \"measured\"\nsource = \"crc\"\n";
+  EXPECT_EQ(elements::missing_for_gray(elements::element_defaults("Sr"), false).size(), 4U);
+  const ElementDefaults given = elements::element_defaults("Sr", strontium);
+  EXPECT_EQ(elements::missing_for_gray(given, false),
+            (std::vector<std::string>{"join_volume_ratio", "boiling_temperature"}));
+  EXPECT_EQ(given.metal, "strontium");
+  EXPECT_NEAR(given.at("electronic_heat_coefficient").value, 3.6e-3, 1e-12);
+  EXPECT_EQ(given.at("electronic_heat_coefficient").source, "CRC Handbook");
+  EXPECT_EQ(given.at("electronic_heat_coefficient").evidence, Evidence::measured);
+  EXPECT_THROW((void)given.at("boiling_temperature"), InputError);
+  std::ofstream(strontium, std::ios::app) << "colour = \"grey\"\n";
+  EXPECT_THROW(elements::element_defaults("Sr", strontium), InputError);
 }
 
 TEST_F(FitMaterial, ExecutableWritesRefusesAndOverwrites) {

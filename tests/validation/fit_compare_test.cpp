@@ -146,7 +146,7 @@ TEST(Compare, OwnCurvesLeaveNoDeviation) {
                             state.state.density * 1e-3);
     }
     std::ofstream isotherm(folder.path() / "own_500K.csv");
-    isotherm << "# test\nP_GPa,V_over_V0\n";
+    isotherm << "# test, V0 at 500 K\nP_GPa,V_over_V0\n";
     const double density = eos::density_at_pressure(*material.eos, 0.0, 500.0);
     for (const double ratio : {0.95, 0.8, 0.7}) {
       isotherm << fmt::format(

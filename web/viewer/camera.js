@@ -11,10 +11,28 @@ export const VIEWS = {
   top: [0, STEEPEST],
 };
 
+/** Where the views begin: with the eye on the side from which something flies, [turn, sign of the tilt].
+ * @param flight  direction in which it flies; null: none */
+export function sideOf(flight, up) {
+  if (!flight) return [0, 1];
+  const across = [(up + 2) % 3, (up + 1) % 3].map((axis) => -flight[axis]);
+  if (Math.hypot(...across) < Math.abs(flight[up])) return [0, flight[up] > 0 ? -1 : 1];
+  return [Math.atan2(across[0], across[1]), 1];
+}
+
 /** A camera that sees a sphere whole. `up` is the axis (0, 1, 2) that stands upright; `reach` how far from the centre
- * there is something to be seen. */
-export function makeCamera(centre, radius, up = 1) {
-  return { centre: [...centre], radius, reach: radius, up, turn: VIEWS.oblique[0], tilt: VIEWS.oblique[1], zoom: 1 };
+ * there is something to be seen; `side` that of sideOf. */
+export function makeCamera(centre, radius, up = 1, side = [0, 1]) {
+  const camera = { centre: [...centre], radius, reach: radius, up, side, turn: 0, tilt: 0, zoom: 1 };
+  setView(camera, 'oblique');
+  return camera;
+}
+
+/** Turns the camera to one of VIEWS, which is seen from its side. */
+export function setView(camera, name) {
+  const [turn, tilt] = VIEWS[name];
+  camera.turn = turn + camera.side[0];
+  camera.tilt = tilt * camera.side[1];
 }
 
 export function turnCamera(camera, turn, tilt) {

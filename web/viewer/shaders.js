@@ -92,5 +92,11 @@ void main() {
   // Light from the eye's upper left; the distance fades a little into the background.
   vec3 normal = vec3(place.x, -place.y, sqrt(1.0 - squared));
   float light = 0.45 + 0.55 * max(dot(normal, normalize(vec3(-0.4, 0.5, 1.0))), 0.0);
-  colour = vec4(mix(own * light, background, 0.35 * far_share), 1.0);
+  vec3 lit = own * light;
+  // On a dark page the dark end of the colours, matter at rest, would be black on black: it is lifted towards grey, and
+  // the rim of each disc is lit.
+  float dark = 1.0 - dot(background, vec3(0.299, 0.587, 0.114));
+  float missing = 1.0 - max(max(lit.r, lit.g), lit.b);
+  lit += dark * (0.3 * missing + 0.25 * squared * squared) * vec3(0.75);
+  colour = vec4(mix(lit, background, 0.35 * far_share), 1.0);
 }`;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is shown, and how it follows the mouse and the keys.
-import { makeCamera, project, projectionMatrix, shiftCamera, turnCamera, viewMatrix, VIEWS, zoomCamera } from './camera.js';
+import { makeCamera, project, projectionMatrix, setView, shiftCamera, sideOf, turnCamera, viewMatrix, zoomCamera } from './camera.js';
 import { rgb, suitableMap } from './colours.js';
 import { completedBox, completionOf, copyOf } from './copies.js';
 import { element } from './elements.js';
@@ -48,7 +48,8 @@ export function setField(state, cloud, name, share = 0.01) {
 export function resetCamera(state, cloud) {
   const { lower, upper } = completedBox(cloud.head, completionOf(cloud.head, state.completed));
   const centre = lower.map((from, i) => (from + upper[i]) / 2);
-  state.camera = makeCamera(centre, Math.max(Math.hypot(...upper.map((to, i) => to - lower[i])) / 2, 1e-9), state.camera?.up ?? 1);
+  const up = state.camera?.up ?? 1, radius = Math.max(Math.hypot(...upper.map((to, i) => to - lower[i])) / 2, 1e-9);
+  state.camera = makeCamera(centre, radius, up, sideOf(cloud.head.flight ?? null, up));
 }
 
 /** What the picture shows, in words. */
@@ -187,7 +188,7 @@ export class Viewer {
   }
 
   setView(name) {
-    [this.state.camera.turn, this.state.camera.tilt] = VIEWS[name];
+    setView(this.state.camera, name);
     this.redraw();
   }
 

@@ -20,6 +20,7 @@ Level present_level = Level::normal;
 Sink shown = write_to_standard_error;
 std::shared_ptr<spdlog::sinks::sink> file;
 std::string latest;
+std::vector<std::string>* aside = nullptr;
 
 void write_to_file(spdlog::level::level_enum level, const std::string& message) {
   if (!file) return;
@@ -44,6 +45,9 @@ Level level() { return present_level; }
 
 void set_sink(Sink sink) { shown = sink ? std::move(sink) : write_to_standard_error; }
 
+WarningsAside::WarningsAside() : outer_(std::exchange(aside, &messages_)) {}
+WarningsAside::~WarningsAside() { aside = outer_; }
+
 void set_file(const std::filesystem::path& path) {
   file = std::make_shared<spdlog::sinks::basic_file_sink_st>(path.string(), false);
   file->set_pattern("%Y-%m-%d %H:%M:%S %l: %v");
@@ -60,6 +64,10 @@ void write_info(const std::string& message) {
   write_to_file(spdlog::level::info, message);
 }
 void write_warning(const std::string& message) {
+  if (aside) {
+    aside->push_back(message);
+    return;
+  }
   latest = message;
   show(Kind::warning, message);
   write_to_file(spdlog::level::warn, message);  // the pattern of the file names the level

@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 #include <utility>
+#include <vector>
 
 /// Messages to the user: on standard error or where the caller wants them, and in the log.txt of a run directory.
 namespace whipple::log {
@@ -21,6 +22,20 @@ enum class Kind { information, warning, detail };
 using Sink = std::function<void(Kind, const std::string& message)>;
 /// Passes the messages that the level admits to a function, from then on; an empty one: to standard error.
 void set_sink(Sink sink);
+/// Keeps the warnings that are written while it lives, instead of showing them.
+class WarningsAside {
+ public:
+  WarningsAside();
+  ~WarningsAside();
+  WarningsAside(const WarningsAside&) = delete;
+  WarningsAside& operator=(const WarningsAside&) = delete;
+  [[nodiscard]] const std::vector<std::string>& messages() const { return messages_; }
+
+ private:
+  std::vector<std::string> messages_;
+  std::vector<std::string>* outer_;
+};
+
 /// Also appends every message with a time stamp to a file, instead of the file set before.
 void set_file(const std::filesystem::path& path);
 

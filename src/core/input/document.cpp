@@ -217,8 +217,8 @@ void report_unknown(Document::State& state, const toml::table& table, const std:
       const std::vector<std::string> candidates(known.begin(), known.end());
       const std::string suggestion = did_you_mean(key_name, candidates);
       state.error(key.source(), as_key(path),
-                  fmt::format("unknown key '{}'{} Accepted here: {}", path,
-                              suggestion.empty() ? "." : suggestion, fmt::join(candidates, ", ")));
+                  fmt::format("unknown key '{}'{}{}{}", path, suggestion.empty() ? "." : suggestion,
+                              candidates.empty() ? "" : " Accepted here: ", fmt::join(candidates, ", ")));
     } else if (const toml::table* child = node.as_table(); child && state.known_keys.contains(child)) {
       report_unknown(state, *child, path);
     } else if (const toml::array* array = node.as_array()) {

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { gzipSync } from 'node:zlib';
 import { test } from 'node:test';
-import { directions, heightAtCentre, makeCamera, project, projectionMatrix, shiftCamera, turnCamera, viewMatrix, VIEWS } from '../camera.js';
+import { directions, heightAtCentre, makeCamera, project, projectionMatrix, setView, shiftCamera, sideOf, turnCamera, viewMatrix, VIEWS } from '../camera.js';
 import { colourAt, colourOfCode, colourTable, MAP_NAMES, rgb, suitableMap } from '../colours.js';
 import { completedBox, completionOf, copyOf, MOST_COPIES } from '../copies.js';
 import { codesOf, rowsOf, ticksOf, wordOf } from '../legend.js';
@@ -157,6 +157,24 @@ test('the camera sees its sphere whole, from every side, and keeps depths in ran
       project(viewMatrix(camera), projectionMatrix(camera, aspect), [1, 2, 3]).slice(0, 2).forEach((value) => near(value, 0, 1e-12));
     }
   }
+});
+
+test('the eye is on the side from which something flies', () => {
+  for (const up of [0, 1, 2]) {
+    for (const axis of [0, 1, 2]) {
+      for (const sign of [-1, 1]) {
+        const flight = [0, 0, 0];
+        flight[axis] = sign;
+        const camera = makeCamera([0, 0, 0], 1, up, sideOf(flight, up)), [, upright, backward] = directions(camera);
+        assert.ok(backward[axis] * sign < -0.3, `${up} ${axis} ${sign}: ${backward}`);
+        assert.ok(upright[up] > 0.9);
+      }
+    }
+  }
+  const still = makeCamera([0, 0, 0], 1, 1, sideOf(null, 1));
+  assert.deepEqual([still.turn, still.tilt], VIEWS.oblique);
+  setView(still, 'top');
+  assert.deepEqual([still.turn, still.tilt], VIEWS.top);
 });
 
 test('the bar of length is as long as it says', () => {

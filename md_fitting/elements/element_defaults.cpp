@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "md_fitting/elements/element_defaults.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+
+#include "src/core/base/error.hpp"
+#include "src/core/base/parameter_table.hpp"
+#include "src/core/input/document.hpp"
+#include "src/core/process/paths.hpp"
+
+namespace whipple::elements {
+namespace {
+
+constexpr const char* boiling = "boiling_temperature";
+constexpr const char* attraction = "vapour_attraction";
+
+/// A constant that the fit may need, with what `describe` says of it.
+struct Kind {
+  const char* name;
+  const char* unit;
+  Range range;
+  const char* meaning;
+};
+const std::vector<Kind>& kinds() {
+  static const std::vector<Kind> all = {
+      {"melting_point", "K", range::positive(), "measured melting point at atmospheric pressure"},
+      {"electronic_heat_coefficient", "J/(mol K^2)", range::non_negative(),
+       "g_el of GRAY and debye_gruneisen"},
+      {"melting_temperature", "K", range::positive(),
+       "T_m0 on the isochore V0, if no coexistence was simulated"},
+      {"debye_temperature", "K", range::positive(),
+       "of debye_gruneisen, if no elastic constants were simulated"},
+      {"join_volume_ratio", "", range::open_between(1.0, 2.0), "V_J/V0 of GRAY's vapour"},
+      {boiling, "K", range::positive(), "of GRAY's vapour at 101325 Pa"},
+      {attraction, "J m^3/kg^2", range::positive(),
+       "a_y of GRAY's vapour, instead of its boiling temperature"},
+      {"hugoniot_quadratic", "", range::any(), "S2 of the shock curve"},
+      {"hugoniot_cubic", "", range::any(), "S3 of the shock curve"},
+      {"electronic_gruneisen", "", range::any(), "gamma_e of GRAY"},
+      {"melting_entropy", "J/(mol K)", range::positive(),
+       "Delta S of GRAY, if no heat of fusion was simulated"},
+      {"liquid_heat_coefficient", "J/(mol K)", range::non_negative(), "alpha of GRAY"},
+      {"hot_liquid_ratio", "", {.lower = 2.0, .lower_open = true}, "T_G/T_m of GRAY"},
+      {"covolume_ratio", "", range::open_between(0.0, 1.0), "V_b/V0 of GRAY"},
+      {"join_shape", "", range::positive(), "theta of GRAY"},
+  };
+  return all;
+}
+
+struct SourceText {
+  std::string name, text;
+  static const ParameterTable<SourceText>& parameters() {
+    static const ParameterTable<SourceText> table = {
+        whipple::text("name", &SourceText::name, "short name that rows use"),
+        whipple::text("text", &SourceText::text, "the source")};
+    return table;
+  }
+};
+
+/// The words of a row; its value and error have the unit of its parameter.
+struct RowWords {
+  std::string parameter, name = "given", source, evidence{word_of(Evidence::chosen)}, error_source;
+  static const ParameterTable<RowWords>& parameters() {
+    static const ParameterTable<RowWords> table = [] {
+      std::vector<std::string> names;
+      for (const Kind& kind : kinds()) names.emplace_back(kind.name);
+      return ParameterTable<RowWords>{
+          choice("parameter", &RowWords::parameter, names, "which constant"),
+          whipple::text("name", &RowWords::name,
+                        "of this choice; of several rows of a parameter the first is the default")
+              .optional(),
+          choice("class", &RowWords::evidence, word_list<Evidence>(), "what the value rests on").optional(),
+          whipple::text("source", &RowWords::source, "of the value: a text, or the name of a [[source]]"),
+          whipple::text("error_source", &RowWords::error_source, "of the error").optional()};
+    }();
+    return table;
+  }
+};
+
+struct ElementWords {
+  std::string symbol, metal, template_name;
+  static const ParameterTable<ElementWords>& parameters() {
+    static const ParameterTable<ElementWords> table = {
+        whipple::text("symbol", &ElementWords::symbol, "chemical symbol, as in the potential"),
+        whipple::text("metal", &ElementWords::metal, "name of the material")
+            .optional("that of the program, or the symbol"),
+        whipple::text("template", &ElementWords::template_name,
+                      "material of the library with strength and failure")
+            .optional("the one named as the metal, if there is one")};
+    return table;
+  }
+};
+
+BoundParameter number(const char* key, const Kind& kind, bool required, double& target) {
+  ParameterInfo info;
+  info.name = key;
+  info.unit = kind.unit;
+  info.range = kind.range;
+  info.meaning = kind.meaning;
+  info.required = required;
+  return {info, &target};
+}
+
+NamedDefault read_row(input::Table& table, const std::map<std::string, std::string>& sources) {
+  NamedDefault row;
+  RowWords words;
+  if (!table.read(RowWords::parameters(), words)) {
+    for (const char* key : {"value", "error"}) table.accept(key);
+    return row;
+  }
+  const Kind& kind = *std::ranges::find(kinds(), words.parameter, &Kind::name);
+  row.parameter = words.parameter;
+  row.name = words.name;
+  row.evidence = value_of<Evidence>(words.evidence).value();
+  const auto resolved = [&](const std::string& text) {
+    const auto found = sources.find(text);
+    return found == sources.end() ? text : found->second;
+  };
+  row.source = resolved(words.source);
+  row.error_source = resolved(words.error_source);
+  Kind error = kind;
+  error.range = range::positive();
+  error.meaning = "one standard deviation";
+  const std::vector<BoundParameter> numbers = {number("value", kind, true, row.value),
+                                               number("error", error, false, row.error)};
+  table.read(numbers);
+  return row;
+}
+
+std::vector<NamedDefault> read_rows(std::vector<input::Table> tables,
+                                    const std::map<std::string, std::string>& sources) {
+  std::vector<NamedDefault> rows;
+  for (input::Table& table : tables) rows.push_back(read_row(table, sources));
+  return rows;
+}
+
+struct Contents {
+  std::vector<NamedDefault> common;
+  std::vector<ElementDefaults> elements;
+};
+
+Contents read_contents(const std::filesystem::path& file) {
+  input::Document document = input::Document::from_file(file);
+  input::Table root = document.root();
+  std::map<std::string, std::string> sources;
+  for (input::Table& table : root.list("source")) {
+    SourceText source;
+    if (table.read(SourceText::parameters(), source)) sources[source.name] = source.text;
+  }
+  Contents contents;
+  contents.common = read_rows(root.list("common"), sources);
+  for (input::Table& table : root.list("element")) {
+    ElementWords words;
+    table.read(ElementWords::parameters(), words);
+    contents.elements.push_back(
+        {words.symbol, words.metal, words.template_name, read_rows(table.list("constant"), sources)});
+  }
+  document.finish();
+  return contents;
+}
+
+/// Puts rows in place of those of the same parameters.
+void replace(std::vector<NamedDefault>& rows, const std::vector<NamedDefault>& others) {
+  std::erase_if(rows, [&](const NamedDefault& row) {
+    // A boiling temperature and an attraction say the same of the vapour.
+    const auto of_vapour = [](const NamedDefault& entry) {
+      return entry.parameter == boiling || entry.parameter == attraction;
+    };
+    return std::ranges::any_of(others, [&](const NamedDefault& other) {
+      return other.parameter == row.parameter || (of_vapour(row) && of_vapour(other));
+    });
+  });
+  rows.insert(rows.end(), others.begin(), others.end());
+}
+
+void apply(ElementDefaults& table, const Contents& contents) {
+  replace(table.constants, contents.common);
+  for (const ElementDefaults& entry : contents.elements) {
+    if (entry.element != table.element) continue;
+    if (!entry.metal.empty()) table.metal = table.template_name = entry.metal;
+    if (!entry.template_name.empty()) table.template_name = entry.template_name;
+    replace(table.constants, entry.constants);
+  }
+}
+
+const Contents& of_the_program() {
+  static const Contents contents = read_contents(process::find_data("eos/data/elements.toml"));
+  return contents;
+}
+
+}  // namespace
+
+const NamedDefault* ElementDefaults::find(std::string_view parameter) const {
+  const auto found = std::ranges::find(constants, parameter, &NamedDefault::parameter);
+  return found == constants.end() ? nullptr : &*found;
+}
+
+const NamedDefault& ElementDefaults::at(std::string_view parameter) const {
+  if (const NamedDefault* found = find(parameter)) return *found;
+  throw InputError(missing_text(element, {std::string(parameter)}));
+}
+
+std::string missing_text(std::string_view element, const std::vector<std::string>& parameters) {
+  return fmt::format(
+      "no default of {} for the element '{}': give it in a file, --defaults FILE (whipple describe element), "
+      "or fit "
+      "--model mie_gruneisen, which needs none; the program knows {}",
+      fmt::join(parameters, ", "), element, fmt::join(known_elements(), ", "));
+}
+
+std::vector<const NamedDefault*> ElementDefaults::choices(std::string_view parameter) const {
+  std::vector<const NamedDefault*> found;
+  for (const NamedDefault& entry : constants) {
+    if (entry.parameter == parameter) found.push_back(&entry);
+  }
+  return found;
+}
+
+ElementDefaults element_defaults(std::string_view element,
+                                 const std::optional<std::filesystem::path>& file_of_user) {
+  ElementDefaults table;
+  table.element = table.metal = std::string(element);
+  apply(table, of_the_program());
+  if (file_of_user) apply(table, read_contents(*file_of_user));
+  return table;
+}
+
+std::vector<std::string> known_elements() {
+  std::vector<std::string> symbols;
+  for (const ElementDefaults& entry : of_the_program().elements) symbols.push_back(entry.element);
+  return symbols;
+}
+
+std::vector<std::string> missing_for_gray(const ElementDefaults& table, bool melting_is_simulated) {
+  std::vector<std::string> missing;
+  for (const char* parameter : {"electronic_heat_coefficient", "join_volume_ratio"}) {
+    if (table.find(parameter) == nullptr) missing.emplace_back(parameter);
+  }
+  if (!melting_is_simulated && table.find("melting_temperature") == nullptr)
+    missing.emplace_back("melting_temperature");
+  if (table.find(boiling) == nullptr && table.find(attraction) == nullptr) missing.emplace_back(boiling);
+  return missing;
+}
+
+std::string describe_elements() {
+  std::string text =
+      "Constants that simulations of nuclei do not determine. `whipple fit --defaults FILE` reads them from "
+      "a file of "
+      "this form; its rows replace those of the program (eos/data/elements.toml), which knows " +
+      fmt::format("{}.\n\n[[element]]\n{}", fmt::join(known_elements(), ", "),
+                  describe_table(ElementWords::parameters())) +
+      "\n[[element.constant]], [[common]] for all elements: value (with its unit), error (one standard "
+      "deviation, "
+      "optional) and\n" +
+      describe_table(RowWords::parameters()) + "\nparameter:\n";
+  for (const Kind& kind : kinds()) {
+    text += fmt::format("  {:<28} {:<13} {:<14} {}\n", kind.name, kind.unit[0] == '\0' ? "-" : kind.unit,
+                        kind.range.text(), kind.meaning);
+  }
+  text += "\n[[source]]: a text that several rows name\n" + describe_table(SourceText::parameters());
+  return text;
+}
+
+}  // namespace whipple::elements
