@@ -136,14 +136,17 @@ Quantities surface_measures(const Run& run, Start& start, const Snapshot& snapsh
     const Quantities wall = start.walls[b]->measure(snapshot);
     const bool open = wall.front().value == 1.0;
     if (b == *start.target) perforated = wall.front().value;
-    const Crater crater = open ? Crater{.depth = nan, .radius = nan}
+    const Crater crater = open ? Crater{.depth = nan, .radius = nan, .bulge = nan}
                                : measure_crater(snapshot, start.walls[b]->frame(), b, extent.lower,
                                                 extent.upper, run.cell_size);
-    const std::string reason = open ? "the body is perforated" : "";
+    std::string reason = open ? "the body is perforated" : "";
+    if (crater.is_bulge)
+      reason = "the body bulges: its rear face has moved more than half as far as its floor";
     append(row, {measured("crater_depth", name, crater.depth, reason),
                  measured("crater_radius", name, crater.radius, reason),
                  measured("crater_diameter", name, 2.0 * crater.radius, reason),
-                 measured("crater_depth_over_diameter", name, 0.5 * crater.depth / crater.radius, reason)});
+                 measured("crater_depth_over_diameter", name, 0.5 * crater.depth / crater.radius, reason),
+                 measured("bulge", name, crater.bulge)});
     append(row, wall);
   }
   if (!start.target || !start.walls[*start.target]) return row;

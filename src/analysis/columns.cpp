@@ -117,6 +117,24 @@ double Columns::least_left(const Snapshot& snapshot, const std::vector<std::uint
   return least;
 }
 
+double Columns::area_below(double fraction, const Snapshot& snapshot, const std::vector<std::uint8_t>& chosen,
+                           const Vector3& shift) const {
+  const std::vector<double> now = thickness(snapshot, shift, [&](std::size_t i) { return chosen[i] != 0; });
+  double area = 0.0;
+  for (std::ptrdiff_t i = 0; i < count_[0]; ++i) {
+    const double inner = lower_[0] + static_cast<double>(i) * size_;
+    const double own = frame_.dimension == grid::Dimension::axisymmetric
+                           ? frame_.ring_area(inner, inner + size_)
+                       : frame_.is_planar() ? frame_.copies() * size_
+                                            : frame_.copies() * size_ * size_;
+    for (std::ptrdiff_t j = 0; j < count_[1]; ++j) {
+      const std::size_t c = index(i, j);
+      if (counts_[c] != 0 && now[c] < fraction * initial_[c]) area += own;
+    }
+  }
+  return area;
+}
+
 bool Columns::inside(const Vector3& place) const {
   std::array<std::ptrdiff_t, 2> at{};
   for (std::size_t a = 0; a < 2; ++a) {

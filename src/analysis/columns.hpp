@@ -26,6 +26,11 @@ class Columns {
   [[nodiscard]] double least_left(const Snapshot& snapshot, const std::vector<std::uint8_t>& chosen,
                                   const Vector3& shift) const;
 
+  /// Returns the area (m^2, of the full problem; in plane strain of 1 m) of the columns that count in which less than a
+  /// fraction of the initial thickness is left.
+  [[nodiscard]] double area_below(double fraction, const Snapshot& snapshot,
+                                  const std::vector<std::uint8_t>& chosen, const Vector3& shift) const;
+
   /// Returns whether a place of the first snapshot (m) lies in a column that counts.
   [[nodiscard]] bool inside(const Vector3& place) const;
   /// Returns whether any column counts.

@@ -18,6 +18,7 @@ constexpr std::string_view no_debris = "no debris flies forward, or it has come 
 constexpr std::string_view no_target = "no debris flies forward, or there is no target";
 constexpr std::string_view no_phases = "the body has left the domain, or its equation of state has no phases";
 constexpr std::string_view no_crater = "no floor: the body is open on the axis or is not struck";
+constexpr std::string_view no_bulge = "the body is perforated, or nothing of it is left on the axis";
 constexpr std::string_view bar_gone = "fewer than three cells of the bar are left";
 constexpr std::string_view no_fragments = "too few fragments of the debris";
 constexpr std::string_view no_peaks = "no particle of the body began at these depths near the axis";
@@ -81,11 +82,14 @@ constexpr auto table = std::to_array<Measure>({
     {"crater_radius.BODY", "m", "radius in the plane of the original surface", no_crater},
     {"crater_diameter.BODY", "m", "diameter in the plane of the original surface", no_crater},
     {"crater_depth_over_diameter.BODY", "1", "depth of the crater over its diameter", no_crater},
+    {"bulge.BODY", "m", "how far the rear face has moved on the axis, of the material that begins at the floor; negative: material has come off behind", no_bulge},
     {"penetration_depth.BODY", "m", "depth of the deepest point of a body that flies at the first target below the target's original surface (0.1 % of its mass lies deeper); 0 before it arrives", "the target is perforated or cannot be decided to be whole, or the body has left the domain"},
     {"perforated.BODY", "1", "1: a path leads through the body, 0: connected material of it closes every path", "see the reason given with the value"},
     {"least_left.BODY", "1", "smallest fraction of the thickness that connected material keeps along any line through the body", "see perforated.BODY"},
     {"left_on_axis.BODY", "1", "fraction of the thickness that connected material keeps where the line of flight meets the body", "see perforated.BODY"},
     {"hole_diameter.BODY", "m", "diameter about the line of flight within which less than half of the thickness is left, of a perforated body", "the body is not perforated"},
+    {"damaged_area.BODY", "m^2", "area of the face where connected material keeps less than 0.9 of the thickness", "see perforated.BODY"},
+    {"spall_mass.BODY", "kg", "mass of the body's material that has come off behind it, of a body that is not perforated", "see perforated.BODY"},
     // Bars against a wall.
     {"length.BODY", "m", "length of a bar that flies at a wall: from its end at the wall to the far end", bar_gone},
     {"foot_diameter.BODY", "m", "diameter of a bar at its end at the wall, extrapolated from the three layers of a cell above it", bar_gone},

@@ -32,6 +32,32 @@ double on_axis(const RingField& field, std::size_t layer) {
   return (a * field.fraction(0, layer) + b * field.fraction(1, layer)) / (a + b);
 }
 
+/// Depths (m) below `face` at which the material begins and ends that begins first on the axis; NaN where it does not.
+struct OnAxis {
+  double begin = nan, end = nan;
+};
+OnAxis material_on_axis(const Snapshot& snapshot, const Frame& frame,
+                        const std::function<bool(std::size_t)>& mine, double face, double size) {
+  double last = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < snapshot.size(); ++i) {
+    if (mine(i) && frame.radius(snapshot.position[i]) < 3.0 * size)
+      last = std::max(last, frame.axial(snapshot.position[i]));
+  }
+  if (!(last > face)) return {};
+  const RingField field(snapshot, frame, size, face, last + 3.0 * size, 2.0 * size, mine);
+  std::vector<double> fractions(field.layers());
+  for (std::size_t k = 0; k < field.layers(); ++k) fractions[k] = on_axis(field, k);
+  OnAxis found{first_surface(fractions, size), nan};
+  if (std::isnan(found.begin)) return found;
+  for (auto k = static_cast<std::size_t>(std::ceil(found.begin / size)) + 1; k < fractions.size(); ++k) {
+    if (fractions[k] >= 0.5) continue;
+    const double before = fractions[k - 1];
+    found.end = (static_cast<double>(k) - 0.5 + (before - 0.5) / (before - fractions[k])) * size;
+    break;
+  }
+  return found;
+}
+
 }  // namespace
 
 RingField::RingField(const Snapshot& snapshot, const Frame& frame, double size, double lower, double upper,
@@ -110,6 +136,11 @@ Crater measure_crater(const Snapshot& snapshot, const Frame& frame, std::size_t 
   }
   crater.radius = std::isfinite(radius[1]) ? 1.5 * radius[0] - 0.5 * radius[1] : radius[0];
   if (std::isnan(crater.depth)) crater.radius = nan;
+  const OnAxis axis = material_on_axis(snapshot, frame, mine, face, cell_size);
+  const double thickness = rear - face;
+  crater.bulge = axis.end - thickness;
+  crater.is_bulge = axis.begin > 0.0 && (axis.begin >= thickness || crater.bulge > 0.5 * axis.begin);
+  if (crater.is_bulge) crater.depth = crater.radius = nan;
   return crater;
 }
 

@@ -49,6 +49,10 @@ double first_surface(const std::vector<double>& fractions, double size);
 struct Crater {
   double depth = 0.0;   ///< of the floor on the axis below the original surface, m; NaN: no floor
   double radius = 0.0;  ///< in the plane of the original surface, m
+  double bulge = 0.0;   ///< how far the rear face has moved on the axis, m; negative: it has come off
+  /// Whether the floor lies deeper because the body bends, not because material is missing: it lies behind the original
+  /// rear face, or the rear face has moved more than half as far as the floor. Then there is no depth and no radius.
+  bool is_bulge = false;
 };
 
 /// Measures the crater in a body that reached from the axial coordinate `face` to `rear`. Other bodies' material, such

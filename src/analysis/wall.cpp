@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <tuple>
 
 #include "src/analysis/fragments.hpp"
@@ -15,6 +16,9 @@ namespace {
 
 /// Two lattice planes a reach apart do not touch: a layer of failed particles between them separates.
 constexpr double touching = 0.99;
+
+/// Fraction of the thickness below which a place of a wall counts as damaged.
+constexpr double undamaged = 0.9;
 
 /// Smallest distance within which particles of a body touch: a cell, within which they interact through the grid, or
 /// half as much again as their initial spacing, if that is more.
@@ -241,6 +245,35 @@ bool Wall::at_border(const Snapshot& snapshot, const Remains& remains) const {
   return false;
 }
 
+double Wall::spall_mass(const Snapshot& snapshot, const Remains& remains) const {
+  // The rear of what is left, by cells over the face; where nothing is left, that of the body at the start.
+  std::vector<double> rear(cells_[0] * cells_[1], -std::numeric_limits<double>::infinity());
+  const auto cell_at = [&](std::size_t p) -> std::optional<std::size_t> {
+    std::array<std::size_t, 2> at{};
+    for (std::size_t a = 0; a < 2; ++a) {
+      const int axis = frame_.transverse[a];
+      const double x =
+          std::floor((snapshot.position[p][axis] - remains.shift[axis] - columns_.lower()[a]) / reach_);
+      if (!(x >= 0.0 && x < static_cast<double>(cells_[a]))) return std::nullopt;
+      at[a] = static_cast<std::size_t>(x);
+    }
+    return at[0] * cells_[1] + at[1];
+  };
+  for (std::size_t i = 0; i < snapshot.size(); ++i) {
+    if (remains.wall[i] == 0) continue;
+    if (const auto cell = cell_at(i)) rear[*cell] = std::max(rear[*cell], frame_.axial(snapshot.position[i]));
+  }
+  double mass = 0.0;
+  for (std::size_t i = 0; i < snapshot.size(); ++i) {
+    if (snapshot.body[i] != body_ || remains.wall[i] != 0) continue;
+    const auto cell = cell_at(i);
+    const double own = cell ? rear[*cell] : -std::numeric_limits<double>::infinity();
+    const double limit = std::isfinite(own) ? own : extent_.upper;
+    if (frame_.axial(snapshot.position[i]) > limit + reach_) mass += frame_.copies() * snapshot.mass[i];
+  }
+  return mass;
+}
+
 Quantities Wall::measure(const Snapshot& snapshot) {
   const std::string& name = run_.bodies[body_].name;
   std::string reason = undecided(snapshot);
@@ -251,18 +284,24 @@ Quantities Wall::measure(const Snapshot& snapshot) {
     if (!perforated_ && at_border(snapshot, left)) reason = "the wall has come to the border of the domain";
   }
   if (!reason.empty()) {
-    return {measured("perforated", name, nan, reason), measured("least_left", name, nan, reason),
-            measured("left_on_axis", name, nan, reason), measured("hole_diameter", name, nan, reason)};
+    Quantities row;
+    for (const char* measure :
+         {"perforated", "least_left", "left_on_axis", "hole_diameter", "damaged_area", "spall_mass"})
+      row.push_back(measured(measure, name, nan, reason));
+    return row;
   }
   perforated_ = perforated_ || !left.closed;
   const Hole hole = measure_hole(snapshot, frame_, left.wall, extent_.length(), run_.cell_size);
   const double diameter = left.closed || !(hole.diameter > 0.0) ? nan : hole.diameter;
-  return {measured("perforated", name, left.closed ? 0.0 : 1.0),
-          measured("least_left", name, columns_.least_left(snapshot, left.wall, left.shift)),
-          measured("left_on_axis", name, hole.left_on_axis),
-          measured("hole_diameter", name, diameter,
-                   left.closed ? "the body is not perforated"
-                               : "no hole about the line of flight that ends within the body")};
+  return {
+      measured("perforated", name, left.closed ? 0.0 : 1.0),
+      measured("least_left", name, columns_.least_left(snapshot, left.wall, left.shift)),
+      measured("left_on_axis", name, hole.left_on_axis),
+      measured("hole_diameter", name, diameter,
+               left.closed ? "the body is not perforated"
+                           : "no hole about the line of flight that ends within the body"),
+      measured("damaged_area", name, columns_.area_below(undamaged, snapshot, left.wall, left.shift)),
+      measured("spall_mass", name, left.closed ? spall_mass(snapshot, left) : nan, "the body is perforated")};
 }
 
 }  // namespace whipple::analysis

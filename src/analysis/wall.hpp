@@ -44,6 +44,8 @@ class Wall {
   [[nodiscard]] bool closes(const Snapshot& snapshot, const Piece& piece, const Vector3& shift) const;
   [[nodiscard]] Remains remains(const Snapshot& snapshot) const;
   [[nodiscard]] std::string undecided(const Snapshot& snapshot) const;
+  /// Returns the mass of the body's material that has come off behind what is left of it, kg of the full problem.
+  [[nodiscard]] double spall_mass(const Snapshot& snapshot, const Remains& remains) const;
   [[nodiscard]] bool at_border(const Snapshot& snapshot, const Remains& remains) const;
 
   const Run& run_;

@@ -359,8 +359,7 @@ class ModelReader {
     if (type.kind != ContactKind::pressing) {
       remark(type.kind == ContactKind::output ? Outcome::dropped : Outcome::missing, block,
              type.kind == ContactKind::output ? "output of forces"
-             : type.kind == ContactKind::tied ? "surfaces that are tied to one another: bodies press and "
-                                                "part here; parts with common nodes, or one part, stay joined"
+             : type.kind == ContactKind::tied ? "surfaces that are tied: give the parts common nodes"
                                               : "this contact is not read");
       return;
     }

@@ -81,6 +81,8 @@ TEST(Wall, ThatBulgesAndStaysWholeIsNotPerforatedHoweverFast) {
   EXPECT_NEAR(struck(now, "least_left").value, 1.0, 0.02);
   EXPECT_NEAR(struck(now, "left_on_axis").value, 1.0, 0.1);
   EXPECT_TRUE(std::isnan(struck(now, "hole_diameter").value));
+  EXPECT_EQ(struck(now, "damaged_area").value, 0.0);
+  EXPECT_EQ(struck(now, "spall_mass").value, 0.0);
   // The bulge has parted in two layers, each of which is whole; then the front one has a hole.
   for (std::size_t i = 0; i < now.size(); ++i)
     now.position[i].z() += struck.whole.position[i].z() > 1e-3 ? 2e-3 : 0.0;
@@ -92,6 +94,24 @@ TEST(Wall, ThatBulgesAndStaysWholeIsNotPerforatedHoweverFast) {
   }
   EXPECT_EQ(struck(now, "perforated").value, 0.0);
   EXPECT_NEAR(struck(now, "least_left").value, 0.5, 0.02);
+  const double hole = std::numbers::pi * 9e-6;
+  EXPECT_GT(struck(now, "damaged_area").value, 10 * hole);  // the layer with the hole closes nothing any more
+}
+
+TEST(Wall, MaterialThatHasComeOffBehindIsSpall) {
+  const Struck struck;
+  Snapshot now = struck.whole;
+  double gone = 0.0;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    const Vector3 offset = struck.whole.position[i] - struck.frame.centre;
+    if (now.position[i].z() < 1.2e-3 || std::hypot(offset.x(), offset.y()) > 4e-3) continue;
+    now.position[i].z() += 5e-3;
+    gone += now.mass[i];
+  }
+  EXPECT_GT(gone, 0.0);
+  EXPECT_EQ(struck(now, "perforated").value, 0.0);
+  EXPECT_NEAR(struck(now, "spall_mass").value, gone, 1e-3 * gone);
+  EXPECT_GT(struck(now, "damaged_area").value, 0.5 * std::numbers::pi * 16e-6);
 }
 
 TEST(Wall, IsPerforatedWhereverThePathLeadsThroughIt) {

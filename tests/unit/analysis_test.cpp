@@ -195,12 +195,37 @@ TEST(Surfaces, CraterOfAParaboloid) {
   EXPECT_TRUE(std::isnan(penetration_depth(maker.snapshot, quarter(), 2, 0.5 * cell, 0.0)));
 }
 
+// A dished plate of the same thickness has a bulge and no crater; with material missing it has both.
+TEST(Surfaces, ABulgeIsNoCrater) {
+  constexpr double cell = 0.25e-3, thickness = 2e-3, sag = 1.7e-3;
+  for (const double missing : {0.0, 1e-3}) {
+    Maker maker(0.5 * cell);
+    maker.fill(
+        {0, 0, 0}, {10e-3, 10e-3, 6e-3},
+        [&](const Vector3& p) {
+          const double r = std::hypot(p.x(), p.y()),
+                       dish = (missing > 0.0 ? 0.2 : 1.0) * sag * std::exp(-r * r / 16e-6);
+          const double floor = dish + (r < 2e-3 ? missing : 0.0);
+          return p.z() > floor && p.z() < thickness + dish;
+        },
+        Vector3::Zero());
+    const Crater crater = measure_crater(maker.snapshot, quarter(), 0, 0.0, thickness, cell);
+    EXPECT_EQ(crater.is_bulge, missing == 0.0) << crater.depth << " " << crater.bulge;
+    EXPECT_NEAR(crater.bulge, (missing > 0.0 ? 0.2 : 1.0) * sag, 0.5 * cell);
+    if (missing > 0.0) {
+      EXPECT_NEAR(crater.depth, missing + 0.2 * sag, 0.5 * cell);
+    }
+  }
+}
+
 TEST(Surfaces, NoCraterBeforeTheImpact) {
   Maker maker(0.5e-3);
   maker.fill({0, 0, 0}, {20e-3, 20e-3, 20e-3}, [](const Vector3&) { return true; }, Vector3::Zero());
   const Crater crater = measure_crater(maker.snapshot, quarter(), 0, 0.0, 20e-3, 1e-3);
   EXPECT_EQ(crater.depth, 0.0);
   EXPECT_EQ(crater.radius, 0.0);
+  EXPECT_NEAR(crater.bulge, 0.0, 0.05e-3);
+  EXPECT_FALSE(crater.is_bulge);
 }
 
 TEST(Surfaces, HoleInAPlateThinnerThanTheCell) {
