@@ -117,7 +117,7 @@ ParameterTable<NodeCondition> NodeCondition::parameters() {
 
 void Discretization::read_rest(input::Table& table) {
   partial_volumes_given = table.has("partial_volumes");
-  if (!mesh.empty()) mesh = (table.folder() / mesh).lexically_normal().string();
+  if (!mesh.empty()) mesh = std::filesystem::absolute(table.folder() / mesh).lexically_normal().string();
 }
 
 namespace {

@@ -77,7 +77,7 @@ def threads():
                 ({"OMP_NUM_THREADS": "abc"}, ["taskset", "-c", some], 1), ({"OMP_NUM_THREADS": "0"}, ["taskset", "-c", some], 1)]
     for variables, prefix, number in expected:
         done = subprocess.run([*prefix, WHIPPLE, "check", CASE], capture_output=True, text=True, env={**clean, **variables})
-        require(done.returncode == 0 and f"on {number} threads" in done.stdout, f"{variables} {prefix}: {done.stdout}")
+        require(done.returncode == 0 and f"on {number} thread" + ("" if number == 1 else "s") + " (" in done.stdout, f"{variables} {prefix}: {done.stdout}")
         ignored = variables.get("OMP_NUM_THREADS") in ("abc", "0")
         require(("expected a number from 1 to 4096: ignored" in done.stderr) == ignored, f"{variables}: {done.stderr}")
 

@@ -246,6 +246,10 @@ $EndElements
   // What the run writes reads back.
   EXPECT_EQ(read_case_text(to_toml(setup, {"copper.toml"}), "run.toml").bodies[0].discretization.mesh,
             path.string());
+  // From whichever folder: a path beside the present one is written whole.
+  const std::string beside = std::filesystem::relative(path).string();
+  const Case relative = read_case_text(domain + replaced(body, path.string(), beside), "case.toml");
+  EXPECT_EQ(relative.bodies[0].discretization.mesh, path.string());
   expect_error(domain + body + replaced(sphere, "\"-4 mm\"", "\"0 mm\""), {"overlaps body \"brick\""});
   expect_error(domain + body + "[[detonation]]\nposition = [0, 0, 0]\nbody = \"stone\"\n",
                {"there is no body \"stone\"", "with burn.lighting = \"straight\" only"});

@@ -60,6 +60,14 @@ TEST_F(CompareCommand, WritesPointsAndFigureOnce) {
   EXPECT_EQ(run(arguments + " --force"), 0) << output();
 }
 
+// A hot isotherm of copper itself, as densities with an initial density: no deviation at any temperature.
+TEST_F(CompareCommand, AHotIsothermIsComparedAtItsDensities) {
+  ASSERT_EQ(run("copper --with " WHIPPLE_SOURCE_DIR "/tests/data/eos/copper_isotherm_1500K.csv"), 0)
+      << output();
+  EXPECT_THAT(output(), ::testing::ContainsRegex(
+                            "isotherm 1500 K +copper +5 +rho .* 0\\.00 +[+-]0\\.00 +[+-]0\\.00 +GPa"));
+}
+
 // Beside a fitted material one without errors has its deviations and no band; a warning of many draws is one line.
 TEST_F(CompareCommand, FittedMaterialsStandBesideOthers) {
   std::string text = read_text(std::filesystem::path(WHIPPLE_SOURCE_DIR) / "eos/materials/copper.toml");
