@@ -223,7 +223,9 @@ void draw(const std::vector<Row>& rows, const std::string& path) {
          {"deviation", numbers(row.comparison.deviation, s.deviation_size)},
          {"rms", row.comparison.rms / s.deviation_size}});
   }
-  process::draw_json("scripts/plot_compare.py", panels.dump(1), path);
+  // Names of files need not be UTF-8.
+  process::draw_json("scripts/plot_compare.py",
+                     panels.dump(1, ' ', false, nlohmann::json::error_handler_t::replace), path);
 }
 
 bool belongs_to(const Experiment& experiment, const Material& material) {

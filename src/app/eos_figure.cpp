@@ -104,7 +104,9 @@ void draw(const Figure& figure, const std::filesystem::path& path) {
       {"y", {{"label", axis_label(figure.y)}, {"logarithmic", figure.logarithmic_y}}},
       {"curves", lines(figure.curves)},
       {"points", lines(figure.points)}};
-  process::draw_json("scripts/plot_curves.py", description.dump(1), path);
+  // Names of files need not be UTF-8.
+  process::draw_json("scripts/plot_curves.py",
+                     description.dump(1, ' ', false, nlohmann::json::error_handler_t::replace), path);
   fmt::print("written: {}\n", path.string());
 }
 
