@@ -5,11 +5,15 @@
 #include <mpi.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <map>
 #include <set>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "md_fitting/elements/element_defaults.hpp"
@@ -21,6 +25,7 @@
 #include "src/core/base/error.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/base/progress.hpp"
+#include "src/core/base/surroundings.hpp"
 
 namespace whipple::md {
 namespace {
@@ -152,12 +157,16 @@ int run_plan(const Options& options) {
   plan.folder = std::filesystem::absolute(plan.folder.empty() ? "." : plan.folder);
   const std::filesystem::path store = std::filesystem::absolute(options.store);
   const EmptyWorkingFolder working_folder;
-  // Errors of the potential, or of states outside its range, are errors of the plan.
+  // Errors of the potential, or of states outside its range, are errors of the plan; with a damaged potential LAMMPS
+  // loses the atoms of a crystal that flies apart.
   const auto of_plan = [&](const auto& call) {
     try {
       return call();
     } catch (const InputError& error) {
       throw InputError(fmt::format("{}: error: {}", options.plan, error.what()));
+    } catch (const LammpsError& error) {
+      throw InputError(
+          fmt::format("{}: error: potential {}: {}", options.plan, plan.potential, error.what()));
     }
   };
   Potential potential = of_plan([&] {
@@ -190,8 +199,12 @@ int run_plan(const Options& options) {
           potential.name(), potential.least_volume_ratio());
     }
   }
-  if (rank == 0) report_what_a_fit_lacks(plan);
-  if (rank == 0) report_estimate(plan, tasks, potential, store);
+  if (rank == 0) {
+    of_plan([&] {
+      report_what_a_fit_lacks(plan);
+      report_estimate(plan, tasks, potential, store);
+    });
+  }
   const CampaignSummary summary = run_campaign(tasks, store, MPI_COMM_WORLD, options.retry_failed,
                                                static_cast<int>(plan.ranks_per_point));
   if (rank == 0) {
@@ -240,16 +253,24 @@ int body(int argc, char** argv) {
   return run_plan(options);
 }
 
-/// The other ranks meet the same errors as rank 0 at the same places: one of them is enough on the screen.
-int body_without_words(int argc, char** argv) {
+/// Ends all ranks with an error: it need not reach the others, which may wait for this one. Rank 0 meets most errors too,
+/// and prints them; another one only if the first does not end it soon.
+void end_all_ranks(int rank, const std::exception& error) {
+  if (rank != 0) std::this_thread::sleep_for(std::chrono::seconds(2));
+  fmt::print(stderr, "{}\n", message_for_user("whipple-md", error));
+  std::fflush(nullptr);
+  MPI_Abort(MPI_COMM_WORLD, static_cast<int>(exit_code(error)));
+}
+
+/// Runs the program on one of several ranks.
+int body_of_a_rank(int argc, char** argv) {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   try {
     return body(argc, argv);
-  } catch (const InputError&) {
-    return static_cast<int>(ExitCode::input);
-  } catch (const StateError&) {
-    return static_cast<int>(ExitCode::state);
-  } catch (const std::exception&) {
-    return static_cast<int>(ExitCode::internal);
+  } catch (const std::exception& error) {
+    end_all_ranks(rank, error);
+    throw;
   }
 }
 
@@ -257,11 +278,21 @@ int body_without_words(int argc, char** argv) {
 }  // namespace whipple::md
 
 int main(int argc, char** argv) {
+  whipple::repair_surroundings();
+  const int refused = whipple::run_guarded(
+      "whipple-md",
+      [](int, char**) {
+        whipple::require_room_for_mpi();
+        whipple::let_mpi_start_alone();
+        return 0;
+      },
+      argc, argv);
+  if (refused != 0) return refused;
   MPI_Init(&argc, &argv);
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  const int code = rank == 0 ? whipple::run_guarded("whipple-md", whipple::md::body, argc, argv)
-                             : whipple::md::body_without_words(argc, argv);
+  int ranks = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  const int code = whipple::run_guarded(
+      "whipple-md", ranks == 1 ? whipple::md::body : whipple::md::body_of_a_rank, argc, argv);
   MPI_Finalize();
   return code;
 }

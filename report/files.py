@@ -17,7 +17,7 @@ def write_whole(path: pathlib.Path, write: Callable[[BinaryIO], object]) -> None
                                      delete=False) as stream:
         try:
             write(stream)
-            stream.flush()
+            stream.close()  # what a full disk does not take may show here
             os.chmod(stream.name, 0o666 & ~mask)
             os.replace(stream.name, path)
         except BaseException:

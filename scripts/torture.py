@@ -6,9 +6,11 @@ round-off on several.
 Usage: torture.py WHIPPLE CASE.toml FOLDER [--ranks 1] [--runs 40] [--kills 3] [--seed 1]
        torture.py WHIPPLE CASE.toml FOLDER [--ranks 1] --disks 10
        torture.py WHIPPLE CASE.toml FOLDER [--ranks 1] --writers 20
+       torture.py WHIPPLE PLAN.toml FOLDER [--ranks 1] --md [--runs 40] [--kills 3]
 Default: SIGKILL again and again; on ranks the launcher is killed or one of the ranks, at random. --disks: so many file
 systems (tmpfs, which only root may mount) that are too small for the run, and grow before the restart. --writers: so
-often a second process wants to write into the folder of a run.
+often a second process wants to write into the folder of a run. --md: kills whipple md, whose store must come to the bytes
+of an undisturbed one.
 """
 import argparse
 import csv
@@ -132,6 +134,51 @@ def two_writers(whipple, case, run, ranks):
     return faults
 
 
+def killed_plan(whipple, plan, store, ranks, kills, seconds):
+    """Computes a plan through so many kills of the launcher or a rank; returns how often it was killed, and what is wrong."""
+    killed = 0
+    for attempt in range(kills + 1):
+        process = subprocess.Popen([whipple, "md", plan, "-o", store, "--quiet", "--ranks", str(ranks)],
+                                   stderr=subprocess.PIPE, text=True)
+        if attempt < kills:
+            time.sleep(random.uniform(0.1, 1.0) * seconds)
+            victims = [process.pid] + [p for p in processes_below(process.pid) if name_of(p) == "whipple-md"]
+            try:
+                os.kill(random.choice(victims), signal.SIGKILL)
+                killed += 1
+            except ProcessLookupError:
+                pass
+        message = process.communicate(timeout=600)[1]
+        if attempt == kills and process.returncode != 0:
+            return killed, [f"{store}: exit code {process.returncode}: {message}"]
+        # Lets the ranks of a killed launcher end: they hold the store.
+        time.sleep(0.2)
+    return killed, []
+
+
+def torture_plan(options):
+    """Repeats `killed_plan`; returns the exit code."""
+    whole = options.folder / "whole.md.h5"
+    begin = time.monotonic()
+    subprocess.run([options.whipple, "md", options.case, "-o", whole, "--quiet", "--ranks", str(options.ranks)], check=True)
+    seconds = time.monotonic() - begin
+    kills, faults = 0, []
+    for number in range(options.runs):
+        store = options.folder / f"{number:03}.md.h5"
+        killed, found = killed_plan(options.whipple, options.case, store, options.ranks, options.kills, seconds)
+        kills += killed
+        faults += found
+        if not found and store.read_bytes() != whole.read_bytes():
+            faults.append(f"{store}: differs from that of an undisturbed call")
+        if not found:
+            store.unlink()
+    print(f"{options.runs} plans on {options.ranks} ranks, {kills} kills: {len(faults)} faults")
+    print("\n".join(faults))
+    if not faults:
+        shutil.rmtree(options.folder)
+    return 1 if faults else 0
+
+
 def lock_is_held(run):
     import fcntl
     try:
@@ -201,12 +248,15 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--disks", type=int, default=0)
     parser.add_argument("--writers", type=int, default=0)
+    parser.add_argument("--md", action="store_true")
     options = parser.parse_args()
     random.seed(options.seed)
     try:
         make_folder(options.folder)
     except (ValueError, OSError) as error:
         parser.error(str(error))
+    if options.md:
+        return torture_plan(options)
     whole = options.folder / "whole"
     begin = time.monotonic()
     subprocess.run([options.whipple, *command(["run", options.case, "-o", whole], options.ranks)], check=True)

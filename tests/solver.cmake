@@ -62,6 +62,19 @@ if(WHIPPLE_PYTHON)
   add_test(NAME run_replay COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/parallel/run_replay.py $<TARGET_FILE:whipple>
            ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml ${CMAKE_CURRENT_BINARY_DIR}/run_replay)
   set_tests_properties(run_replay PROPERTIES LABELS fast TIMEOUT 300 COST 15)
+  # Calls to the system that fail; sanitizers want to be loaded before all other libraries.
+  if(NOT WHIPPLE_SANITIZE)
+    add_library(failing_calls MODULE faults/failing_calls.cpp)
+    target_link_libraries(failing_calls PRIVATE ${CMAKE_DL_LIBS})
+    foreach(faults 9 500)
+      add_test(NAME injected_faults.${faults}
+               COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/parallel/injected_faults.py $<TARGET_FILE:whipple>
+                       $<TARGET_FILE:failing_calls> ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml
+                       ${CMAKE_CURRENT_BINARY_DIR}/injected_faults_${faults} --faults ${faults})
+    endforeach()
+    set_tests_properties(injected_faults.9 PROPERTIES LABELS fast TIMEOUT 300 COST 20)
+    set_tests_properties(injected_faults.500 PROPERTIES LABELS long TIMEOUT 7200 PROCESSORS 2)
+  endif()
   foreach(ranks 1 2)
     add_test(NAME torture.${ranks} COMMAND ${WHIPPLE_PYTHON} ${PROJECT_SOURCE_DIR}/scripts/torture.py $<TARGET_FILE:whipple>
              ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml ${CMAKE_CURRENT_BINARY_DIR}/torture_${ranks} --runs 10 --ranks ${ranks})

@@ -115,8 +115,13 @@ void check_format(const hdf5::File& file, const std::filesystem::path& path) {
   }
 }
 
-hdf5::File create_file(const std::filesystem::path& path) {
-  hdf5::File file = hdf5::File::create(path, hdf5::File::Compatibility::compact);
+std::filesystem::path beside(const std::filesystem::path& path, const char* ending) {
+  return path.parent_path() / fmt::format(".{}{}", path.filename().string(), ending);
+}
+
+/// Makes an empty store in memory.
+hdf5::File empty_store(const std::filesystem::path& path) {
+  hdf5::File file = hdf5::File::create_in_memory(beside(path, ".part"), hdf5::File::Compatibility::compact);
   write_text(file.root, "format", format_name);
   file.root.set_attribute("version", static_cast<double>(format_version));
   file.root.create_group("points", hdf5::Order::creation);
@@ -125,20 +130,18 @@ hdf5::File create_file(const std::filesystem::path& path) {
 
 // ---- files
 
-std::filesystem::path beside(const std::filesystem::path& path, const char* ending) {
-  return path.parent_path() / fmt::format(".{}{}", path.filename().string(), ending);
-}
-
 /// One writer at a time.
 FileLock lock_store(const std::filesystem::path& path) {
   return {beside(path, ".lock"), fmt::format("the store {}", path.string()), FileLock::IfHeld::wait};
 }
 
-void sync_to_disk(const std::filesystem::path& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  ::fsync(descriptor);
-  ::close(descriptor);
+/// Gives a store the content of a file in memory. @throws InputError; then the old content stands
+void replace_store(const std::filesystem::path& path, hdf5::File& file) {
+  try {
+    replace_durably(path, beside(path, ".part"), file.close_as_bytes());
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}; the points stored so far are safe", error.what()));
+  }
 }
 
 template <class Map>
@@ -247,7 +250,7 @@ std::vector<PointRecord> read_store(const std::filesystem::path& path) {
     throw InputError(
         fmt::format("the store {} does not exist; 'whipple md PLAN.toml' makes one", path.string()));
   }
-  const hdf5::File file = hdf5::File::open(path);
+  const hdf5::File file = hdf5::File::open_bytes(path, read_text(path));
   check_format(file, path);
   const hdf5::Group points = file.root.open_group("points");
   std::vector<PointRecord> records;
@@ -275,68 +278,6 @@ std::vector<PointRecord> select(std::span<const PointRecord> points, std::string
 
 namespace {
 
-/// Returns what keeps a file of a size (bytes) from being written into a folder, as the system says it; empty
-/// if nothing does.
-std::string obstacle(const std::filesystem::path& probe, std::uintmax_t size) {
-  ::unlink(probe.c_str());  // what a killed writer left, or a link that somebody planted
-  const int descriptor = ::open(probe.c_str(), O_CREAT | O_EXCL | O_NOFOLLOW | O_WRONLY | O_CLOEXEC, 0644);
-  if (descriptor < 0) return std::strerror(errno);
-  const std::vector<char> zeros(1 << 16);
-  std::string reason;
-  for (std::uintmax_t written = 0; written < size && reason.empty();) {
-    const ssize_t count = ::write(descriptor, zeros.data(), zeros.size());
-    if (count > 0) {
-      written += static_cast<std::uintmax_t>(count);
-    } else {
-      reason = errno == ENOSPC   ? "the disk is full"
-               : errno == EDQUOT ? "the quota of the disk is used up"
-               : errno == EFBIG  ? "the maximum size of a file is reached"
-                                 : std::strerror(errno);
-    }
-  }
-  ::close(descriptor);
-  ::unlink(probe.c_str());
-  return reason;
-}
-
-/// @throws InputError if there is no room for a store with one more point. Asked before HDF5 writes anything:
-/// a file that it cannot complete stays open in it to the end of the program.
-void require_room(const std::filesystem::path& path, const std::filesystem::path& copy) {
-  constexpr std::uintmax_t one_more_point = 1 << 18;
-  std::error_code fault;
-  const std::uintmax_t present = std::filesystem::file_size(path, fault);
-  const std::string reason = obstacle(copy, (fault ? 0 : present) + one_more_point);
-  if (reason.empty()) return;
-  throw InputError(
-      fmt::format("cannot write {}: {}; the points stored so far are safe", path.string(), reason));
-}
-
-bool append_to(const std::filesystem::path& path, const std::filesystem::path& copy,
-               const PointRecord& point) {
-  const bool exists = std::filesystem::exists(path);
-  if (exists) std::filesystem::copy_file(path, copy, std::filesystem::copy_options::overwrite_existing);
-  hdf5::File file = exists ? hdf5::File::open(copy, hdf5::File::Access::modify) : create_file(copy);
-  check_format(file, path);
-  {
-    const hdf5::Group points = file.root.open_group("points");
-    if (points.has(point.key)) {
-      const PointRecord present = read_point(points, point.key);
-      const bool better = !present.done() || (point.done() && point.segments() > present.segments());
-      if (!better) return false;  // the copy is dropped by the next writer
-      points.remove(point.key);
-    }
-    write_point(points, point);
-  }
-  file.close();
-  sync_to_disk(copy);
-  std::filesystem::rename(copy, path);
-  return true;
-}
-
-bool same_bytes(const std::filesystem::path& first, const std::filesystem::path& second) {
-  return read_text(first) == read_text(second);
-}
-
 bool in_order(const PointRecord& a, const PointRecord& b) {
   return std::tie(a.protocol, a.conditions, a.key) < std::tie(b.protocol, b.conditions, b.key);
 }
@@ -347,31 +288,36 @@ void normalise_store(const std::filesystem::path& path) {
   const FileLock lock = lock_store(path);
   std::vector<PointRecord> records = read_store(path);
   std::sort(records.begin(), records.end(), in_order);
-  const std::filesystem::path copy = beside(path, ".part");
-  require_room(path, copy);
-  hdf5::File file = create_file(copy);
+  hdf5::File file = empty_store(path);
   {
     const hdf5::Group points = file.root.open_group("points");
     for (const PointRecord& point : records) write_point(points, point);
   }
-  file.close();
-  if (same_bytes(copy, path)) {
-    std::filesystem::remove(copy);
-    return;
-  }
-  sync_to_disk(copy);
-  std::filesystem::rename(copy, path);
+  replace_store(path, file);
 }
 
 bool append_point(const std::filesystem::path& path, const PointRecord& point) {
   if (point.key.empty() || point.protocol.empty() || word_of(point.status).empty()) {
     throw InternalError("a point needs a key, a protocol and a status 'done' or 'failed' to be stored");
   }
-  std::filesystem::create_directories(std::filesystem::absolute(path).parent_path());
+  make_folder(std::filesystem::absolute(path).parent_path());
   const FileLock lock = lock_store(path);
-  const std::filesystem::path copy = beside(path, ".part");
-  require_room(path, copy);
-  return append_to(path, copy, point);
+  hdf5::File file = std::filesystem::exists(path)
+                        ? hdf5::File::open_bytes(path, read_text(path), hdf5::File::Access::modify)
+                        : empty_store(path);
+  check_format(file, path);
+  {
+    const hdf5::Group points = file.root.open_group("points");
+    if (points.has(point.key)) {
+      const PointRecord present = read_point(points, point.key);
+      const bool better = !present.done() || (point.done() && point.segments() > present.segments());
+      if (!better) return false;
+      points.remove(point.key);
+    }
+    write_point(points, point);
+  }
+  replace_store(path, file);
+  return true;
 }
 
 void require_writable(const std::filesystem::path& path) {

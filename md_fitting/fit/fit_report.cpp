@@ -339,7 +339,7 @@ std::string plot_data(const NamedFit& named) {
     data["isochores"].push_back(
         {{"volume", isochore.volume}, {"gruneisen", isochore.gruneisen}, {"error", isochore.error}});
   }
-  return data.dump(1);
+  return data.dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 }  // namespace whipple::fit

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "src/core/base/error.hpp"
+
 namespace {
 /// Ranks of the instance that the calling thread works for.
 thread_local int ranks_of_instance = 1;
@@ -21,7 +23,7 @@ thread_local int ranks_of_instance = 1;
   fmt::print(stderr, "LAMMPS: {} ({}:{}), reported by one of {} ranks: aborting\n", text, file, line,
              ranks_of_instance);
   std::fflush(stderr);
-  MPI_Abort(MPI_COMM_WORLD, 4);
+  MPI_Abort(MPI_COMM_WORLD, static_cast<int>(whipple::ExitCode::state));
   throw_error(file, line, text);  // not reached; MPI_Abort is not declared noreturn
 }
 }  // namespace

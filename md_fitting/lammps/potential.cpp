@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <iterator>
 #include <vector>
 
@@ -188,9 +187,7 @@ class Potential::TemporaryFile {
  public:
   TemporaryFile(const std::string& name, const std::string& content)
       : folder_(place()), path_(folder_.path() / name) {
-    std::ofstream file(path_, std::ios::binary);
-    file << content;
-    if (!file.flush()) throw InputError("cannot write " + path_.string());
+    write_text_atomically(path_, content);
   }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 

@@ -245,15 +245,12 @@ struct Counts {
 /// Computes what the leader of the team announces, until it dismisses the team.
 void follow(std::span<const Task> tasks, const std::filesystem::path& store, const PointTeam& team) {
   while (const auto order = team.wait()) {
-    try {
-      const Task& task = tasks[static_cast<std::size_t>(order->task)];
-      std::optional<PointRecord> dependency;
-      if (!task.dependency.empty()) dependency = find_point(store, task.dependency);
-      static_cast<void>(
-          compute_point(task, dependency ? &*dependency : nullptr, static_cast<int>(order->segment)));
-    } catch (const std::exception&) {
-      // The leader met the same and reports it.
-    }
+    // What is thrown here the leader need not meet: it waits in the point for this rank. It ends all ranks.
+    const Task& task = tasks[static_cast<std::size_t>(order->task)];
+    std::optional<PointRecord> dependency;
+    if (!task.dependency.empty()) dependency = find_point(store, task.dependency);
+    static_cast<void>(
+        compute_point(task, dependency ? &*dependency : nullptr, static_cast<int>(order->segment)));
   }
 }
 

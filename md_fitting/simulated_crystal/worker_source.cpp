@@ -7,10 +7,10 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <set>
 
 #include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/base/text.hpp"
 #include "src/core/process/mpirun.hpp"
@@ -72,11 +72,7 @@ void WorkerSource::compute(std::span<const double> volume_ratios) const {
   std::filesystem::create_directories(store_.parent_path(), ignored);
   const std::filesystem::path plan =
       store_.parent_path() / fmt::format(".{}.{}.toml", store_.filename().string(), getpid());
-  {
-    std::ofstream file(plan);
-    file << plan_of(volume_ratios);
-    if (!file.flush()) throw InputError(fmt::format("cannot write {}", plan.string()));
-  }
+  write_text_atomically(plan, plan_of(volume_ratios));
   std::vector<std::string> program = {"whipple-md", plan.string(), "-o", store_.string()};
   if (log::level() != log::Level::verbose) program.emplace_back("--quiet");
   const int code = process::run_alone(program, {{"OMP_NUM_THREADS", "1"}});

@@ -134,7 +134,12 @@ std::vector<SnapshotEntry> read_index(const fs::path& folder) {
   try {
     const nlohmann::json index = nlohmann::json::parse(read_text(found.front()));
     for (const nlohmann::json& file : index.at("files")) {
-      entries.push_back({folder / file.at("name").get<std::string>(), file.at("time").get<double>()});
+      const fs::path name = file.at("name").get<std::string>();
+      if (name != name.filename()) {
+        throw InputError(fmt::format("{}: error: names {}, which is no file of this folder",
+                                     found.front().string(), name.string()));
+      }
+      entries.push_back({folder / name, file.at("time").get<double>()});
     }
   } catch (const nlohmann::json::exception& error) {
     throw InputError(

@@ -270,7 +270,9 @@ void draw(const std::vector<Row>& rows, const DrawnMaterials& drawn, const std::
     }
     panels.back()["materials"].push_back(std::move(entry));
   }
-  process::draw_json("scripts/plot_compare.py", panels.dump(1), path);
+  // Names of files need not be UTF-8.
+  process::draw_json("scripts/plot_compare.py",
+                     panels.dump(1, ' ', false, nlohmann::json::error_handler_t::replace), path);
 }
 
 bool belongs_to(const Experiment& experiment, const Material& material) {

@@ -114,7 +114,9 @@ void draw(const Figure& figure, const std::filesystem::path& path) {
       {"curves", lines(figure.curves)},
       {"points", lines(figure.points)},
       {"bands", bands}};
-  process::draw_json("scripts/plot_curves.py", description.dump(1), path);
+  // Names of files need not be UTF-8.
+  process::draw_json("scripts/plot_curves.py",
+                     description.dump(1, ' ', false, nlohmann::json::error_handler_t::replace), path);
   log::info("written: {}", path.string());
 }
 

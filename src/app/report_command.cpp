@@ -53,7 +53,9 @@ std::string write_view(const analysis::Run& run, double megabytes, const std::fi
 void write_planar_impacts(const analysis::Run& run, const std::filesystem::path& output) {
   const int axis = analysis::find_frame(run, analysis::read_snapshot(run.snapshots.front())).axis;
   const cases::Case setup = cases::read_case(run.folder / "run.toml", {});
-  io::write_text_atomically(output / "planar_impact.json", planar_impacts(setup, axis).dump(1));
+  io::write_text_atomically(
+      output / "planar_impact.json",
+      planar_impacts(setup, axis).dump(1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 /// Measures a run and draws its views. Returns the page of the view in three dimensions, empty without one.

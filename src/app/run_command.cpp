@@ -217,7 +217,7 @@ void add_run_command(CLI::App& app) {
       "Example:\n  whipple run cases/copper_disk_on_aluminium/case.toml -o run/disk --set time.end='5 us'\n"
       "  whipple run --restart run/disk\n"
       "Signals: INT and TERM write a checkpoint and end the run, USR1 writes one and continues.\n"
-      "Exit codes: 0 done, 2 wrong input, 3 the physics left its range, or disk or memory did not suffice\n"
+      "Exit codes: 0 done, 2 wrong input, 3 the physics left its range, or a disk or memory failed\n"
       "  (state saved), 128 + signal when stopped, 124 at the limit of wall time");
   command->callback([arguments] {
     require_case_file(arguments->case_file);

@@ -16,6 +16,7 @@ namespace whipple::decks::dyna {
 namespace {
 
 constexpr int deepest_include = 20;
+constexpr std::size_t most_included = std::size_t{1} << 30;  // bytes
 constexpr std::size_t most_includes = 1000;  // files that name the next one twice are 2^19 at that depth
 
 /// Typographic dashes and minus signs, which copied cards hold, in UTF-8.
@@ -124,13 +125,16 @@ class BlockReader {
       if (++included_ > most_includes)
         fail(block, fmt::format("more than {} files are included", most_includes));
       const std::filesystem::path path = std::filesystem::path(block.file).parent_path() / trimmed(card.text);
-      read(path, deck_text(path), depth + 1);
+      const std::string text = deck_text(path);
+      if ((included_bytes_ += text.size()) > most_included)
+        fail(block, fmt::format("more than {} GiB of files are included", most_included >> 30U));
+      read(path, text, depth + 1);
     }
   }
 
   Deck& deck_;
   Layout usual_ = Layout::standard;  ///< of keywords without a sign
-  std::size_t included_ = 0;
+  std::size_t included_ = 0, included_bytes_ = 0;
 };
 
 }  // namespace

@@ -53,13 +53,6 @@ Format format_of(const fs::path& deck, std::string_view text) {
   refuse(deck, "a deck of no code that is known here; read are decks of MPM3D-F90 and LS-DYNA");
 }
 
-void write_file(const fs::path& path, std::string_view text) {
-  std::ofstream stream(path, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) throw InputError(fmt::format("{}: cannot be written", path.string()));
-}
-
 }  // namespace
 
 void require_no_deck(const fs::path& file) {
@@ -95,12 +88,12 @@ CaseFolder::CaseFolder(const Import& import, fs::path folder) : folder_(std::mov
     std::error_code fault;
     fs::create_directories(partial_, fault);
     if (fault) throw InputError(fmt::format("{}: cannot be written: {}", folder_.string(), fault.message()));
-    write_file(case_file(), import.case_text);
+    write_text_atomically(case_file(), import.case_text);
     for (const CaseFile& file : import.files) {
-      fs::create_directories((partial_ / file.path).parent_path(), fault);
-      write_file(partial_ / file.path, file.text);
+      make_folder((partial_ / file.path).parent_path());
+      write_text_atomically(partial_ / file.path, file.text);
     }
-    write_file(partial_ / "import.txt", import.report());
+    write_text_atomically(partial_ / "import.txt", import.report());
   } catch (...) {
     std::error_code ignored;
     fs::remove_all(partial_, ignored);

@@ -12,6 +12,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <sstream>
 #include <string_view>
 #include <unordered_map>
 
@@ -147,9 +148,7 @@ const std::map<std::string_view, Keyword>& keywords() {
 class AbaqusReader {
  public:
   AbaqusReader(MeshData& data, double length_unit)
-      : data_(data), unit_(length_unit), stream_(regular_file(data.path)) {
-    if (!stream_) throw InputError(fmt::format("{}: cannot be read", data.path.string()));
-  }
+      : data_(data), unit_(length_unit), stream_(read_text(data.path)) {}
 
   void read() {
     bool more = next();
@@ -404,7 +403,7 @@ class AbaqusReader {
 
   MeshData& data_;
   double unit_;
-  std::ifstream stream_;
+  std::istringstream stream_;
   std::string buffer_;
   std::string_view line_text_;
   std::size_t line_ = 0;

@@ -62,15 +62,18 @@ class VtuReader {
     const Tree& grid = child(root, "UnstructuredGrid");
     if (grid.count("Piece") != 1) fail(fmt::format("has {} pieces, expected one", grid.count("Piece")));
     const Tree& piece = child(grid, "Piece");
+    // Nothing is unpacked that is longer than what the piece announces.
+    constexpr std::size_t most_corners = 27;  // of a cell
+    const std::size_t points = announced(piece, "NumberOfPoints"), cells = announced(piece, "NumberOfCells");
     for (const auto& [name, array] : child(piece, "Points")) {
-      if (name == "DataArray") grid_.points = values<double>(array);
+      if (name == "DataArray") grid_.points = values<double>(array, 3 * points);
     }
     for (const auto& [name, array] : child(piece, "Cells")) {
       if (name != "DataArray") continue;
       const std::string called = attribute(array, "Name");
-      if (called == "connectivity") grid_.connectivity = values<long>(array);
-      if (called == "offsets") grid_.offsets = values<long>(array);
-      if (called == "types") grid_.types = values<long>(array);
+      if (called == "connectivity") grid_.connectivity = values<long>(array, most_corners * cells);
+      if (called == "offsets") grid_.offsets = values<long>(array, cells);
+      if (called == "types") grid_.types = values<long>(array, cells);
     }
     if (const auto data = piece.get_child_optional("CellData")) {
       for (const auto& [name, array] : *data) {
@@ -78,7 +81,7 @@ class VtuReader {
         if (name != "DataArray" || (!parts.empty() && parts != "1") ||
             attribute(array, "type").find("Int") == std::string::npos)
           continue;
-        grid_.cell_data.push_back({attribute(array, "Name"), values<long>(array)});
+        grid_.cell_data.push_back({attribute(array, "Name"), values<long>(array, cells)});
       }
     }
     return std::move(grid_);
@@ -110,20 +113,32 @@ class VtuReader {
     return tree.get<std::string>(Tree::path_type(std::string("<xmlattr>/") + name, '/'), "");
   }
 
+  /// The number that an attribute of the piece states.
+  std::size_t announced(const Tree& piece, const char* name) const {
+    const std::string word = attribute(piece, name);
+    std::size_t number = 0;
+    const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), number);
+    if (code != std::errc{} || end != word.data() + word.size() || number > most_bytes)
+      fail(fmt::format("{}=\"{}\" is no number of points or cells", name, word));
+    return number;
+  }
+
+  /// @param most  values that the array may have
   template <class Number>
-  std::vector<Number> values(const Tree& array) const {
+  std::vector<Number> values(const Tree& array, std::size_t most) const {
+    constexpr std::size_t widest = 8;  // bytes of a value
     const std::string type = attribute(array, "type"), form = attribute(array, "format");
     if (form == "ascii" || form.empty()) return written<Number>(array.data());
     std::string bytes;
     if (form == "binary") {
-      bytes = unpacked(array.data(), false);
+      bytes = unpacked(array.data(), false, widest * most);
     } else if (form == "appended") {
       const std::string word = attribute(array, "offset");
       std::size_t offset = 0;
       const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), offset);
       if (code != std::errc{} || offset > appended_.size())
         fail(fmt::format("the offset \"{}\" is not in the appended data", word));
-      bytes = unpacked(appended_.substr(offset), is_raw_);
+      bytes = unpacked(appended_.substr(offset), is_raw_, widest * most);
     } else {
       fail(fmt::format("an array has the format \"{}\", expected ascii, binary or appended", form));
     }
@@ -235,17 +250,29 @@ class VtuReader {
     return value;
   }
 
+  void require_at_most(std::size_t most, double bytes) const {
+    if (bytes > static_cast<double>(most))
+      fail(fmt::format(
+          "an array unpacks to {:.0f} bytes, but the points and cells that the piece announces take at "
+          "most {}",
+          bytes, most));
+  }
+
   /// The bytes of an array: behind their number, or in blocks packed by zlib behind the number of blocks, the size of a
-  /// block, that of the last one (0: whole), and the packed sizes.
-  std::string unpacked(std::string_view text, bool raw) const {
+  /// block, that of the last one (0: whole), and the packed sizes. @param most  bytes that it may have
+  std::string unpacked(std::string_view text, bool raw, std::size_t most) const {
     Bytes bytes(text, raw);
     if (!is_packed_) {
       const std::uint64_t size = length(bytes);
+      require_at_most(most, static_cast<double>(size));
       std::string result = bytes.take(size);
       if (result.size() < size) fail("an array ends before its last value");
       return result;
     }
     const std::uint64_t blocks = length(bytes), whole = length(bytes), last = length(bytes);
+    const auto all = static_cast<double>(blocks) * static_cast<double>(whole);
+    require_at_most(
+        most, last > 0 && blocks > 0 ? all - static_cast<double>(whole) + static_cast<double>(last) : all);
     std::vector<std::uint64_t> sizes;
     for (std::uint64_t i = 0; i < blocks; ++i) sizes.push_back(length(bytes));
     std::string result;

@@ -327,7 +327,7 @@ fs::path write_checkpoint(const fs::path& folder, std::int64_t step, const Parti
 Checkpoint read_checkpoint(const fs::path& path, MPI_Comm communicator) {
   const Ranks ranks(communicator);
   ranks.on_root([&] { require_seal(path); });
-  const hdf5::File file = hdf5::File::open(path, hdf5::File::Access::read, ranks.communicator());
+  const hdf5::File file = hdf5::File::open(path);
   Checkpoint checkpoint;
   checkpoint.path = path;
   read_points(file.root.open_group("particles"), checkpoint.particles, ranks);

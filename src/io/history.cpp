@@ -85,9 +85,6 @@ void History::append(std::span<const HistoryValue> row) {
     if (!header_.empty())
       throw InternalError(fmt::format("{}: columns changed between rows", path_.string()));
   }
-  if (!stream_.is_open()) {
-    stream_.open(path_, continued_ ? std::ios::binary | std::ios::app : std::ios::binary | std::ios::trunc);
-  }
   if (header_.empty()) {
     header_ = text;
     text += '\n';
@@ -99,9 +96,11 @@ void History::append(std::span<const HistoryValue> row) {
     text += fmt::format("{}", row[i].value);  // shortest text that reads back to the same double
   }
   text += '\n';
-  stream_.write(text.data(), static_cast<std::streamsize>(text.size()));
-  stream_.flush();
-  if (!stream_) throw InputError(fmt::format("{}: cannot write the row; is the disk full?", path_.string()));
+  if (rows_ == 0 && !continued_) {
+    write_text_atomically(path_, text);  // in place of a file of that name
+  } else {
+    append_text(path_, text);
+  }
   ++rows_;
 }
 

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <span>
 #include <string>
 
@@ -45,7 +44,6 @@ class History {
 
  private:
   std::filesystem::path path_;
-  std::ofstream stream_;
   std::int64_t rows_ = 0;
   std::string header_;      ///< of the file; empty before the first row
   bool continued_ = false;  ///< the header was read, not written

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "src/core/base/error.hpp"
+#include "src/core/base/resource_error.hpp"
 
 namespace whipple::io {
 
@@ -52,13 +53,18 @@ void Ranks::on_root(const std::function<void()>& work) const {
     } catch (const std::bad_alloc&) {
       outcome = "m";
     } catch (const std::exception& error) {
-      outcome = std::string(exit_code(error) == ExitCode::input ? "i" : "d") + error.what();
+      const ExitCode code = exit_code(error);
+      outcome = std::string(code == ExitCode::input   ? "i"
+                            : code == ExitCode::state ? "s"
+                                                      : "d") +
+                error.what();
     }
   }
   outcome = broadcast(outcome);
   if (outcome.empty()) return;
   if (outcome[0] == 'i') throw InputError(outcome.substr(1));
   if (outcome[0] == 'm') throw std::bad_alloc();
+  if (outcome[0] == 's') throw ResourceError(outcome.substr(1));
   throw InternalError(outcome.substr(1));
 }
 

@@ -156,6 +156,12 @@ RunDirectory RunDirectory::open(const fs::path& path, const std::string& name) {
   if (!fs::is_regular_file(path / "run.toml")) {
     throw InputError(fmt::format("{}: is not the folder of a run: it contains no run.toml", path.string()));
   }
+  for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
+    if (entry.is_symlink() && std::regex_match(entry.path().filename().string(), own_outputs()))
+      throw InputError(
+          fmt::format("{}: is a symbolic link; a run writes into its own folder alone: put the file there",
+                      entry.path().string()));
+  }
   require_writable(path);
   return {path, name};
 }

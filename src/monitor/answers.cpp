@@ -155,6 +155,8 @@ std::vector<std::string> Desk::cases() const {
   return names;
 }
 
+bool Desk::has_key(const Question& question) const { return equal_texts(question.token, access_.token); }
+
 Answer Desk::answer(const Question& question) {
   if (!is_from_here(question)) return text(forbidden, "only the page of this address may ask");
   const std::size_t mark = question.target.find('?');
@@ -164,7 +166,7 @@ Answer Desk::answer(const Question& question) {
     std::string type;
     if (std::string file = file_of(path, type); !type.empty()) return {ok, type, std::move(file)};
   }
-  if (!equal_texts(question.token, access_.token)) {
+  if (!has_key(question)) {
     return text(unauthorized, "open the address that whipple monitor printed: it holds the key");
   }
   try {
@@ -238,6 +240,7 @@ Answer Desk::begin(const json& wish) {
   const fs::path folder = folder_.path() / run;
   if (fs::exists(folder)) throw InputError(fmt::format("{} exists already", folder.string()));
   std::vector<std::string> arguments = {(cases_ / name / "case.toml").string(), "-o", folder.string()};
+  if (!wish.at("set").is_array()) throw InputError("\"set\" is a list of texts key=value");
   for (const json& entry : wish.at("set")) {
     const auto set = entry.get<std::string>();
     const bool is_key = !set.empty() && std::islower(static_cast<unsigned char>(set.front())) != 0;

@@ -45,6 +45,8 @@ class Desk {
 
   /// Answers whatever is asked; errors are answers too.
   [[nodiscard]] Answer answer(const Question& question);
+  /// Returns whether the page asks that has the key.
+  [[nodiscard]] bool has_key(const Question& question) const;
 
  private:
   [[nodiscard]] bool is_from_here(const Question& question) const;

@@ -82,11 +82,40 @@ json answers_json(const fs::path& file) {
   return list;
 }
 
+/// Whoever may write into a folder could make links in it to what only the user of the monitor may read.
+/// @throws InputError if something in a run directory lies elsewhere
+void require_no_links_out(const fs::path& run) {
+  std::error_code gone;  // a file that is removed meanwhile
+  const std::string inside = fs::canonical(run, gone).string() + "/";
+  constexpr auto passing = fs::directory_options::skip_permission_denied;
+  for (fs::recursive_directory_iterator entry(run, passing, gone), last; entry != last && !gone;
+       entry.increment(gone)) {
+    if (!entry->is_symlink(gone)) continue;
+    if (fs::weakly_canonical(entry->path(), gone).string().starts_with(inside)) continue;
+    throw InputError(fmt::format("{}: is a link out of the folder of the run, of which nothing is shown",
+                                 entry->path().string()));
+  }
+}
+
+/// The run directories below a folder that lie in it themselves.
+std::vector<fs::path> own_runs(const fs::path& folder) {
+  std::vector<fs::path> runs = run::find_runs(folder);
+  std::error_code gone;
+  const std::string inside = fs::canonical(folder, gone).string();
+  std::erase_if(runs, [&](const fs::path& run) {
+    const std::string place = fs::canonical(run, gone).string();
+    return place != inside && !place.starts_with(inside + "/");
+  });
+  return runs;
+}
+
 }  // namespace
 
 fs::path Folder::run(const std::string& name) const {
-  for (const fs::path& path : run::find_runs(path_)) {
-    if (path.lexically_relative(path_).generic_string() == name) return path;
+  for (const fs::path& path : own_runs(path_)) {
+    if (path.lexically_relative(path_).generic_string() != name) continue;
+    require_no_links_out(path);
+    return path;
   }
   throw InputError(fmt::format("no run \"{}\" in {}", name, path_.string()));
 }
@@ -98,9 +127,10 @@ Folder::Known& Folder::known(const std::string& name) {
 
 json Folder::runs() const {
   json list = json::array();
-  for (const fs::path& path : run::find_runs(path_)) {
+  for (const fs::path& path : own_runs(path_)) {
     json entry = {{"name", path.lexically_relative(path_).generic_string()}};
     try {
+      require_no_links_out(path);
       entry.update(status_json(run::read_status(path)));
     } catch (const InputError& error) {  // half written, or damaged: the others are shown
       entry.update({{"state", "unknown"}, {"goes_on", false}, {"message", error.what()}});

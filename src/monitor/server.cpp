@@ -11,6 +11,7 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 // clang-format on
+#include <list>
 #include <random>
 
 #include "src/core/base/error.hpp"
@@ -26,7 +27,7 @@ using Clock = std::chrono::steady_clock;
 namespace {
 
 constexpr std::size_t most_connections = 64, most_body = 64 * 1024, most_head = 16 * 1024;
-constexpr std::chrono::seconds silence(30), look(1);
+constexpr std::chrono::seconds silence(30), first_question(5), look(1);
 
 using Request = http::request<http::string_body>;
 using Response = http::response<http::string_body>;
@@ -43,35 +44,44 @@ std::string random_token() {
 }
 
 struct Server::Connections {
+  class Session;
   asio::io_context io{1};
   tcp::acceptor acceptor{io};
   asio::steady_timer timer{io};
   asio::signal_set signals{io};
-  std::size_t open = 0;
+  /// Open connections, the longest without a question with the key first: those that have never had one, and the
+  /// others. Of too many the first ones give way, so that nobody is kept out by connections that say nothing.
+  std::list<Session*> strangers, known;
   Clock::time_point asked = Clock::now();
   Desk* desk = nullptr;
 
   void accept();
+  void make_room();
   void wait(std::chrono::seconds patience, const std::function<bool()>& may_end);
 };
 
-namespace {
-
 /// One connection: reads a question, writes the answer, and so on.
-class Session : public std::enable_shared_from_this<Session> {
+class Server::Connections::Session : public std::enable_shared_from_this<Session> {
  public:
-  Session(Server::Connections& all, tcp::socket socket) : all_(all), stream_(std::move(socket)) {
-    ++all_.open;
+  Session(Server::Connections& all, tcp::socket socket)
+      : all_(all), stream_(std::move(socket)), list_(&all.strangers) {
+    place_ = list_->insert(list_->end(), this);
   }
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
-  ~Session() { --all_.open; }
+  ~Session() { leave(); }
+
+  /// Ends the connection, whatever is under way.
+  void close() {
+    leave();
+    stream_.close();
+  }
 
   void read() {
     parser_.emplace();
     parser_->body_limit(most_body);
     parser_->header_limit(most_head);
-    stream_.expires_after(silence);
+    stream_.expires_after(list_ == &all_.known ? silence : first_question);
     http::async_read(stream_, buffer_, *parser_,
                      [self = shared_from_this()](beast::error_code error, std::size_t) {
                        if (error == http::error::body_limit)
@@ -102,7 +112,18 @@ class Session : public std::enable_shared_from_this<Session> {
     } catch (const std::exception& error) {  // a file that cannot be read, say: the server goes on
       made = {500, "text/plain; charset=utf-8", std::string(error.what()) + "\n"};
     }
+    if (all_.desk->has_key(question)) move_to(all_.known);
     write(made, request.keep_alive());
+  }
+
+  void leave() {
+    if (list_ != nullptr) list_->erase(place_);
+    list_ = nullptr;
+  }
+  void move_to(std::list<Session*>& list) {
+    if (list_ == nullptr) return;  // it is being closed
+    list.splice(list.end(), *list_, place_);
+    list_ = &list;
   }
 
   void write(const Answer& answer, bool keep) {
@@ -131,14 +152,22 @@ class Session : public std::enable_shared_from_this<Session> {
   beast::tcp_stream stream_;
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::string_body>> parser_;
+  std::list<Session*>* list_;  // that it stands in; null: none
+  std::list<Session*>::iterator place_;
 };
 
-}  // namespace
+void Server::Connections::make_room() {
+  if (strangers.size() + known.size() < most_connections) return;
+  (strangers.empty() ? known : strangers).front()->close();
+}
 
 void Server::Connections::accept() {
   acceptor.async_accept([this](beast::error_code error, tcp::socket socket) {
     if (!acceptor.is_open()) return;
-    if (!error && open < most_connections) std::make_shared<Session>(*this, std::move(socket))->read();
+    if (!error) {
+      make_room();
+      std::make_shared<Session>(*this, std::move(socket))->read();
+    }
     accept();
   });
 }

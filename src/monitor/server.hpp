@@ -15,7 +15,8 @@ namespace whipple::monitor {
 std::string random_token();
 
 /// Serves questions over HTTP on this machine's own address 127.0.0.1 and no other, on one thread. At most 64
-/// connections, 64 KiB of a question's body, 16 KiB of its head; a connection that is silent for 30 s is closed.
+/// connections, 64 KiB of a question's body, 16 KiB of its head. A new connection takes the place of the one that has been
+/// without a question with the key for longest; one that has had none has 5 s for its question, others 30 s.
 class Server {
  public:
   /// @param port  0: any that is free

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <optional>
 #include <sstream>
 #include <system_error>
@@ -118,14 +117,13 @@ void DirectoryControl::write(const Moment& moment, const std::string& file, cons
                              const Answer& answer) const {
   std::error_code ignored;
   const bool is_new = !fs::exists(table_, ignored);
-  std::ofstream table(table_, std::ios::app | std::ios::binary);
-  if (is_new) table << header << '\n';
-  table << fmt::format("{},{},{},{},{},{},{}\n", moment.time(), moment.step(), csv_cell(file),
-                       csv_cell(words.request), csv_cell(words.value), word_of(answer.verdict),
-                       csv_cell(answer.detail));
-  table.flush();
-  if (!table)
-    log::warning("{}: cannot write the line; is the disk full?", table_.string());  // the run goes on
+  try {
+    append_text(table_, fmt::format("{}{},{},{},{},{},{},{}\n", is_new ? std::string(header) + "\n" : "",
+                                    moment.time(), moment.step(), csv_cell(file), csv_cell(words.request),
+                                    csv_cell(words.value), word_of(answer.verdict), csv_cell(answer.detail)));
+  } catch (const InputError& error) {  // the run goes on
+    log::warning("{}", error.what());
+  }
   log::info("request {}{}{}: {}{}{}", words.request, words.value.empty() ? "" : " ", words.value,
             word_of(answer.verdict), answer.detail.empty() ? "" : ", ", answer.detail);
 }

@@ -42,11 +42,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Names a run by the folder of its case, or by the file if that is not called case.toml.
+/// Names a run by the folder of its case, or by the file if that is not called case.toml. Indices of snapshots hold the
+/// name: they are UTF-8.
 std::string run_name(const fs::path& case_file) {
-  const std::string stem = case_file.stem().string();
+  const std::string stem = utf8(case_file.stem().string(), "_");
   if (stem != "case") return stem;
-  const std::string folder = fs::absolute(case_file).parent_path().filename().string();
+  const std::string folder = utf8(fs::absolute(case_file).parent_path().filename().string(), "_");
   return folder.empty() ? stem : folder;
 }
 
@@ -111,7 +112,7 @@ Observers observers_of(solver::Simulation& simulation, const io::RunDirectory& d
 /// @param replay  the requests that are repeated; null: those in the run directory are followed
 int run_with_controls(Runner& runner, const io::RunDirectory& directory, const io::Ranks& ranks,
                       ReplayControl* replay = nullptr) {
-  SignalControl signals;
+  SignalControl signals(ranks.is_parallel());
   std::vector<RunControl*> controls = {&signals};
   std::optional<DirectoryControl> requests;
   ranks.on_root([&] {

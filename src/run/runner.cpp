@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <csignal>
+#include <filesystem>
 #include <new>
 #include <thread>
 #include <utility>
@@ -65,12 +66,16 @@ int Runner::run(std::span<RunControl* const> controls) {
   } catch (const StateError& error) {
     throw StateError(failed({Outcome::Kind::left_range, static_cast<int>(ExitCode::state), error.what()}));
   } catch (const InputError& error) {  // the input was read: a file that cannot be written
-    throw ResourceError(
-        failed({Outcome::Kind::out_of_resources, static_cast<int>(ExitCode::state), error.what()}));
+    throw out_of_resources(error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw out_of_resources(error.what());
   } catch (const std::bad_alloc&) {
-    throw ResourceError(failed({Outcome::Kind::out_of_resources, static_cast<int>(ExitCode::state),
-                                "the memory that this process may use is exhausted"}));
+    throw out_of_resources("the memory that this process may use is exhausted");
   }
+}
+
+ResourceError Runner::out_of_resources(const std::string& reason) {
+  return ResourceError(failed({Outcome::Kind::out_of_resources, static_cast<int>(ExitCode::state), reason}));
 }
 
 void Runner::steps() {

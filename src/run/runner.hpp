@@ -3,7 +3,9 @@
 
 #include <chrono>
 #include <span>
+#include <string>
 
+#include "src/core/base/resource_error.hpp"
 #include "src/run/observer.hpp"
 
 namespace whipple::run {
@@ -38,6 +40,8 @@ class Runner {
   [[nodiscard]] bool has_ended() const;
   [[nodiscard]] Outcome outcome() const;
   [[nodiscard]] std::string failed(Outcome outcome);
+  /// Tells the observers that the run cannot go on. @returns what is to be thrown
+  [[nodiscard]] ResourceError out_of_resources(const std::string& reason);
 
   solver::Simulation& simulation_;
   Observers observers_;

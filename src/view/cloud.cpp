@@ -270,7 +270,7 @@ std::string pack_cloud(const analysis::Run& run, const analysis::Snapshot& snaps
       append_reals<std::uint16_t>(field, kept, file);
     }
   }
-  std::string header = file.header.dump();
+  std::string header = file.header.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   header.append((4 - header.size() % 4) % 4, ' ');
   std::string bytes = "WPV1";
   append_number(bytes, static_cast<std::uint32_t>(header.size()));

@@ -122,6 +122,13 @@ def check_many(monitor):
     require(time.monotonic() - begin < 3, "it comes at once")
     for connection in silent:
         connection.close()
+    # More of them than are served: the oldest give way.
+    silent = [socket.create_connection(("127.0.0.1", monitor.port)) for _ in range(200)]
+    begin = time.monotonic()
+    require(monitor.ask("/")[0] == 200 and monitor.get("/runs")["runs"] == [], "a page beside 200 silent connections")
+    require(time.monotonic() - begin < 3, "it comes at once")
+    for connection in silent:
+        connection.close()
     with socket.create_connection(("127.0.0.1", monitor.port)) as connection:
         connection.sendall(b"\x00\xff nonsense\r\n\r\n")
         connection.settimeout(5)
@@ -185,6 +192,26 @@ def check_run(monitor, folder):
     require(monitor.post("/steer", {"run": "ball", "request": "pause", "value": ""})[0] == 400, "a run that has ended takes no request")
 
 
+def check_links(folder):
+    """What lies elsewhere is not shown through a link in a run folder."""
+    secret = FOLDER / "secret"
+    secret.write_text("secret\n")
+    (folder / "ball" / "log.txt").unlink()
+    (folder / "ball" / "log.txt").symlink_to(secret)
+    with Monitor(folder, "--cases", str(FOLDER / "cases")) as monitor:
+        status, body = monitor.ask("/run?run=ball")
+        require(status == 400 and b"is a link" in body and b"secret\n" not in body, f"a link out of a run: {status} {body}")
+        (FOLDER / "elsewhere").mkdir()
+        shutil.copy(folder / "ball" / "status.json", FOLDER / "elsewhere")
+        (folder / "linked").symlink_to(FOLDER / "elsewhere")
+        require([run["name"] for run in monitor.get("/runs")["runs"]] == ["ball"], "a run that lies elsewhere")
+        for set_keys in (None, {}, 3, "time.end=1"):
+            require(monitor.post("/start", {"case": "small_impact", "run": "new", "set": set_keys})[0] == 400, f"set {set_keys}")
+        require(not (folder / "new").exists(), "nothing is started")
+    refused = subprocess.run([WHIPPLE, "run", "--restart", str(folder / "ball")], capture_output=True, text=True)
+    require(refused.returncode == 2 and "symbolic link" in refused.stderr and secret.read_text() == "secret\n", f"{refused}")
+
+
 def main():
     shutil.rmtree(FOLDER, ignore_errors=True)
     cases, runs = FOLDER / "cases", FOLDER / "Läufe mit Leerzeichen"
@@ -204,6 +231,7 @@ def main():
         require(monitor.get("/runs")["cases"] == [], "no cases to start inside of a run")
         status, body = monitor.post("/start", {"case": "small_impact", "run": "inside", "set": []})
         require(status == 400 and not (runs / "ball" / "inside").exists(), f"no run inside of a run: {status} {body}")
+    check_links(runs)
     taken = socket.create_server(("127.0.0.1", 0))
     refused = subprocess.run([WHIPPLE, "monitor", str(runs), "--port", str(taken.getsockname()[1])], capture_output=True, text=True)
     require(refused.returncode == 2 and "cannot be used" in refused.stderr, f"a port in use: {refused}")

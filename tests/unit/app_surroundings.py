@@ -82,9 +82,27 @@ def threads():
         require(("expected a number from 1 to 4096: ignored" in done.stderr) == ignored, f"{variables}: {done.stderr}")
 
 
+def limits():
+    """Streams that are closed, small limits, no search path: exit codes as documented, and nothing of what is printed lands
+    in a file."""
+    expected = [("exec 0<&- 1>&- 2>&-", [], (0,)), ("unset PATH", [], (0,)), ("PATH=/nonexistent", [], (0,)),
+                ("unset PATH", ["--ranks", "2"], (0,)), ("PATH=/nonexistent", ["--ranks", "2"], (2,)),
+                ("ulimit -n 16", [], (3,)), ("ulimit -n 6", [], (3,)), ("ulimit -s 64", [], (3,)), ("ulimit -f 8", [], (2, 3)),
+                ("ulimit -f 8", ["--ranks", "2"], (3,))]
+    for before, options, codes in expected:
+        with tempfile.TemporaryDirectory() as folder:
+            run = [str(WHIPPLE), "run", CASE, "-o", f"{folder}/run", "--threads", "1", "--set", "time.end='0.02 us'", *options]
+            call = subprocess.run(["/bin/bash", "-c", before + '; "$@"', "bash", *run], capture_output=True, text=True, timeout=120)
+            require(call.returncode in codes, f"{before} {options}: {call.returncode}, {call.stderr}")
+            if call.returncode == 0:
+                first = next(pathlib.Path(folder).glob("run/*.particles.000000.hdf")).read_bytes()
+                require(first.startswith(b"\x89HDF") and b"steps to t" not in first, f"{before}: what a snapshot holds")
+
+
 def main():
     output_into_a_full_device()
     threads()
+    limits()
     for look in (search_paths, modules_of_others):
         with tempfile.TemporaryDirectory() as folder:
             look(pathlib.Path(folder))

@@ -14,6 +14,7 @@
 #include "src/core/base/file_lock.hpp"
 #include "src/core/base/files.hpp"
 #include "src/core/base/log.hpp"
+#include "src/core/base/text.hpp"
 #include "tests/unit/temporary_folder.hpp"
 
 namespace whipple {
@@ -78,6 +79,41 @@ TEST(WriteTextAtomically, WritesIntoWhatIsNoFileAsItIs) {
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("/dev/full: cannot write the file: No space left"));
   }
+}
+
+TEST(ReplaceDurably, WritesTheWholeFileAndRemovesWhatHasTheNameOfTheCopy) {
+  const TemporaryFolder folder;
+  const fs::path victim = folder.path() / "victim", target = folder.path() / "s.h5",
+                 copy = folder.path() / ".part";
+  std::ofstream(victim) << "mine";
+  fs::create_symlink(victim, copy);
+  replace_durably(target, copy, "first");
+  replace_durably(target, copy, "second");
+  EXPECT_EQ(content(victim), "mine");
+  EXPECT_EQ(content(target), "second");
+  EXPECT_EQ(files_in(folder.path()), 2);
+}
+
+TEST(AppendText, AddsToTheFileAndNamesTheReason) {
+  const TemporaryFolder folder;
+  append_text(folder.path() / "t.csv", "a\n");
+  append_text(folder.path() / "t.csv", "b\n");
+  EXPECT_EQ(content(folder.path() / "t.csv"), "a\nb\n");
+  try {
+    append_text(folder.path() / "none" / "t.csv", "a");
+    FAIL() << "a folder that is missing took a file";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("none/t.csv: cannot write the file: No such file or directory"));
+  }
+}
+
+TEST(Utf8, KeepsLettersAndReplacesOtherBytes) {
+  EXPECT_EQ(utf8("L\xC3\xA4ufe \xE2\x82\xAC \xF0\x9F\x98\x80", "_"),
+            "L\xC3\xA4ufe \xE2\x82\xAC \xF0\x9F\x98\x80");
+  EXPECT_EQ(utf8("c\xE4", "_"), "c_");
+  EXPECT_EQ(utf8("\xC0\x80\xED\xA0\x80\xF5", "_"),
+            "______");  // no shortest form, half of a pair, beyond the last
+  EXPECT_EQ(toml_string("c\xE4"), "\"c\xEF\xBF\xBD\"");
 }
 
 TEST(FileLock, IsRefusedWhileItIsHeldAndLeavesNothing) {

@@ -125,6 +125,12 @@ TEST_F(Vtk, DamageIsNamed) {
   EXPECT_THAT(fault("boxes_ascii.vtu", "12 12 12 3", "12 12 10 3"),
               HasSubstr("cell 2: has 8 points instead of 4"));
   EXPECT_THAT(fault("boxes_ascii.vtu", "0 0 1 2", "0 0 1"), HasSubstr("\"body\" has 3 values for 4 cells"));
+  // What is packed may be of any length: nothing is unpacked beyond what the piece announces.
+  EXPECT_THAT(fault("boxes_zlib.vtu", "NumberOfPoints=\"16\"", "NumberOfPoints=\"4\""),
+              HasSubstr("an array unpacks to 384 bytes, but the points and cells that the piece announces "
+                        "take at most 96"));
+  EXPECT_THAT(fault("boxes_zlib.vtu", "NumberOfCells=\"4\"", "NumberOfCells=\"-4\""),
+              HasSubstr("no number of points or cells"));
   EXPECT_THAT(fault("boxes_base64.vtu", "EAAAAAAA", "EAAAAAA"), HasSubstr("changed.vtu: error:"));
   EXPECT_THAT(fault("boxes_raw.vtu", "</AppendedData>", ""), ::testing::AnyOf("", HasSubstr("error")));
   std::string deep = "<VTKFile>";

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "src/core/base/resource_error.hpp"
+#include "src/core/base/surroundings.hpp"
 
 namespace whipple {
 
@@ -82,6 +83,7 @@ InputError unwritten_output(int error) {
 }  // namespace
 
 int run_guarded(const char* program, int (*body)(int, char**), int argc, char** argv) {
+  repair_surroundings();
   try {
     const int code = body(argc, argv);
     // What was printed waits in a buffer: only now it shows whether somebody takes it.

@@ -32,10 +32,15 @@ int write_all(int file, std::string_view text) {
   return 0;
 }
 
-void write_text(const fs::path& opened, int flags, std::string_view text, const fs::path& named) {
-  const int file = ::open(opened.c_str(), O_WRONLY | O_CLOEXEC | flags);
+enum class Durable { no, yes };
+
+void write_text(const fs::path& opened, int flags, std::string_view text, const fs::path& named,
+                Durable durable = Durable::no) {
+  constexpr mode_t readable = 0666;
+  const int file = ::open(opened.c_str(), O_WRONLY | O_CLOEXEC | flags, readable);
   if (file < 0) fail(named, "write the file", errno);
   int error = write_all(file, text);
+  if (error == 0 && durable == Durable::yes && ::fsync(file) != 0) error = errno;
   if (::close(file) != 0 && error == 0) error = errno;
   if (error != 0) fail(named, "write the file", error);
 }
@@ -148,6 +153,21 @@ void PartialFile::publish(bool durable) {
   if (opened < 0) return;  // file systems without folder handles still renamed the file
   ::fsync(opened);
   ::close(opened);
+}
+
+void replace_durably(const fs::path& path, const fs::path& copy, std::string_view bytes) {
+  ::unlink(copy.c_str());  // what a killed writer left, or a link that somebody planted
+  try {
+    write_text(copy, O_CREAT | O_EXCL | O_NOFOLLOW, bytes, path, Durable::yes);
+    if (::rename(copy.c_str(), path.c_str()) != 0) fail(path, "name the file", errno);
+  } catch (const InputError&) {
+    ::unlink(copy.c_str());
+    throw;
+  }
+}
+
+void append_text(const fs::path& path, std::string_view text) {
+  write_text(path, O_CREAT | O_APPEND, text, path);
 }
 
 void write_text_atomically(const fs::path& path, std::string_view text) {

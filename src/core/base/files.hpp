@@ -63,6 +63,16 @@ class PartialFile {
   bool published_ = false;
 };
 
+/// Replaces a file as a whole and forces it to disk: neither a kill nor a power failure leaves half of it.
+/// @param copy  name of the file in the making, beside it; what has this name is removed: one writer at a time
+/// @throws InputError naming the file and the reason of the system
+void replace_durably(const std::filesystem::path& path, const std::filesystem::path& copy,
+                     std::string_view bytes);
+
+/// Adds lines to a text file, which need not exist.
+/// @throws InputError naming the file and the reason of the system
+void append_text(const std::filesystem::path& path, std::string_view text);
+
 /// Replaces a text file as a whole. Into what is no file (/dev/stdout, a pipe) the text is written as it is.
 /// @throws InputError naming the file and the reason of the system
 void write_text_atomically(const std::filesystem::path& path, std::string_view text);

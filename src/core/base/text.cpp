@@ -31,7 +31,33 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
+/// Bytes of the letter that a text of UTF-8 begins with; 0 if it begins with none.
+std::size_t letter_size(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned first = byte(0);
+  if (first < 0x80) return 1;
+  const std::size_t size = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
+  if (first < 0xc2 || first > 0xf4 || size > text.size()) return 0;
+  for (std::size_t i = 1; i < size; ++i) {
+    if ((byte(i) & 0xc0U) != 0x80) return 0;
+  }
+  const unsigned second = byte(1);
+  const bool longer_than_needed = (first == 0xe0 && second < 0xa0) || (first == 0xf0 && second < 0x90);
+  const bool no_letter = (first == 0xed && second > 0x9f) || (first == 0xf4 && second > 0x8f);
+  return longer_than_needed || no_letter ? 0 : size;
+}
+
 }  // namespace
+
+std::string utf8(std::string_view text, std::string_view instead) {
+  std::string result;
+  while (!text.empty()) {
+    const std::size_t size = letter_size(text);
+    result += size > 0 ? text.substr(0, size) : instead;
+    text.remove_prefix(std::max<std::size_t>(size, 1));
+  }
+  return result;
+}
 
 std::string did_you_mean(std::string_view word, std::span<const std::string> candidates) {
   const std::string* best = nullptr;
@@ -48,7 +74,7 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> can
 
 std::string toml_string(std::string_view text) {
   std::string result = "\"";
-  for (const char c : text) {
+  for (const char c : utf8(text)) {
     switch (c) {
       case '"':
         result += "\\\"";

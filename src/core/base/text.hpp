@@ -10,6 +10,9 @@ namespace whipple {
 /// ", did you mean "x"?" with the candidate nearest by edit distance; empty if none is near.
 std::string did_you_mean(std::string_view word, std::span<const std::string> candidates);
 
+/// Makes a text UTF-8 that need not be: names of files are bytes. @param instead  of each byte that is no part of a letter
+std::string utf8(std::string_view text, std::string_view instead = "\xEF\xBF\xBD");
+
 /// The text in double quotes, escaped as a TOML basic string.
 std::string toml_string(std::string_view text);
 

@@ -49,14 +49,6 @@ Handle creation_properties(hid_t kind, const std::string& where) {
   return properties;
 }
 
-Handle transfer_properties(bool collective, const std::string& where) {
-  Handle properties = checked(H5Pcreate(H5P_DATASET_XFER), H5Pclose, where, "prepare a transfer");
-  if (collective) {
-    check(H5Pset_dxpl_mpio(properties.get(), H5FD_MPIO_COLLECTIVE), where, "prepare a collective transfer");
-  }
-  return properties;
-}
-
 Handle select(hid_t space, const Slab& slab, std::uint64_t columns, bool one_dimensional,
               const std::string& where) {
   const hsize_t start[2] = {slab.first, 0};

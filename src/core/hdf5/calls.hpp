@@ -24,8 +24,6 @@ void check(herr_t status, const std::string& where, const std::string& action);
 /// Makes the properties of a new object, without time stamps: equal content shall give equal files.
 Handle creation_properties(hid_t kind, const std::string& where);
 
-Handle transfer_properties(bool collective, const std::string& where);
-
 /// Selects the rows of a slab in a file space; returns the space of the memory.
 Handle select(hid_t space, const Slab& slab, std::uint64_t columns, bool one_dimensional,
               const std::string& where);

@@ -9,6 +9,7 @@
 #include "src/core/base/error.hpp"
 #include "src/core/hdf5/calls.hpp"
 #include "src/core/hdf5/chunks.hpp"
+#include "src/core/parallel/mpi.hpp"
 
 namespace whipple::hdf5 {
 std::vector<std::uint64_t> Dataset::shape() const {
@@ -53,7 +54,7 @@ void Dataset::require_shape(const Shape& expected) const {
 }
 
 void Dataset::read_bytes(void* values, hid_t memory_type, std::uint64_t size, const Slab& slab,
-                         std::uint64_t columns, bool collective) const {
+                         std::uint64_t columns) const {
   require_shape({slab.total, columns});
   if (size != slab.count * columns) throw InternalError(name_ + ": the room for the rows has another size");
   if (!has_type(memory_type)) {
@@ -67,14 +68,13 @@ void Dataset::read_bytes(void* values, hid_t memory_type, std::uint64_t size, co
     return;
   }
   const Chunks chunks(*this, space.get());
-  if (!collective && chunks.are_deflated(memory_type)) {
+  if (chunks.are_deflated(memory_type)) {
     chunks.read(static_cast<std::byte*>(values), slab);
     return;
   }
   chunks.require_whole();
   const Handle memory = select(space.get(), slab, columns, dimensions == 1, name_);
-  const Handle transfer = transfer_properties(collective, name_);
-  check(H5Dread(id(), memory_type, memory.get(), space.get(), transfer.get(), values), name_, "read");
+  check(H5Dread(id(), memory_type, memory.get(), space.get(), H5P_DEFAULT, values), name_, "read");
 }
 
 Dataset Group::write_bytes(const std::string& name, const void* values, hid_t memory_type, hid_t file_type,
@@ -103,20 +103,29 @@ Dataset Group::write_bytes(const std::string& name, const void* values, hid_t me
   Dataset dataset(checked(H5Dcreate2(id(), name.c_str(), file_type, space.get(), H5P_DEFAULT, creation.get(),
                                      H5P_DEFAULT),
                           H5Dclose, where, "create the array"),
-                  where, collective_);
-  if (slab.total == 0)
-    return dataset;  // nothing has an address: a collective transfer of it fails in HDF5 1.10
-  const bool here = !collective_ && slab.count == slab.total;
-  if (here && storage.deflate >= 0 && !storage.fletcher32 && H5Tequal(memory_type, file_type) > 0) {
+                  where, writers_);
+  if (slab.total == 0) return dataset;
+  const auto write_rows = [&](std::uint64_t first, std::uint64_t count, const void* rows) {
+    const Handle memory = select(space.get(), {first, count, slab.total}, columns, one_dimensional, where);
+    check(H5Dwrite(dataset.id(), memory_type, memory.get(), space.get(), H5P_DEFAULT, rows), where, "write");
+  };
+  if (writers_) {
+    const std::size_t row_size = columns * H5Tget_size(memory_type);
+    const std::span own(static_cast<const std::byte*>(values), slab.count * row_size);
+    parallel::gather_rows(*writers_, {own, slab.first, row_size}, storage.chunk_rows,
+                          [&](std::size_t first, std::span<const std::byte> rows) {
+                            write_rows(first, rows.size() / row_size, rows.data());
+                          });
+    return dataset;
+  }
+  if (slab.count == slab.total && storage.deflate >= 0 && !storage.fletcher32 &&
+      H5Tequal(memory_type, file_type) > 0) {
     write_deflated(dataset,
                    {static_cast<const std::byte*>(values), H5Tget_size(memory_type), columns, slab.count},
                    std::min<std::size_t>(slab.total, storage.chunk_rows), storage.deflate);
     return dataset;
   }
-  const Handle memory = select(space.get(), slab, columns, one_dimensional, where);
-  const Handle transfer = transfer_properties(collective_, where);
-  check(H5Dwrite(dataset.id(), memory_type, memory.get(), space.get(), transfer.get(), values), where,
-        "write");
+  write_rows(slab.first, slab.count, values);
   return dataset;
 }
 

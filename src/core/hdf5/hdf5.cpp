@@ -1,25 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/core/hdf5/hdf5.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
-#include <exception>
 #include <new>
 #include <utility>
 #include <vector>
 
 #include "src/core/base/error.hpp"
 #include "src/core/hdf5/calls.hpp"
+#include "src/core/parallel/mpi.hpp"
 
 namespace whipple::hdf5 {
 
@@ -53,17 +48,17 @@ Group Group::create_group(const std::string& name, Order order) const {
   }
   return {checked(H5Gcreate2(id(), name.c_str(), H5P_DEFAULT, creation.get(), H5P_DEFAULT), H5Gclose, name_,
                   action),
-          name_ + name + "/", collective_};
+          name_ + name + "/", writers_};
 }
 
 Group Group::open_group(const std::string& name) const {
   return {checked(H5Gopen2(id(), name.c_str(), H5P_DEFAULT), H5Gclose, name_, "open group " + name),
-          name_ + name + "/", collective_};
+          name_ + name + "/", writers_};
 }
 
 Dataset Group::open_dataset(const std::string& name) const {
   return {checked(H5Dopen2(id(), name.c_str(), H5P_DEFAULT), H5Dclose, name_, "open data set " + name),
-          name_ + name, collective_};
+          name_ + name, writers_};
 }
 
 bool Group::has(const std::string& name) const { return H5Lexists(id(), name.c_str(), H5P_DEFAULT) > 0; }
@@ -92,11 +87,8 @@ void Group::remove(const std::string& name) const {
 
 namespace {
 
-Handle access_properties(std::optional<MPI_Comm> communicator, const std::string& path) {
+Handle access_properties(const std::string& path) {
   Handle access = checked(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, path, "prepare the file");
-  if (communicator) {
-    check(H5Pset_fapl_mpio(access.get(), *communicator, MPI_INFO_NULL), path, "prepare parallel access");
-  }
   // An object that somebody forgot to close would otherwise keep the file open, and unflushed, in silence.
   check(H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG), path, "prepare the file");
   return access;
@@ -111,10 +103,6 @@ void require_memory() {
   ::munmap(room, needed);
 }
 
-Handle root_group(const Handle& file, const std::string& path) {
-  return checked(H5Gopen2(file.get(), "/", H5P_DEFAULT), H5Gclose, path, "open the root group");
-}
-
 H5F_libver_t oldest_format(File::Compatibility compatibility) {
   switch (compatibility) {
     case File::Compatibility::compact:
@@ -126,40 +114,88 @@ H5F_libver_t oldest_format(File::Compatibility compatibility) {
   }
 }
 
+/// Makes the access to a file on the disk, or in memory if it has any.
+Handle access_to(MemoryFile* memory, const std::string& name) {
+  Handle access = access_properties(name);
+  if (memory != nullptr && !place_in_memory(access.get(), *memory)) fail(name, "prepare memory");
+  return access;
+}
+
+/// The name that HDF5 gets: for a file in memory it wants one that no file has.
+std::string place_of(const std::string& name, const MemoryFile* memory) {
+  return memory != nullptr ? name + ".memory" : name;
+}
+
+/// Creates or replaces a file. @param name  for messages
+File created(const std::string& name, File::Compatibility compatibility, std::uint64_t user_block,
+             std::optional<MPI_Comm> writers, std::unique_ptr<MemoryFile> memory) {
+  require_memory();
+  silence();
+  const Handle access = access_to(memory.get(), name);
+  check(H5Pset_libver_bounds(access.get(), oldest_format(compatibility), H5F_LIBVER_V110), name,
+        "choose the format version");
+  const Handle creation = creation_properties(H5P_FILE_CREATE, name);
+  check(H5Pset_userblock(creation.get(), user_block), name, "reserve the user block");
+  Handle file =
+      checked(H5Fcreate(place_of(name, memory.get()).c_str(), H5F_ACC_TRUNC, creation.get(), access.get()),
+              H5Fclose, name, "create the file");
+  return File::of(std::move(file), name, std::move(memory), writers);
+}
+
 }  // namespace
+
+File File::of(Handle file, const std::string& name, std::unique_ptr<MemoryFile> memory,
+              std::optional<MPI_Comm> writers) {
+  Handle root = checked(H5Gopen2(file.get(), "/", H5P_DEFAULT), H5Gclose, name, "open the root group");
+  return {std::move(file), Group(std::move(root), name + ":/", writers), name, std::move(memory)};
+}
 
 File File::create(const std::filesystem::path& path, Compatibility compatibility, std::uint64_t user_block,
                   std::optional<MPI_Comm> communicator) {
-  require_memory();
-  silence();
-  const std::string text = path.string();
-  const Handle access = access_properties(communicator, text);
-  check(H5Pset_libver_bounds(access.get(), oldest_format(compatibility), H5F_LIBVER_V110), text,
-        "choose the format version");
-  const Handle creation = creation_properties(H5P_FILE_CREATE, text);
-  check(H5Pset_userblock(creation.get(), user_block), text, "reserve the user block");
-  Handle file = checked(H5Fcreate(text.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose, text,
-                        "create the file");
-  Group root(root_group(file, text), text + ":/", communicator.has_value());
-  return {std::move(file), std::move(root), text, communicator.has_value()};
+  const bool sends = communicator && parallel::rank(*communicator) != 0;
+  return created(path.string(), compatibility, user_block, communicator,
+                 sends ? std::make_unique<MemoryFile>() : nullptr);
 }
 
-File File::open(const std::filesystem::path& path, Access access, std::optional<MPI_Comm> communicator) {
-  require_memory();
-  silence();
-  const std::string text = path.string();
-  const Handle properties = access_properties(communicator, text);
-  Handle file = checked(
-      H5Fopen(text.c_str(), access == Access::modify ? H5F_ACC_RDWR : H5F_ACC_RDONLY, properties.get()),
-      H5Fclose, text, "open the file");
-  Group root(root_group(file, text), text + ":/", communicator.has_value());
-  return {std::move(file), std::move(root), text, false};
+File File::create_in_memory(const std::filesystem::path& name, Compatibility compatibility) {
+  return created(name.string(), compatibility, 0, {}, std::make_unique<MemoryFile>());
 }
 
 namespace {
 
-/// HDF5 closes at exit what is still open. Of a file that it could not complete it makes a segmentation
-/// fault, and ranks would wait for one another: after the first such file the process ends without that.
+unsigned flags_of(File::Access access) {
+  return access == File::Access::modify ? H5F_ACC_RDWR : H5F_ACC_RDONLY;
+}
+
+}  // namespace
+
+File File::open(const std::filesystem::path& path, Access access) {
+  require_memory();
+  silence();
+  const std::string name = path.string();
+  const Handle properties = access_properties(name);
+  return of(
+      checked(H5Fopen(name.c_str(), flags_of(access), properties.get()), H5Fclose, name, "open the file"),
+      name, nullptr);
+}
+
+File File::open_bytes(const std::filesystem::path& path, std::string bytes, Access access) {
+  require_memory();
+  silence();
+  const std::string name = path.string();
+  if (bytes.empty()) throw InputError(name + ": cannot open the file: it is empty");
+  auto memory = std::make_unique<MemoryFile>();
+  const Handle properties = access_to(memory.get(), name);
+  check(H5Pset_file_image(properties.get(), bytes.data(), bytes.size()), name, "open the file");
+  Handle file = checked(H5Fopen(place_of(name, memory.get()).c_str(), flags_of(access), properties.get()),
+                        H5Fclose, name, "open the file");
+  return of(std::move(file), name, std::move(memory));
+}
+
+namespace {
+
+/// HDF5 closes at exit what is still open. Of a file that it could not complete it makes a segmentation fault: after the
+/// first such file the process ends without that.
 void end_without_closing() {
   static const int registered = on_exit(
       [](int status, void*) {
@@ -170,51 +206,25 @@ void end_without_closing() {
   (void)registered;
 }
 
-/// Takes the room that a file needs on the disk before ranks close it together: when one of them cannot write there,
-/// HDF5 1.10 lets each wait for each for ever.
-void reserve_room(const Handle& file, const std::string& path) {
-  std::size_t tables = 0;  // bytes that are not written yet, at most
-  check(H5Fget_mdc_size(file.get(), nullptr, nullptr, &tables, nullptr), path, "find the size of the file");
-  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-  struct stat written = {};
-  ::fstat(descriptor, &written);
-  constexpr std::size_t blocks = 1 << 16;  // HDF5 takes room in blocks
-  const int status =
-      ::fallocate(descriptor, FALLOC_FL_KEEP_SIZE, 0, written.st_size + static_cast<off_t>(tables + blocks));
-  const int reason = errno;
-  ::close(descriptor);
-  // Some file systems cannot reserve; they are no worse off than before.
-  if (status != 0 && (reason == ENOSPC || reason == EDQUOT || reason == EFBIG)) {
-    throw InputError(fmt::format("{}: cannot close the file: {}", path, std::strerror(reason)));
-  }
-}
-
-/// Gives back what was taken beyond the end of a file that is closed.
-void release_room(const std::string& path) {
-  struct stat closed = {};
-  if (::stat(path.c_str(), &closed) == 0) static_cast<void>(!::truncate(path.c_str(), closed.st_size));
-}
-
 }  // namespace
 
 File::~File() {
-  if (together && std::uncaught_exceptions() > 0) {
-    root.handle_.abandon();
-    handle.abandon();
-    end_without_closing();
-  } else if (!root.handle_.reset() || !handle.reset()) {
-    end_without_closing();
-  }
+  if (!root.handle_.reset() || !handle.reset()) end_without_closing();
 }
 
 void File::close() {
-  if (together) reserve_room(handle, path);
-  if (root.handle_.reset() && handle.reset()) {
-    if (together) release_room(path);
-    return;
-  }
+  if (root.handle_.reset() && handle.reset()) return;
   end_without_closing();
   fail(path, "close the file");
+}
+
+std::string File::close_as_bytes() {
+  hsize_t size = 0;
+  check(H5Fflush(handle.get(), H5F_SCOPE_LOCAL), path, "complete the file");
+  check(H5Fget_filesize(handle.get(), &size), path, "complete the file");
+  memory->wanted = size;
+  close();
+  return std::move(memory->bytes);
 }
 
 }  // namespace whipple::hdf5

@@ -5,12 +5,16 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
+
+#include "src/core/hdf5/memory_file.hpp"
+#include "src/core/hdf5/number_type.hpp"
 
 /// Thin ownership over the C interface of HDF5. Every failure is an InputError with the name of the file,
 /// what was attempted and HDF5's own innermost message; HDF5 prints nothing by itself.
@@ -29,17 +33,11 @@ class Handle {
   [[nodiscard]] hid_t get() const { return id_; }
   /// Closes now; returns false if HDF5 reports a failure (a full disk shows here).
   bool reset() noexcept;
-  /// Leaves it open.
-  void abandon() noexcept { id_ = -1; }
 
  private:
   hid_t id_ = -1;
   Close close_ = nullptr;
 };
-
-/// HDF5 type of a number, in memory and (little endian) in the file.
-template <class T>
-struct NumberType;
 
 /// The rows of a distributed array that this process holds: [first, first + count) of `total`.
 struct Slab {
@@ -64,8 +62,8 @@ enum class Characters { ascii, utf8 };
 /// In which order a group lists its members. One that shall list them as they were added must be created so.
 enum class Order { name, creation };
 
-/// A group or a data set: something with a name and attributes. Valid while its file is open. What was opened
-/// with a communicator is read and written collectively.
+/// A group or a data set: something with a name and attributes. Valid while its file is open. What was created with a
+/// communicator is written collectively.
 class Object {
  public:
   void set_attribute(const std::string& name, std::int64_t value) const;
@@ -90,11 +88,11 @@ class Object {
   [[nodiscard]] const std::string& name() const { return name_; }
 
  protected:
-  Object(Handle handle, std::string name, bool collective)
-      : handle_(std::move(handle)), name_(std::move(name)), collective_(collective) {}
+  Object(Handle handle, std::string name, std::optional<MPI_Comm> writers)
+      : handle_(std::move(handle)), name_(std::move(name)), writers_(writers) {}
   Handle handle_;
   std::string name_;
-  bool collective_;
+  std::optional<MPI_Comm> writers_;  ///< ranks that write the file together; none: this process alone
 };
 
 class Dataset : public Object {
@@ -120,7 +118,7 @@ class Dataset : public Object {
   /// @throws InputError also if the type is of another class or width than T, or the array has other columns.
   template <class T>
   void read_rows(std::span<T> values, const Slab& slab, std::uint64_t columns) const {
-    read_bytes(values.data(), NumberType<T>::memory(), values.size(), slab, columns, collective_);
+    read_bytes(values.data(), NumberType<T>::memory(), values.size(), slab, columns);
   }
   /// The whole array, by this process alone.
   template <class T>
@@ -134,7 +132,7 @@ class Dataset : public Object {
     require_shape(expected);
     std::vector<T> values(expected.rows * expected.columns);
     read_bytes(values.data(), NumberType<T>::memory(), values.size(), Slab::whole(expected.rows),
-               expected.columns, false);
+               expected.columns);
     return values;
   }
 
@@ -143,7 +141,7 @@ class Dataset : public Object {
   using Object::Object;
   [[nodiscard]] bool has_type(hid_t memory_type) const;
   void read_bytes(void* values, hid_t memory_type, std::uint64_t size, const Slab& slab,
-                  std::uint64_t columns, bool collective) const;
+                  std::uint64_t columns) const;
 };
 
 class Group : public Object {
@@ -173,7 +171,12 @@ class Group : public Object {
                       std::uint64_t size, const Slab& slab, const Storage& storage) const;
 };
 
-/// An open file and its root group. With a communicator, all calls are collective over it.
+/// An open file and its root group.
+///
+/// A file that is created with a communicator holds the rows of all its ranks, and all calls are collective. The first
+/// rank alone has it open: the others send their rows, and do all else to a file in memory. An error of the disk meets
+/// that rank as it meets a single process, never inside of a call in which ranks wait for one another (as in the parallel
+/// part of HDF5 1.10, which waits for ever then).
 struct File {
   enum class Compatibility {
     compact,     ///< H5F_LIBVER_V18 ... V110: small groups and attributes are stored compactly
@@ -183,64 +186,34 @@ struct File {
 
   enum class Access { read, modify };
 
+  /// Takes an open file into ownership. @param writers  of `create`
+  static File of(Handle file, const std::string& name, std::unique_ptr<MemoryFile> memory,
+                 std::optional<MPI_Comm> writers = {});
   /// Creates or replaces a file.
   /// @param user_block bytes left free at the beginning of the file (0, or a power of two from 512)
   static File create(const std::filesystem::path& path, Compatibility compatibility,
                      std::uint64_t user_block = 0, std::optional<MPI_Comm> communicator = {});
-  static File open(const std::filesystem::path& path, Access access = Access::read,
-                   std::optional<MPI_Comm> communicator = {});
+  static File open(const std::filesystem::path& path, Access access = Access::read);
+  /// Makes a file in memory alone: a disk that fails meets the functions of src/core/base/files, never HDF5.
+  /// @param name  for messages
+  static File create_in_memory(const std::filesystem::path& name, Compatibility compatibility);
+  /// Opens a copy of the bytes of a file, in memory alone. @param name  for messages
+  static File open_bytes(const std::filesystem::path& name, std::string bytes, Access access = Access::read);
 
-  File(Handle of_file, Group of_root, std::string at, bool made_together)
-      : handle(std::move(of_file)), root(std::move(of_root)), path(std::move(at)), together(made_together) {}
+  File(Handle of_file, Group of_root, std::string at, std::unique_ptr<MemoryFile> in)
+      : memory(std::move(in)), handle(std::move(of_file)), root(std::move(of_root)), path(std::move(at)) {}
   File(File&&) = default;
-  File& operator=(File&&) = default;
-  /// Closes, except when an exception leaves a file that ranks write together: the others are in another
-  /// collective call, and each would wait for each. Whoever handles the exception must end all ranks.
   ~File();
 
   /// Closes; reports what could not be written.
   void close();
+  /// Closes a file in memory. @returns its bytes
+  std::string close_as_bytes();
 
+  std::unique_ptr<MemoryFile> memory;  ///< none: on a disk
   Handle handle;
   Group root;
   std::string path;
-  bool together;  ///< written by several ranks
-};
-
-template <>
-struct NumberType<double> {
-  static hid_t memory() { return H5T_NATIVE_DOUBLE; }
-  static hid_t file() { return H5T_IEEE_F64LE; }
-};
-template <>
-struct NumberType<float> {
-  static hid_t memory() { return H5T_NATIVE_FLOAT; }
-  static hid_t file() { return H5T_IEEE_F32LE; }
-};
-template <>
-struct NumberType<std::int64_t> {
-  static hid_t memory() { return H5T_NATIVE_INT64; }
-  static hid_t file() { return H5T_STD_I64LE; }
-};
-template <>
-struct NumberType<std::uint64_t> {
-  static hid_t memory() { return H5T_NATIVE_UINT64; }
-  static hid_t file() { return H5T_STD_U64LE; }
-};
-template <>
-struct NumberType<std::uint32_t> {
-  static hid_t memory() { return H5T_NATIVE_UINT32; }
-  static hid_t file() { return H5T_STD_U32LE; }
-};
-template <>
-struct NumberType<std::uint16_t> {
-  static hid_t memory() { return H5T_NATIVE_UINT16; }
-  static hid_t file() { return H5T_STD_U16LE; }
-};
-template <>
-struct NumberType<std::uint8_t> {
-  static hid_t memory() { return H5T_NATIVE_UINT8; }
-  static hid_t file() { return H5T_STD_U8LE; }
 };
 
 }  // namespace whipple::hdf5

@@ -3,6 +3,8 @@
 
 #include <omp.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -11,6 +13,7 @@
 #include <thread>
 
 #include "src/core/base/error.hpp"
+#include "src/core/base/surroundings.hpp"
 #include "src/core/parallel/address_space.hpp"
 
 namespace whipple::parallel {
@@ -36,6 +39,8 @@ class Session {
     MPI_Initialized(&initialised);
     if (initialised != 0) return;
     require_address_space(1);
+    require_room_for_mpi();
+    let_mpi_start_alone();
     std::set_new_handler(on_exhausted_memory);
     int provided = 0;
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
@@ -129,6 +134,47 @@ void throw_together(MPI_Comm comm, const std::string& error) {
   text.resize(static_cast<std::size_t>(length));
   MPI_Bcast(text.data(), length, MPI_CHAR, first, comm);
   throw StateError(text);
+}
+
+void gather_rows(MPI_Comm comm, const RowsOfRanks& rows, std::size_t piece,
+                 const std::function<void(std::size_t first, std::span<const std::byte> rows)>& take) {
+  constexpr int tag = 9;
+  const int ranks = size(comm), own = rank(comm);
+  using Range = std::array<unsigned long, 2>;  // first row, row behind the last
+  const Range mine = {rows.first, rows.first + rows.own.size() / rows.row_size};
+  std::vector<Range> of_rank(static_cast<std::size_t>(ranks));
+  MPI_Gather(mine.data(), 2, MPI_UNSIGNED_LONG, of_rank.data(), 2, MPI_UNSIGNED_LONG, 0, comm);
+  const auto own_part = [&](std::size_t begin, std::size_t end) {
+    return rows.own.subspan((begin - mine[0]) * rows.row_size, (end - begin) * rows.row_size);
+  };
+  if (own != 0) {
+    for (std::size_t begin = mine[0]; begin < mine[1];) {
+      const std::size_t end = std::min<std::size_t>((begin / piece + 1) * piece, mine[1]);
+      const std::span<const std::byte> part = own_part(begin, end);
+      MPI_Send(part.data(), static_cast<int>(part.size()), MPI_BYTE, 0, tag, comm);
+      begin = end;
+    }
+    return;
+  }
+  const std::size_t total = std::ranges::max(of_rank, {}, [](const Range& range) { return range[1]; })[1];
+  std::vector<std::byte> gathered(std::min(piece, total) * rows.row_size);
+  for (std::size_t begin = 0; begin < total; begin += piece) {
+    const std::size_t end = std::min(begin + piece, total);
+    for (int r = 0; r < ranks; ++r) {
+      const Range& range = of_rank[static_cast<std::size_t>(r)];
+      const std::size_t from = std::max<std::size_t>(begin, range[0]),
+                        to = std::min<std::size_t>(end, range[1]);
+      if (from >= to) continue;
+      std::byte* const place = gathered.data() + (from - begin) * rows.row_size;
+      const std::size_t bytes = (to - from) * rows.row_size;
+      if (r == 0) {
+        std::ranges::copy(own_part(from, to), place);
+      } else {
+        MPI_Recv(place, static_cast<int>(bytes), MPI_BYTE, r, tag, comm, MPI_STATUS_IGNORE);
+      }
+    }
+    take(begin, std::span(gathered).first((end - begin) * rows.row_size));
+  }
 }
 
 std::vector<std::vector<std::byte>> exchange_bytes(MPI_Comm comm,

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -41,6 +42,18 @@ bool any(MPI_Comm comm, bool value);
 /// Ends a failed step on every rank: if any rank brings an error (a text that is not empty), all throw a
 /// StateError with the text of the lowest such rank.
 void throw_together(MPI_Comm comm, const std::string& error);
+
+/// Rows of an array that lie on several ranks, one behind the other in the order of the ranks.
+struct RowsOfRanks {
+  std::span<const std::byte> own;  ///< those of this rank
+  std::size_t first = 0;           ///< number of the first of them
+  std::size_t row_size = 1;        ///< bytes
+};
+/// Brings all rows to the first rank, piece by piece, so that it needs no room for all.
+/// @param piece  rows of a piece
+/// @param take   gets there the number of the first row of every piece, and the piece
+void gather_rows(MPI_Comm comm, const RowsOfRanks& rows, std::size_t piece,
+                 const std::function<void(std::size_t first, std::span<const std::byte> rows)>& take);
 
 /// Sends raw bytes to every rank; entry r of the result came from rank r.
 std::vector<std::vector<std::byte>> exchange_bytes(MPI_Comm comm,

@@ -13,6 +13,8 @@
 #include "src/core/base/error.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/base/machine.hpp"
+#include "src/core/base/resource_error.hpp"
+#include "src/core/base/surroundings.hpp"
 #include "src/core/process/paths.hpp"
 
 namespace whipple::process {
@@ -40,6 +42,8 @@ int mpirun(int ranks, const std::vector<std::string>& program, const Environment
                     "on several machines start them by mpirun {} ...",
                     ranks, processors, most, program.front()));
   }
+  require_room_for_mpi();
+  require_room_for_mpirun();
   // mpirun passes SIGUSR2 on and waits, upon which a run saves its state; after SIGTERM and SIGINT it kills
   // its ranks within a second. Ranks without mpirun are lost.
   std::vector<std::string> arguments = ends_with_its_parent("USR2");
@@ -59,8 +63,10 @@ int mpirun(int ranks, const std::vector<std::string>& program, const Environment
     all.emplace_back("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
   }
   log::detail("{}", fmt::join(arguments, " "));
-  const int code =
-      run_process(arguments, all, {.end_signal = SIGUSR2, .may_be_killed = true, .patience = 10.0});
+  // Ranks that wait for one another end themselves 120 s after the signal.
+  const int code = run_process(
+      arguments, all,
+      {.end_signal = SIGUSR2, .may_be_killed = true, .patience = 10.0, .patience_with_end = 300.0});
   if (const int signal = last_signal(); code > 128 && (signal == SIGINT || signal == SIGTERM))
     return 128 + signal;
   // A rank that was killed cannot say so, and mpirun --quiet does not.
@@ -68,9 +74,16 @@ int mpirun(int ranks, const std::vector<std::string>& program, const Environment
       std::ranges::count(std::array{SIGKILL, SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL}, signal) > 0) {
     fmt::print(stderr,
                "{}: error: a rank or mpirun was ended by signal {} ({}), and the others with it; a run goes "
-               "on from its last "
-               "checkpoint with --restart\n",
+               "on from its "
+               "last checkpoint with --restart, a plan by the same call\n",
                program.front(), signal, strsignal(signal));
+  }
+  // The project's programs have codes below it, mpirun has its own where it cannot start them.
+  constexpr int greatest_own = 4, out_of_time = 124, greatest_signal = 64;
+  const bool known = code == 0 || (code >= 2 && code <= greatest_own) || code == out_of_time ||
+                     (code > 128 && code <= 128 + greatest_signal);
+  if (!known) {
+    throw ResourceError(fmt::format("mpirun ended with code {}: it could not start or keep the ranks", code));
   }
   return code;
 }

@@ -161,13 +161,17 @@ bool has_dead_child(pid_t pid) {
 }
 
 /// Waits for the end of a program. @returns its status, as of waitpid
-int wait_for(pid_t pid, const std::string& name, double patience) {
+int wait_for(pid_t pid, const std::string& name, const Supervision& supervision) {
   using clock = std::chrono::steady_clock;
   constexpr auto pause = std::chrono::milliseconds(20);
-  auto attentive = clock::now(), looked = attentive;
+  const auto since = [](clock::time_point begin) {
+    return std::chrono::duration<double>(clock::now() - begin).count();
+  };
+  const bool watched = supervision.patience > 0.0 || supervision.patience_with_end > 0.0;
+  auto attentive = clock::now(), looked = attentive, asked_to_end = attentive;
   for (;;) {
     int status = 0;
-    const pid_t ended = waitpid(pid, &status, patience > 0.0 ? WNOHANG : 0);
+    const pid_t ended = waitpid(pid, &status, watched ? WNOHANG : 0);
     if (ended == pid) return status;
     if (ended < 0 && errno != EINTR) {
       throw InternalError(fmt::format("waiting for '{}': {}", name, std::strerror(errno)));
@@ -177,10 +181,14 @@ int wait_for(pid_t pid, const std::string& name, double patience) {
     const auto now = clock::now();
     if (now - looked < std::chrono::milliseconds(200)) continue;
     looked = now;
-    if (!has_dead_child(pid)) {
-      attentive = now;
-    } else if (std::chrono::duration<double>(now - attentive).count() > patience) {
-      kill(pid, SIGKILL);
+    if (supervision.patience > 0.0) {
+      if (!has_dead_child(pid)) attentive = now;
+      if (since(attentive) > supervision.patience) kill(pid, SIGKILL);
+    }
+    if (supervision.patience_with_end > 0.0) {
+      const int signal = last_forwarded;
+      if (signal != SIGINT && signal != SIGTERM) asked_to_end = now;
+      if (since(asked_to_end) > supervision.patience_with_end) kill(-pid, SIGKILL);  // its group
     }
   }
 }
@@ -196,7 +204,7 @@ int run_process(const std::vector<std::string>& arguments, const Environment& en
   send_pending();
   forwarding.release();
 
-  const int status = wait_for(pid, arguments.front(), supervision.patience);
+  const int status = wait_for(pid, arguments.front(), supervision);
   if (WIFEXITED(status)) return WEXITSTATUS(status);
   const int signal = WTERMSIG(status);
   if (signal == last_forwarded || supervision.may_be_killed) return 128 + signal;

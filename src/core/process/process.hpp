@@ -20,6 +20,8 @@ struct Supervision {
   /// s: a program that does not notice for so long that a child of it has ended is killed. (mpirun of Open MPI 4.1
   /// may wait for ever after a rank was killed.) 0: it is waited for.
   double patience = 0.0;
+  /// s: a program that has not ended so long after `end_signal` is killed, and what it has started. 0: it is waited for.
+  double patience_with_end = 0.0;
 };
 
 /// Starts a program (looked up in PATH unless its name holds a slash), waits for its end and returns its exit

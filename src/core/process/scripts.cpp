@@ -5,7 +5,6 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
@@ -36,10 +35,7 @@ void draw_with(const std::string& script, const std::vector<std::string>& argume
 
 void draw_json(const std::string& script, const std::string& json, const std::filesystem::path& figure) {
   const PartialFile data(figure);  // never published
-  std::ofstream file(data.path());
-  file << json;
-  file.close();
-  if (!file) throw InputError(fmt::format("cannot write '{}'", data.path().string()));
+  write_text_atomically(data.path(), json);
   draw_with(script, {data.path().string(), figure.string()});
 }
 

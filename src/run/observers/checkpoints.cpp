@@ -32,8 +32,7 @@ void Checkpoints::end(const Moment& moment, Outcome& outcome) {
         io::list_checkpoints(directory_.checkpoint_folder()).empty()
             ? "; no checkpoint had been written"
             : fmt::format(
-                  "; once space is available resume from the last checkpoint with: whipple run "
-                  "--restart {}",
+                  "; once the cause is gone resume from the last checkpoint with: whipple run --restart {}",
                   directory_.path().string());
   }
 }
