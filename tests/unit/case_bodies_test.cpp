@@ -320,6 +320,28 @@ TEST(FailureScatter, FollowsTheWeibullDistributionOfMeanOneAndItsEffectOfSize) {
   EXPECT_NE(scatter.factor(7, 1e-9), sized.factor(7, 1e-9));
 }
 
+TEST(FailureScatter, KnowsTheVolumeOfParticlesInTwoDimensions) {
+  for (const std::string dimension : {"plane_strain", "axisymmetric"}) {
+    const Case setup = read_case_text(
+        "[domain]\ndimension = \"" + dimension +
+            "\"\nlower = [\"0 mm\", \"0 mm\"]\nupper = [\"8 mm\", \"8 mm\"]\ncell_size = \"1 mm\"\n"
+            "[time]\nend = \"1 us\"\n[[body]]\nname = \"block\"\nmaterial = \"copper.toml\"\n"
+            "shape = { box = { lower = [\"1 mm\", \"1 mm\", \"-5 mm\"], upper = [\"5 mm\", \"5 mm\", \"5 "
+            "mm\"] } }\n"
+            "failure_scatter = { weibull_modulus = 3, seed = 5, reference_volume = \"1 mm^3\" }\n",
+        "case.toml");
+    const Seeding seeding = seed(setup);
+    const Particles& particles = seeding.particles;
+    ASSERT_GT(particles.size(), 16U) << dimension;
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      const double volume = particles.volume[p];
+      EXPECT_NEAR(particles.failure_threshold_factor[p],
+                  setup.bodies[0].failure_scatter.factor(particles.id[p], volume), 1e-12)
+          << dimension;
+    }
+  }
+}
+
 TEST(FailureScatter, IsTheSameForAnyNumberOfRanksAndIsReadAndWritten) {
   const Case setup = read_case_text(
       domain + sphere +
