@@ -90,9 +90,9 @@ Seeding seed(const Case& setup, int rank, int ranks) {
     const double mass = density * volume;
     const Shape::Bounds bounds = bounds_of(setup, body);
     const Vector3 center = 0.5 * (bounds.lower + bounds.upper);
-    const Vector3& w = body.angular_velocity;
-    Matrix3 spin;
-    spin << 0, -w[2], w[1], w[2], 0, -w[0], -w[1], w[0], 0;
+    const Vector3 &w = body.angular_velocity, &e = body.expansion_rate;
+    Matrix3 gradient;  // of the velocity
+    gradient << e[0], -w[2], w[1], w[2], e[1], -w[0], -w[1], w[0], e[2];
     std::vector<double> threshold_factor;
     std::size_t index = 0;
     for_each_site(setup, body, lattice, [&](const Site& site) {
@@ -109,8 +109,8 @@ Seeding seed(const Case& setup, int rank, int ranks) {
       particles.mass[p] = mass_of_site * allotment.fraction(site);
       const Vector3 place = place_of_particle(setup, body, lattice, site);
       particles.position[p] = setup.geometry.is_axisymmetric() ? centre_of_mass(site) : place;
-      particles.velocity[p] = body.velocity + spin * (place - center);
-      particles.affine_velocity[p] = spin;
+      particles.velocity[p] = body.velocity + gradient * (place - center);
+      particles.affine_velocity[p] = gradient;
       particles.extent[p] = site.extent;
       particles.generation[p] = 0;
       if (body.failure_scatter.given()) {
