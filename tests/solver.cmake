@@ -16,6 +16,7 @@ whipple_test(test_run STARTS_MPI
   DEPENDS whipple_run nlohmann_json::nlohmann_json GTest::gmock LABELS fast)
 whipple_test(test_contact STARTS_MPI SOURCES property/contact_pressing_test.cpp verification/solver_gap_test.cpp verification/solver_first_touch_test.cpp verification/solver_conduction_test.cpp
              DEPENDS whipple_run LABELS fast)
+whipple_test(test_cracks STARTS_MPI SOURCES verification/solver_cracks_test.cpp DEPENDS whipple_run LABELS fast)
 whipple_test(test_burn STARTS_MPI SOURCES verification/burn_test.cpp verification/burn_contact_test.cpp verification/lighting_times_test.cpp verification/reaction_test.cpp DEPENDS whipple_run GTest::gmock LABELS fast)
 add_test(NAME burn.fine_slab COMMAND test_burn --gtest_filter=PlanarDetonation.FollowsTheTaylorWaveOfTnt)
 set_tests_properties(burn.fine_slab PROPERTIES ENVIRONMENT "WHIPPLE_FINE_BURN=1;OMP_NUM_THREADS=1" LABELS long)
@@ -48,6 +49,15 @@ foreach(ranks 1 2 4 8)
   add_test(NAME test_solver_ranks.${ranks}
            COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} $<TARGET_FILE:test_solver_ranks>)
   set_tests_properties(test_solver_ranks.${ranks} PROPERTIES LABELS ${label} TIMEOUT 900 COST 30
+    ENVIRONMENT "${mpi_environment}")
+endforeach()
+add_executable(test_crack_ranks parallel/solver_crack_ranks.cpp)
+target_link_libraries(test_crack_ranks PRIVATE whipple_run GTest::gtest)
+whipple_test_flags(test_crack_ranks)
+foreach(ranks 2 4)
+  add_test(NAME test_crack_ranks.${ranks}
+           COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} $<TARGET_FILE:test_crack_ranks>)
+  set_tests_properties(test_crack_ranks.${ranks} PROPERTIES LABELS fast TIMEOUT 300 COST 5
     ENVIRONMENT "${mpi_environment}")
 endforeach()
 if(WHIPPLE_PYTHON)

@@ -24,6 +24,9 @@ ParameterTable<Body> Body::parameters() {
       vector("angular_velocity", &Body::angular_velocity, "rad/s", range::any(),
              "initial rotation about the centre of the body's bounding box")
           .optional(),
+      vector("expansion_rate", &Body::expansion_rate, "1/s", range::any(),
+             "initial velocity along each axis per distance from that centre, as of a ring that coasts")
+          .optional(),
       text("contact_group", &Body::contact_group,
            "bodies of one group share a velocity field and are bonded where they meet, those of different "
            "groups are not; empty: according to contact.method")
@@ -48,6 +51,7 @@ std::span<const Section<Body>> Body::sections() {
       section<&Body::bars>("bar", ", of bodies of bars"),
       section<&Body::initial>("initial", ", at most two of",
                               [](const Body& body) { return body.initial.given(); }),
+      section<&Body::failure>("failure", "", [](const Body& body) { return body.failure.given(); }),
       section<&Body::failure_scatter>("failure_scatter", "",
                                       [](const Body& body) { return body.failure_scatter.given(); }),
       section<&Body::viscosity>("artificial_viscosity", ", keys not given: those of [artificial_viscosity]")};
@@ -88,6 +92,13 @@ void Body::check(const Case& setup, const Faults& faults) const {
     for (std::size_t i = 0; i < node_conditions.size(); ++i) {
       faults.in("node_condition").in(i).add("", "a body of particles has no nodes");
     }
+  }
+  if (failure.cracks == CrackMotion::fields && setup.time.scheme != Scheme::symplectic) {
+    faults.in("failure").add("cracks", "fields at cracks need time.scheme = \"symplectic\"");
+  }
+  if (failure.cracks == CrackMotion::fields && setup.transfer.particle_update == ParticleUpdate::fmpm) {
+    faults.in("failure").add("cracks",
+                             "fields at cracks need another transfer.particle_update than \"fmpm\"");
   }
   if (!discretization.is_bars()) {
     for (std::size_t i = 0; i < bars.size(); ++i) {

@@ -36,6 +36,7 @@ struct Body {
   double table_error = 1e-4;
   Vector3 velocity = Vector3::Zero();          ///< m/s
   Vector3 angular_velocity = Vector3::Zero();  ///< rad/s
+  Vector3 expansion_rate = Vector3::Zero();    ///< 1/s, along the axes
   std::string contact_group;
   Ignition ignition = Ignition::detonators;
   double detonation_velocity = std::numeric_limits<double>::infinity();  ///< m/s; infinite: not given
@@ -45,6 +46,7 @@ struct Body {
   std::vector<NodeCondition> node_conditions;
   std::vector<BarRow> bars;
   InitialState initial;
+  Failure failure;
   FailureScatter failure_scatter;
   std::optional<ArtificialViscosity> viscosity;  ///< instead of that of the case
   std::shared_ptr<const Shape> shape;            ///< of bars and meshes: made by `complete`
@@ -56,6 +58,12 @@ struct Body {
   void read_rest(input::Table& table);
   [[nodiscard]] std::string rest_to_toml() const;
   void check(const Case& setup, const Faults& faults) const;
+
+  /// Returns the initial velocity at a place.
+  /// @param centre  of the bounding box
+  [[nodiscard]] Vector3 velocity_at(const Vector3& x, const Vector3& centre) const {
+    return velocity + angular_velocity.cross(x - centre) + expansion_rate.cwiseProduct(x - centre);
+  }
 
   /// Returns whether the shape is a key of the body, not made of its bars or its mesh.
   [[nodiscard]] bool has_own_shape() const {

@@ -45,6 +45,13 @@ eos::State InitialState::of(const Material& material) const {
   return initial_state(material, if_given(density), if_given(temperature), if_given(pressure));
 }
 
+ParameterTable<Failure> Failure::parameters() {
+  return {choice("cracks", &Failure::cracks,
+                 "failed material stays in the one velocity field of the body | the faces of a crack have a "
+                 "velocity field each: they part, and press on one another")
+              .optional()};
+}
+
 ParameterTable<FailureScatter> FailureScatter::parameters() {
   using S = FailureScatter;
   return {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 
@@ -19,6 +20,22 @@ struct InitialState {
   [[nodiscard]] bool given() const;
   /// @throws InputError if the material has no such state, or if too much is given
   [[nodiscard]] eos::State of(const Material& material) const;
+};
+
+/// How the failed material of a body parts.
+enum class CrackMotion : std::uint8_t {
+  none,    ///< it stays in the one velocity field of the body
+  fields,  ///< with a velocity field on either side of a crack (docs/theory/cracks.md)
+};
+constexpr std::array<Word<CrackMotion>, 2> words(CrackMotion) {
+  return {{{CrackMotion::none, "none"}, {CrackMotion::fields, "fields"}}};
+}
+
+/// `failure` of a body.
+struct Failure {
+  CrackMotion cracks = CrackMotion::none;
+  static ParameterTable<Failure> parameters();
+  [[nodiscard]] bool given() const { return cracks != CrackMotion::none; }
 };
 
 /// `failure_scatter` of a body: Weibull distribution of the failure thresholds of its particles

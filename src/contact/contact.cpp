@@ -7,12 +7,11 @@
 #include <span>
 
 #include "src/contact/pressing.hpp"
+#include "src/contact/sides.hpp"
 #include "src/core/parallel/threads.hpp"
 
 namespace whipple::contact {
 namespace {
-
-using grid::Node;
 
 /// Cells between surfaces that rest on one another, to round-off and what vibrations open.
 constexpr double resting_distance = 0.01;
@@ -84,7 +83,7 @@ void book_rest(const Pressing& pressing, std::span<Side> sides, std::span<const 
   }
 }
 
-/// Two fields, by their numbers, at a node where both have mass and a normal.
+/// Two sides, by their numbers, at a node where both have mass and a normal.
 struct Meeting {
   std::size_t a, b;
   Vector3 normal;
@@ -96,13 +95,14 @@ struct Meeting {
 /// Selects the fields that are stopped by impulses: those without relaxation, such as those of elements,
 /// those of fragmented material, and whatever touches them. Mixed, they would retain their velocity
 /// difference (docs/theory/contact.md, 5).
-/// @param least  relaxation of each side below which it is loose
-void choose(Response response, const std::vector<Side>& sides, const std::vector<double>& least,
+/// @param least  least(side): relaxation below which it is loose
+template <class Least>
+void choose(Response response, const std::vector<Side>& sides, Least&& least,
             const std::vector<Meeting>& meetings, std::vector<std::uint8_t>& by_impulses) {
   by_impulses.assign(sides.size(), response == Response::impulses ? 1 : 0);
   if (response == Response::impulses) return;
   for (std::size_t s = 0; s < sides.size(); ++s) {
-    by_impulses[s] = sides[s].mass >= no_mass && sides[s].relaxation() <= least[s] ? 1 : 0;
+    by_impulses[s] = sides[s].mass >= no_mass && sides[s].relaxation() <= least(s) ? 1 : 0;
   }
   for (bool grown = true; grown;) {
     grown = false;
@@ -128,70 +128,85 @@ double Contact::friction_between(unsigned first, unsigned second) const {
 
 bool Contact::touch(const grid::BlockGrid& grid, std::size_t contact_slot, std::size_t node,
                     std::size_t first, std::size_t second) const {
-  const auto fields =
-      static_cast<std::size_t>(std::popcount(grid.fields(grid.contact_slots()[contact_slot])));
-  const Surfaces::Gap gap = surfaces_.at(contact_slot, pair_index(first, second, fields), node);
+  const std::uint32_t slot = grid.contact_slots()[contact_slot];
+  const std::uint64_t bodies = grid.wholes(slot);
+  const auto body_of = [&](std::size_t number) {  // counted among those of the slot
+    std::uint64_t fields = grid.fields(slot);
+    for (; number > 0; --number) fields &= fields - 1;
+    const unsigned body = grid.whole(static_cast<unsigned>(std::countr_zero(fields)));
+    return static_cast<std::size_t>(std::popcount(bodies & ((std::uint64_t{1} << body) - 1)));
+  };
+  const std::size_t a = body_of(first), b = body_of(second);
+  if (a == b) return true;
+  const std::size_t pair =
+      pair_index(std::min(a, b), std::max(a, b), static_cast<std::size_t>(std::popcount(bodies)));
+  const Surfaces::Gap gap = surfaces_.at(contact_slot, pair, node);
   return !gap.normal.isZero(0.0) && distance(grid, gap) <= resting_distance * grid.geometry().cell_size;
 }
 
-Balance Contact::apply(grid::BlockGrid& grid, double dt, transfer::FirstTouches& touches) const {
+Balance Contact::apply(grid::BlockGrid& grid, double dt, transfer::FirstTouches& touches,
+                       const Cracks* cracks) const {
   std::vector<Balance> of_slot(grid.owned_contact_slots());
   parallel::for_each(grid.owned_contact_slots(), [&](std::size_t c) {
-    const std::uint32_t slot = grid.contact_slots()[c];
-    const auto fields = static_cast<std::size_t>(std::popcount(grid.fields(slot)));
-    std::vector<Side> sides(fields);
-    std::vector<double> least;     // relaxation of each side
-    std::vector<unsigned> number;  // of its field
-    grid::for_each_bit(grid.fields(slot), [&](unsigned field) {
-      number.push_back(field);
-      const bool known = field < settings_.least_relaxation_rate.size();
-      least.push_back(known ? -std::expm1(-settings_.least_relaxation_rate[field] * dt) : 0.0);
-    });
+    Sides at_node(grid, grid.contact_slots()[c], cracks);
+    std::vector<Side>& sides = at_node.all();
+    const auto field = [&](std::size_t side) { return at_node.field(at_node.body(side)); };
+    std::vector<double> least;  // relaxation of each body
+    for (std::size_t body = 0; body < at_node.bodies(); ++body) {
+      const std::size_t of_body = at_node.field(body);
+      const bool known = of_body < settings_.least_relaxation_rate.size();
+      least.push_back(known ? -std::expm1(-settings_.least_relaxation_rate[of_body] * dt) : 0.0);
+    }
     std::vector<Meeting> meetings;
     std::vector<std::uint8_t> by_impulses;  // of each side
     std::vector<Stop> stops;
     Pressing pressing(settings_.friction);
-    for (int i = 0; i < grid::nodes_per_block; ++i) {
-      std::size_t next = 0;
-      grid::for_each_bit(grid.fields(slot), [&](unsigned field) {
-        Node* node = grid.nodes(slot, field) + i;
-        sides[next++] = {node, node->motion.mass_for_contact(), 0.0};
-        node->motion.set_heat(0.0);
-      });
+    for (std::size_t i = 0; i < grid::nodes_per_block; ++i) {
+      at_node.go_to(i);
       meetings.clear();
-      for (std::size_t a = 0; a < fields; ++a) {
-        for (std::size_t b = a + 1; b < fields; ++b) {
+      bool among_bodies = false;
+      for (std::size_t a = 0; a < sides.size(); ++a) {
+        for (std::size_t b = a + 1; b < sides.size(); ++b) {
           if (sides[a].mass < no_mass || sides[b].mass < no_mass) continue;
-          const Surfaces::Gap gap = surfaces_.at(c, pair_index(a, b, fields), static_cast<std::size_t>(i));
+          const std::size_t of_a = at_node.body(a), of_b = at_node.body(b);
+          if (of_a == of_b) {  // faces of a crack, which touch without friction (K6)
+            meetings.push_back({a, b, at_node.axis(a), 0.0, 1.0, 0.0});
+            continue;
+          }
+          const Surfaces::Gap gap = surfaces_.at(c, pair_index(of_a, of_b, at_node.bodies()), i);
           if (gap.normal.isZero(0.0)) continue;
+          among_bodies = true;
           const double open = distance(grid, gap);
-          touches.see(number[a], number[b], open, gap.normal.dot(sides[a].after() - sides[b].after()));
+          touches.see(field(a), field(b), open, gap.normal.dot(sides[a].after() - sides[b].after()));
           meetings.push_back({a, b, gap.normal, open,
                               Pressing::share(sides[a], sides[b], gap.normal, open, dt),
-                              friction_between(number[a], number[b])});
+                              friction_between(field(a), field(b))});
         }
       }
-      if (meetings.empty()) continue;
-      choose(settings_.response, sides, least, meetings, by_impulses);
-      stops.clear();
-      pressing.begin(sides);
-      for (const Meeting& m : meetings) {
-        if (by_impulses[m.a] != 0 || by_impulses[m.b] != 0) {
-          stops.emplace_back(sides[m.a], sides[m.b], m.normal, m.open / dt, m.friction);
-        } else if (m.share > 0.0) {
-          pressing.add(m.a, m.b, m.normal, m.share, m.friction);
+      if (!meetings.empty()) {
+        // Faces of a crack alone keep no velocity difference that matters: they were one body.
+        const auto least_of = [&](std::size_t side) {
+          return among_bodies ? least[at_node.body(side)] : 0.0;
+        };
+        choose(settings_.response, sides, least_of, meetings, by_impulses);
+        stops.clear();
+        pressing.begin(sides);
+        for (const Meeting& m : meetings) {
+          if (by_impulses[m.a] != 0 || by_impulses[m.b] != 0) {
+            stops.emplace_back(sides[m.a], sides[m.b], m.normal, m.open / dt, m.friction);
+          } else if (m.share > 0.0) {
+            pressing.add(m.a, m.b, m.normal, m.share, m.friction);
+          }
         }
+        pressing.apply(of_slot[c]);
+        const int repeat = stops.size() > 1 ? sweeps : 1;
+        for (int sweep = 0; sweep < repeat; ++sweep) {
+          for (Stop& stop : stops) stop.relax();
+        }
+        for (const Stop& stop : stops) stop.heat(of_slot[c]);
+        if (pressing.presses() && !stops.empty()) book_rest(pressing, sides, stops, of_slot[c]);
       }
-      pressing.apply(of_slot[c]);
-      const int repeat = stops.size() > 1 ? sweeps : 1;
-      for (int sweep = 0; sweep < repeat; ++sweep) {
-        for (Stop& stop : stops) stop.relax();
-      }
-      for (const Stop& stop : stops) stop.heat(of_slot[c]);
-      if (pressing.presses() && !stops.empty()) book_rest(pressing, sides, stops, of_slot[c]);
-      for (Side& side : sides) {
-        if (side.heat != 0.0) side.node->motion.set_heat(side.heat / side.mass);
-      }
+      at_node.spread();
     }
   });
   Balance total;

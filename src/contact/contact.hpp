@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "src/contact/cracks.hpp"
 #include "src/contact/node_fields.hpp"
 #include "src/contact/surfaces.hpp"
 #include "src/grid/block_grid.hpp"
@@ -53,7 +54,9 @@ class Contact {
   /// Lets the bodies act on one another at the nodes of the contact slots of this rank, by their velocities,
   /// increments and relaxations, and leaves the heat that it makes there: what `GridUpdate::advance` calls.
   /// @param touches  takes note of the fields that touch
-  Balance apply(grid::BlockGrid& grid, double dt, transfer::FirstTouches& touches) const;
+  /// @param cracks   of bodies whose fields divide at them; null: of none
+  Balance apply(grid::BlockGrid& grid, double dt, transfer::FirstTouches& touches,
+                const Cracks* cracks = nullptr) const;
 
  private:
   [[nodiscard]] double friction_between(unsigned first, unsigned second) const;

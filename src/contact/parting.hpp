@@ -13,9 +13,9 @@ namespace whipple::contact {
 /// folded later.
 bool near_planes(const grid::BlockGrid& grid, std::uint32_t slot);
 
-/// Returns whether two fields, the only ones at a node, separate along all candidate normals without being
+/// Returns whether two bodies, the only ones at a node and whole, separate along all candidate normals without being
 /// compressed by the forces; then there is no impulse, whatever the gap (docs/theory/contact.md, 4).
-/// @param a, b  numbers of the fields among those of the slot
+/// @param a, b  numbers of the bodies among those of the slot
 bool parts(const grid::BlockGrid& grid, std::uint32_t slot, std::size_t node, std::size_t a, std::size_t b,
            std::span<const Vector3> normals, double dt);
 

@@ -25,29 +25,43 @@ namespace whipple::contact {
 using NodesThatMatter = std::vector<std::uint64_t>;
 static_assert(grid::nodes_per_block == 64);
 
-/// The nodes that matter to the points of one field in a block. What lies beyond a mirror plane is seen from
+/// A slot as the points of a body around it see it.
+struct SeenSlot {
+  std::uint64_t nodes = 0;            ///< bit per node that matters
+  std::uint32_t contact_slot = 0;     ///< its number there
+  std::uint8_t bodies = 1, body = 0;  ///< as in Place
+};
+
+/// Returns a contact slot as the points of a body see it.
+inline SeenSlot seen_at_contact(const grid::BlockGrid& grid, std::size_t slot, unsigned body,
+                                const NodesThatMatter& matter) {
+  const std::int32_t number = grid.contact_number(slot);
+  if (number == grid::BlockGrid::no_slot) return {};
+  const std::uint64_t bodies = grid.wholes(slot);
+  if ((bodies >> body & 1U) == 0) return {};
+  return {.nodes = matter[static_cast<std::size_t>(number)],
+          .contact_slot = static_cast<std::uint32_t>(number),
+          .bodies = static_cast<std::uint8_t>(std::popcount(bodies)),
+          .body = static_cast<std::uint8_t>(std::popcount(bodies & ((std::uint64_t{1} << body) - 1)))};
+}
+
+/// The nodes that matter to the points of one body in a block. What lies beyond a mirror plane is seen from
 /// the image of the point at the image of the node.
 class Reach {
  public:
   /// @param block       where the points are
   /// @param neighbours  slots of the 27 blocks around it, as far as they count
+  /// @param body        its field, whole
+  /// @param see         see(slot): a SeenSlot
+  template <class See>
   Reach(const grid::BlockGrid& grid, const grid::BlockCoordinate& block,
-        const std::array<std::int32_t, 27>& neighbours, unsigned field, const NodesThatMatter& matter)
-      : axes_{folded(grid, 0, block[0], field), folded(grid, 1, block[1], field),
-              folded(grid, 2, block[2], field)} {
+        const std::array<std::int32_t, 27>& neighbours, unsigned body, See&& see)
+      : axes_{folded(grid, 0, block[0], body), folded(grid, 1, block[1], body),
+              folded(grid, 2, block[2], body)} {
     for (std::size_t n = 0; n < neighbours.size(); ++n) {
       if (neighbours[n] == grid::BlockGrid::no_slot) continue;
-      const auto slot = static_cast<std::size_t>(neighbours[n]);
-      const std::int32_t number = grid.contact_number(slot);
-      if (number == grid::BlockGrid::no_slot) continue;
-      const std::uint64_t fields = grid.fields(slot);
-      if ((fields >> field & 1U) == 0) continue;
-      nodes_[n] = matter[static_cast<std::size_t>(number)];
-      any_ = any_ || nodes_[n] != 0;
-      slots_[n] = {
-          .contact_slot = static_cast<std::uint32_t>(number),
-          .fields = static_cast<std::uint8_t>(std::popcount(fields)),
-          .field = static_cast<std::uint8_t>(std::popcount(fields & ((std::uint64_t{1} << field) - 1)))};
+      slots_[n] = see(static_cast<std::size_t>(neighbours[n]));
+      any_ = any_ || slots_[n].nodes != 0;
     }
   }
 
@@ -88,8 +102,8 @@ class Reach {
                                  w.weight[i][0] * w.weight[j][1] * w.derivative[k][2]);
           const Vector3 distance(w.distance[i][0], w.distance[j][1], w.distance[k][2]);
           f(Place{.contact_slot = slots_[n].contact_slot,
-                  .fields = slots_[n].fields,
-                  .field = slots_[n].field,
+                  .bodies = slots_[n].bodies,
+                  .body = slots_[n].body,
                   .node = static_cast<std::size_t>(std::countr_zero(bit)),
                   .weight = weight,
                   .gradient = sign.cwiseProduct(gradient),
@@ -112,10 +126,6 @@ class Reach {
     int block = 0;            // 0 to 2
   };
   using FoldedAxis = std::array<Folded, places>;
-  struct Slot {
-    std::uint32_t contact_slot = 0;
-    std::uint8_t fields = 0, field = 0;  // as in Place
-  };
 
   /// Nodes of a block by their number along each axis: a bit each.
   using LayersOfNodes = std::array<std::array<std::uint64_t, grid::block_shape(true).edge>, 3>;
@@ -130,7 +140,7 @@ class Reach {
     return layers;
   }
 
-  static FoldedAxis folded(const grid::BlockGrid& grid, std::size_t axis, int block, unsigned field) {
+  static FoldedAxis folded(const grid::BlockGrid& grid, std::size_t axis, int block, unsigned body) {
     static constexpr std::array<LayersOfNodes, 2> layers_by_shape = {layers_of_nodes(false),
                                                                      layers_of_nodes(true)};
     const auto& layers = layers_by_shape[grid.geometry().is_planar() ? 1 : 0][axis];
@@ -138,7 +148,7 @@ class Reach {
                                     of_one = grid::reach_map(1);
     const int edge = grid.block_shape().along(axis), cells = grid.geometry().cells[axis];
     const grid::ReachMap& map = edge == 4 ? of_four : edge == 8 ? of_eight : of_one;
-    const bool lower = grid.is_bonded_at(2 * axis, field), upper = grid.is_bonded_at(2 * axis + 1, field);
+    const bool lower = grid.is_bonded_at(2 * axis, body), upper = grid.is_bonded_at(2 * axis + 1, body);
     FoldedAxis all;
     for (std::size_t n = 0; n < static_cast<std::size_t>(grid::reach_edge(edge)); ++n) {
       int place = block * edge + static_cast<int>(n) - 1;
@@ -177,7 +187,7 @@ class Reach {
         if (in_xy == 0) continue;
         for (int z = 0; z < 3; ++z) {
           const auto n = static_cast<std::size_t>(grid::neighbour_index(x, y, z));
-          reached[n] = in_xy & layers[2][static_cast<std::size_t>(z)] & nodes_[n];
+          reached[n] = in_xy & layers[2][static_cast<std::size_t>(z)] & slots_[n].nodes;
           some |= reached[n];
         }
       }
@@ -186,8 +196,7 @@ class Reach {
   }
 
   std::array<FoldedAxis, 3> axes_;
-  std::array<std::uint64_t, 27> nodes_{};  // that matter, of the blocks around
-  std::array<Slot, 27> slots_{};
+  std::array<SeenSlot, 27> slots_{};  // the blocks around
   bool any_ = false;
 };
 
@@ -207,7 +216,9 @@ void for_each_place(const Particles& particles, const grid::BlockGrid& grid, con
     grid.for_each_field(
         grid::BlockGrid::Points::particles, slot,
         [&](std::span<const std::uint32_t> members, unsigned field) {
-          const Reach reach(grid, grid.coordinate(slot), grid.neighbours(slot), field, matter);
+          const unsigned body = grid.whole(field);
+          const Reach reach(grid, grid.coordinate(slot), grid.neighbours(slot), body,
+                            [&](std::size_t near) { return seen_at_contact(grid, near, body, matter); });
           if (!reach.any()) return;
           for (const std::uint32_t p : members) {
             reach.for_each_place<Shape>(particles, p, grid.coordinate(slot), grid.geometry(), at_point);
@@ -225,7 +236,9 @@ void for_each_place(const PlacedPoints& placed, const grid::BlockGrid& grid, con
       parallel::for_each_uneven(colour.size(), [&](std::size_t c) {
         const PlacedPoints::Block& block = placed.blocks[colour[c]];
         for (const std::uint32_t p : block.points) {
-          const Reach reach(grid, block.coordinate, block.slots, placed.points->field[p], matter);
+          const unsigned body = placed.points->field[p];
+          const Reach reach(grid, block.coordinate, block.slots, body,
+                            [&](std::size_t near) { return seen_at_contact(grid, near, body, matter); });
           if (!reach.any()) continue;
           reach.for_each_place<Shape>(*placed.points, p, block.coordinate, grid.geometry(), at_point);
         }

@@ -23,20 +23,20 @@ constexpr double least_slope = 0.02;
 /// Cosine of the angle between two normals above which they are one.
 constexpr double one_direction = 1.0 - 1e-6;
 
-/// Lays out values of contact slots: `per_node(fields)` lanes for each node of a slot with that many fields.
+/// Lays out values of contact slots: `per_node(bodies)` lanes for each node of a slot with that many bodies.
 template <class PerNode>
 void lay_out(grid::ContactValues& values, const BlockGrid& grid, Lanes initial, PerNode&& per_node) {
   values.begin.assign(1, 0);
   for (const std::uint32_t slot : grid.contact_slots()) {
-    const auto fields = static_cast<std::size_t>(std::popcount(grid.fields(slot)));
+    const auto bodies = static_cast<std::size_t>(std::popcount(grid.wholes(slot)));
     values.begin.push_back(values.begin.back() +
-                           static_cast<std::uint32_t>(per_node(fields) * nodes_per_block));
+                           static_cast<std::uint32_t>(per_node(bodies) * nodes_per_block));
   }
   values.values.assign(values.begin.back(), initial);
 }
 
-std::size_t one_per_field(std::size_t fields) { return fields; }
-std::size_t one_per_pair(std::size_t fields) { return fields * (fields - 1) / 2; }
+std::size_t one_per_body(std::size_t bodies) { return bodies; }
+std::size_t one_per_pair(std::size_t bodies) { return bodies * (bodies - 1) / 2; }
 
 Lanes lanes(const Vector3& v, double last = 0.0) { return Lanes{v[0], v[1], v[2], last}; }
 Vector3 vector(Lanes v) { return {v[0], v[1], v[2]}; }
@@ -46,20 +46,20 @@ Vector3 unit_or_zero(const Vector3& v) {
   return norm > 0.0 ? Vector3(v / norm) : Vector3::Zero();
 }
 
-/// Calls f(contact slot, number of fields, node) for the nodes of the contact slots that this rank owns.
+/// Calls f(contact slot, number of bodies, node) for the nodes of the contact slots that this rank owns.
 template <class Function>
 void for_each_owned_node(const BlockGrid& grid, Function&& f) {
   parallel::for_each(grid.owned_contact_slots(), [&](std::size_t c) {
-    const auto fields = static_cast<std::size_t>(std::popcount(grid.fields(grid.contact_slots()[c])));
-    for (std::size_t node = 0; node < nodes_per_block; ++node) f(c, fields, node);
+    const auto bodies = static_cast<std::size_t>(std::popcount(grid.wholes(grid.contact_slots()[c])));
+    for (std::size_t node = 0; bodies > 1 && node < nodes_per_block; ++node) f(c, bodies, node);
   });
 }
 
-/// Calls f(a, b, pair) for all pairs of fields.
+/// Calls f(a, b, pair) for all pairs of bodies.
 template <class Function>
-void for_each_pair(std::size_t fields, Function&& f) {
-  for (std::size_t a = 0; a < fields; ++a) {
-    for (std::size_t b = a + 1; b < fields; ++b) f(a, b, pair_index(a, b, fields));
+void for_each_pair(std::size_t bodies, Function&& f) {
+  for (std::size_t a = 0; a < bodies; ++a) {
+    for (std::size_t b = a + 1; b < bodies; ++b) f(a, b, pair_index(a, b, bodies));
   }
 }
 
@@ -147,28 +147,35 @@ Vector4 step(const Lanes* e, const Vector4& plane) {
 
 }  // namespace regression
 
-/// Nodes that two fields or more reach, if the grid holds what all ranks bring to them; else all.
+/// Nodes that two bodies or more reach, if the grid holds what all ranks bring to them; else all where there are two.
 NodesThatMatter nodes_of_several(const BlockGrid& grid, bool after_transfer) {
   const auto slots = grid.contact_slots();
-  NodesThatMatter nodes(slots.size(), ~std::uint64_t{0});
-  if (!after_transfer || grid.is_shared()) return nodes;
+  NodesThatMatter nodes(slots.size(), 0);
   parallel::for_each(slots.size(), [&](std::size_t c) {
-    std::uint64_t one = 0, several = 0;
+    const std::uint64_t bodies = grid.wholes(slots[c]);
+    if (std::popcount(bodies) < 2) return;
+    if (!after_transfer || grid.is_shared()) {
+      nodes[c] = ~std::uint64_t{0};
+      return;
+    }
+    std::array<std::uint64_t, grid::maximum_fields> reached{};  // by each body
     grid::for_each_bit(grid.fields(slots[c]), [&](unsigned field) {
       const grid::Node* of_field = grid.nodes(slots[c], field);
-      std::uint64_t reached = 0;
       for (std::size_t i = 0; i < nodes_per_block; ++i) {
-        reached |= std::uint64_t{of_field[i].sums.mass() > 0.0} << i;
+        reached[grid.whole(field)] |= std::uint64_t{of_field[i].sums.mass() > 0.0} << i;
       }
-      several |= one & reached;
-      one |= reached;
+    });
+    std::uint64_t one = 0, several = 0;
+    grid::for_each_bit(bodies, [&](unsigned body) {
+      several |= one & reached[body];
+      one |= reached[body];
     });
     nodes[c] = several;
   });
   return nodes;
 }
 
-/// Nodes with a normal between two fields.
+/// Nodes with a normal between two bodies.
 NodesThatMatter nodes_with_normals(const BlockGrid& grid, const grid::ContactValues& normals) {
   const auto slots = grid.contact_slots();
   NodesThatMatter nodes(slots.size(), 0);
@@ -213,18 +220,18 @@ void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles&
   const PlacedPoints placed(elements, grid);
   const bool after_transfer = dt > 0.0;
   const NodesThatMatter several = nodes_of_several(grid, after_transfer);
-  lay_out(gradient_, grid, broadcast(0.0), one_per_field);
+  lay_out(gradient_, grid, broadcast(0.0), one_per_body);
   lay_out(normal_, grid, broadcast(0.0),
-          [](std::size_t fields) { return lanes_of_normals * one_per_pair(fields); });
+          [](std::size_t bodies) { return lanes_of_normals * one_per_pair(bodies); });
   lay_out(extent_, grid, broadcast(-std::numeric_limits<double>::infinity()),
-          [](std::size_t fields) { return lanes_of_extents * one_per_pair(fields); });
+          [](std::size_t bodies) { return lanes_of_extents * one_per_pair(bodies); });
   transfer::with_shape(shape, [&]<class Shape>(Shape) {
     if (kind == Normal::logistic_regression) {
       lay_out(plane_, grid, broadcast(0.0), one_per_pair);
       const double per_cell = 1.0 / grid.geometry().cell_size;
       for (int iteration = 0; iteration < regression::iterations; ++iteration) {
         lay_out(equations_, grid, broadcast(0.0),
-                [](std::size_t fields) { return regression::lanes_per_node * one_per_pair(fields); });
+                [](std::size_t bodies) { return regression::lanes_per_node * one_per_pair(bodies); });
         const auto add = [&](const Place& place) {
           // A node on a mirror plane has its normal in it: then only the place along the plane matters.
           const Vector3 cells = per_cell * place.distance.cwiseProduct(place.off_plane);
@@ -239,8 +246,8 @@ void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles&
         for_each_place<Shape>(particles, grid, several, at_point);
         for_each_place<Shape>(placed, grid, several, at_point);
         grid.sum_to_owners(equations_);
-        for_each_owned_node(grid, [&](std::size_t c, std::size_t fields, std::size_t node) {
-          for_each_pair(fields, [&](std::size_t, std::size_t, std::size_t pair) {
+        for_each_owned_node(grid, [&](std::size_t c, std::size_t bodies, std::size_t node) {
+          for_each_pair(bodies, [&](std::size_t, std::size_t, std::size_t pair) {
             const std::size_t i = pair * nodes_per_block + node;
             Lanes& plane = plane_.values[plane_.begin[c] + i];
             const regression::Vector4 change =
@@ -260,7 +267,7 @@ void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles&
         const double volume = particles.volume[p] + particles.void_volume[p];
         const double size = grid.geometry().size_in_section(volume, particles.position[p]);
         return [&, size](const Place& place) {
-          gradient_.values[place.in(gradient_, place.field)] +=
+          gradient_.values[place.in(gradient_, place.body)] +=
               lanes(size * place.gradient.cwiseProduct(place.off_plane), size * place.weight);
         };
       });
@@ -268,25 +275,25 @@ void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles&
       for_each_place<Shape>(placed, grid, several, [&](std::size_t p) {
         return [&, p](const Place& place) {  // (3.6)
           const Vector3 area = place.sign.cwiseProduct(elements.area[p]).cwiseProduct(place.off_plane);
-          gradient_.values[place.in(gradient_, place.field)] +=
+          gradient_.values[place.in(gradient_, place.body)] +=
               place.weight * lanes(area, elements.size[p] * cell_size);
         };
       });
       grid.sum_to_owners(gradient_);
       const bool knows_motion = after_transfer && !grid.is_shared();
-      for_each_owned_node(grid, [&](std::size_t c, std::size_t fields, std::size_t node) {
+      for_each_owned_node(grid, [&](std::size_t c, std::size_t bodies, std::size_t node) {
         const bool may_part = knows_motion && !near_planes(grid, grid.contact_slots()[c]);
-        const auto at_node = [&](std::size_t field) {
-          return gradient_.values[gradient_.begin[c] + field * nodes_per_block + node];
+        const auto at_node = [&](std::size_t body) {
+          return gradient_.values[gradient_.begin[c] + body * nodes_per_block + node];
         };
-        const auto reached = [&](std::size_t field) { return at_node(field)[3] > 0.0; };
-        const auto outward = [&](std::size_t field) {  // the volume of a node grows as particles come near
-          const Lanes of_field = at_node(field);
-          const Vector3 gradient = vector(of_field);
-          const bool inside = gradient.norm() * cell_size < least_slope * of_field[3];
+        const auto reached = [&](std::size_t body) { return at_node(body)[3] > 0.0; };
+        const auto outward = [&](std::size_t body) {  // the volume of a node grows as particles come near
+          const Lanes of_body = at_node(body);
+          const Vector3 gradient = vector(of_body);
+          const bool inside = gradient.norm() * cell_size < least_slope * of_body[3];
           return inside ? Vector3::Zero().eval() : unit_or_zero(gradient);
         };
-        for_each_pair(fields, [&](std::size_t a, std::size_t b, std::size_t pair) {
+        for_each_pair(bodies, [&](std::size_t a, std::size_t b, std::size_t pair) {
           if (!reached(a) || !reached(b)) return;
           const Vector3 of_a = outward(a), of_b = -outward(b);
           // On smooth faces all three are one.

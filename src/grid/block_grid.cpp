@@ -25,6 +25,7 @@ void BlockGrid::shift(const Vector3& cells) {
 void BlockGrid::separate_fields(Stencil stencil, const FieldPoints& particles, const FieldPoints& guests,
                                 unsigned fields, bool everywhere) {
   if (find_fields(stencil, particles, guests, fields, everywhere)) lay_out_nodes();
+  list_by_field();
 }
 
 void BlockGrid::set_apart() {
@@ -177,6 +178,10 @@ void BlockGrid::maximum_to_owners(ContactValues& values) {
 
 void BlockGrid::borrow_from_owners(ContactValues& values) {
   exchange_values(values_of(*this, values), &BlockSet::Peer::lent, &BlockSet::Peer::borrowed, replace);
+}
+
+void BlockGrid::sum_to_owners(SlotValues& values) {
+  exchange_values(values_of(*this, values), &BlockSet::Peer::borrowed, &BlockSet::Peer::lent, add);
 }
 
 void BlockGrid::maximum_to_owners(SlotValues& values) {

@@ -107,6 +107,7 @@ class BlockGrid : public NodeStore {
   void progress();
   /// Exchanges values at contact slots in the same way. Collective.
   void sum_to_owners(ContactValues& values);
+  void sum_to_owners(SlotValues& values);
   void borrow_from_owners(ContactValues& values);
   /// Replaces the owners' values by the largest of all ranks. Collective.
   void maximum_to_owners(ContactValues& values);

@@ -34,6 +34,8 @@ static_assert(block_shape(true).node(7, 7, 0) == 63 && block_shape(false).node(3
 
 /// Velocity fields that bodies may have of their own (docs/theory/contact.md).
 constexpr unsigned maximum_fields = 64;
+/// Sectors of directions into which the field of a body divides beside a crack (docs/theory/cracks.md): a field each.
+constexpr unsigned crack_sectors(bool planar) { return planar ? 8 : 14; }
 
 /// Position of a block in units of blocks; block (0,0,0) begins at the lower corner of the domain, one layer
 /// of blocks lies outside of every face (kernels are wider than a cell, mirror planes need nodes beyond

@@ -104,6 +104,10 @@ class PointBins : public Topology {
   bool look_up(std::span<const Vector3> position);
   /// The next `bin` goes through all particles.
   void forget_runs();
+  /// Particles of a block, to be put in another order until the next `bin`.
+  [[nodiscard]] std::span<std::uint32_t> listed_in(std::size_t slot) {
+    return std::span(particles_.points).subspan(particles_.begin[slot], particles_in(slot).size());
+  }
 
  private:
   bool locate(std::span<const Vector3> position, Stencil stencil);

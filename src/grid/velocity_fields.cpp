@@ -71,6 +71,15 @@ bool VelocityFields::find_fields(Stencil stencil, const FieldPoints& particles, 
   return true;
 }
 
+void VelocityFields::list_by_field() {
+  if (contact_slots_.empty() || !is_divided_) return;
+  const auto field_of = [&](std::uint32_t p) { return field_[p]; };
+  parallel::for_each_uneven(slots(), [&](std::size_t s) {
+    if (!meets_contact(s) || std::ranges::is_sorted(particles_in(s), {}, field_of)) return;
+    std::ranges::stable_sort(listed_in(s), {}, field_of);
+  });
+}
+
 void VelocityFields::number_blocks() {
   contact_slots_.clear();
   contact_number_.assign(slots(), no_slot);

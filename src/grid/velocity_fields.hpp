@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -12,7 +14,8 @@ namespace whipple::grid {
 
 /// Velocity fields that particles and off-grid points belong to. A slot that points of more than one field reach is a contact
 /// slot and has nodes for each of them; elsewhere all fields share the one set (local multi-mesh: docs/theory/contact.md,
-/// 2). Blocks of nodes are numbered by slot, then come the further ones of the contact slots.
+/// 2). Blocks of nodes are numbered by slot, then come the further ones of the contact slots. The field of a body may be
+/// divided at cracks (docs/theory/cracks.md): then it is the whole of the fields that it is divided into.
 class VelocityFields : public PointBins {
  public:
   /// Points of the grid with the velocity field (below `maximum_fields`) of each.
@@ -20,6 +23,21 @@ class VelocityFields : public PointBins {
     std::span<const Vector3> position;
     std::span<const std::uint8_t> field;
   };
+  /// Makes fields the parts of others.
+  /// @param of_field  the whole of each field: itself, unless it is a part of one
+  void set_wholes(const std::array<std::uint8_t, maximum_fields>& of_field) {
+    is_divided_ = of_field != whole_;
+    whole_ = of_field;
+  }
+  /// Returns the field that a field is a part of; itself if of none.
+  [[nodiscard]] unsigned whole(unsigned field) const { return whole_[field]; }
+  /// Bit per whole field that reaches a slot, by any of its parts.
+  [[nodiscard]] std::uint64_t wholes(std::size_t slot) const {
+    std::uint64_t all = 0;
+    for_each_bit(fields_[slot], [&](unsigned field) { all |= std::uint64_t{1} << whole_[field]; });
+    return all;
+  }
+
   /// Calls f(points of one field, field) for the points of a slot, in the order of their indices; once for
   /// all of them where they reach no contact slot, and not at all where there are none.
   template <class Function>
@@ -75,6 +93,8 @@ class VelocityFields : public PointBins {
                    bool everywhere);
   /// From now on all points share one field.
   void forget_fields() { fields_.clear(); }
+  /// Lists the particles of every slot field by field, if fields are divided, until the next `bin`.
+  void list_by_field();
   /// Numbers the blocks of nodes.
   void number_blocks();
   [[nodiscard]] std::size_t block_count() const { return slots() + slot_of_further_.size(); }
@@ -99,7 +119,13 @@ class VelocityFields : public PointBins {
   }
 
  private:
-  std::vector<std::uint8_t> field_;  // of each particle
+  std::array<std::uint8_t, maximum_fields> whole_ = [] {
+    std::array<std::uint8_t, maximum_fields> each{};
+    std::iota(each.begin(), each.end(), std::uint8_t{0});
+    return each;
+  }();
+  bool is_divided_ = false;
+  std::vector<std::uint8_t> field_;               // of each particle
   std::vector<std::uint8_t> field_of_guest_;
   std::vector<std::uint64_t> fields_;        // of each slot: bit per field that reaches it
   std::vector<std::uint8_t> meets_contact_;  // of each slot: is one of its neighbours a contact slot?

@@ -75,6 +75,7 @@ struct Chunk {
   Lanes least_pressure;    // of brittle material only: the tension at which its gaps open
   Lanes threshold_factor;  // scatter of the failure threshold
   Lanes whole_volume;      // of material and void, before voids grow
+  Lanes band;              // m, width to which strain localises
   std::array<std::uint8_t, chunk_size> old_failed;
   Lanes kept;  // fraction of the deviator, where the chunk loses some
   bool loses = false;

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "src/case/build/contact_fields.hpp"
 #include "src/case/build/placement.hpp"
 #include "src/case/build/seeding.hpp"
 #include "src/io/run_directory.hpp"
@@ -322,6 +323,57 @@ TEST(FailureScatter, FollowsTheWeibullDistributionOfMeanOneAndItsEffectOfSize) {
   EXPECT_NEAR(sized.factor(7, 64e-9), 0.5 * scatter.factor(7, 1e-9), 1e-12);  // 64^(-1/6)
   scatter.seed = 4;
   EXPECT_NE(scatter.factor(7, 1e-9), sized.factor(7, 1e-9));
+}
+
+TEST(Bodies, ExpandAboutTheirCentre) {
+  const Case setup = read_case_text(
+      domain + sphere + "expansion_rate = [\"1e4 1/s\", \"0 1/s\", \"-2e4 1/s\"]\n", "case.toml");
+  const Particles particles = seed(setup).particles;
+  const Shape::Bounds bounds = setup.bodies[0].shape->bounds();
+  const Vector3 centre = 0.5 * (bounds.lower + bounds.upper), rate(1e4, 0.0, -2e4);
+  ASSERT_GT(particles.size(), 0U);
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const Vector3 expected = setup.bodies[0].velocity + rate.cwiseProduct(particles.position[p] - centre);
+    EXPECT_LT((particles.velocity[p] - expected).norm(), 1e-9);
+    EXPECT_LT((particles.affine_velocity[p] - Matrix3(rate.asDiagonal())).norm(), 1e-9);
+  }
+}
+
+TEST(Bodies, HaveVelocityFieldsForCracksAsLongAsThereAreSome) {
+  const std::string cracks = "failure = { cracks = \"fields\" }\n";
+  Case setup = read_case_text(domain + sphere + cracks, "case.toml");
+  EXPECT_EQ(setup.contact_fields.cracked, std::vector<std::uint8_t>{0});
+  EXPECT_TRUE(setup.contact_fields.warnings.empty());
+  setup.bodies.resize(5, setup.bodies[0]);  // 5 and 14 of each: four have room
+  ContactFields found{.of_body = {0, 1, 2, 3, 4}, .cracked = {}, .remarks = {}, .warnings = {}};
+  EXPECT_EQ(cracked_fields(setup, found), (std::vector<std::uint8_t>{0, 1, 2, 3}));
+  ASSERT_EQ(found.warnings.size(), 1U);
+  EXPECT_NE(found.warnings[0].find("do not part"), std::string::npos);
+  const std::string end = "end = \"4 us\"";
+  expect_error(replaced(domain, end, end + "\nscheme = \"musl\"") + sphere + cracks,
+               {"cracks", "symplectic"});
+}
+
+TEST(FailureScatter, KnowsTheVolumeOfParticlesInTwoDimensions) {
+  for (const std::string dimension : {"plane_strain", "axisymmetric"}) {
+    const Case setup = read_case_text(
+        "[domain]\ndimension = \"" + dimension +
+            "\"\nlower = [\"0 mm\", \"0 mm\"]\nupper = [\"8 mm\", \"8 mm\"]\ncell_size = \"1 mm\"\n"
+            "[time]\nend = \"1 us\"\n[[body]]\nname = \"block\"\nmaterial = \"copper.toml\"\n"
+            "shape = { box = { lower = [\"1 mm\", \"1 mm\", \"-5 mm\"], upper = [\"5 mm\", \"5 mm\", \"5 "
+            "mm\"] } }\n"
+            "failure_scatter = { weibull_modulus = 3, seed = 5, reference_volume = \"1 mm^3\" }\n",
+        "case.toml");
+    const Seeding seeding = seed(setup);
+    const Particles& particles = seeding.particles;
+    ASSERT_GT(particles.size(), 16U) << dimension;
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      const double volume = particles.volume[p];
+      EXPECT_NEAR(particles.failure_threshold_factor[p],
+                  setup.bodies[0].failure_scatter.factor(particles.id[p], volume), 1e-12)
+          << dimension;
+    }
+  }
 }
 
 TEST(FailureScatter, IsTheSameForAnyNumberOfRanksAndIsReadAndWritten) {

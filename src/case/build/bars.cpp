@@ -166,7 +166,7 @@ std::vector<fem::Bars> make_bars(const Case& setup, std::uint64_t first_node_id,
     std::ranges::fill(bars.nodes.affine_velocity, Matrix3::Zero());
     std::ranges::fill(bars.nodes.in_transition, std::uint8_t{1});
     for (std::size_t a = 0; a < bars.nodes.size(); ++a) {
-      bars.nodes.velocity[a] = body.velocity + body.angular_velocity.cross(bars.nodes.position[a] - center);
+      bars.nodes.velocity[a] = body.velocity_at(bars.nodes.position[a], center);
     }
   }
   return all;

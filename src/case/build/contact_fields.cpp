@@ -136,6 +136,26 @@ void warn_of_gaps(const Case& setup, ContactFields& found) {
 
 bool ContactFields::several() const { return count_of(of_body) > 1; }
 
+std::vector<std::uint8_t> cracked_fields(const Case& setup, ContactFields& found) {
+  const unsigned sectors = grid::crack_sectors(setup.geometry.is_planar());
+  std::vector<std::uint8_t> cracked;
+  unsigned count = count_of(found.of_body);
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    if (setup.bodies[b].failure.cracks != CrackMotion::fields) continue;
+    if (std::ranges::find(cracked, found.of_body[b]) != cracked.end()) continue;
+    if (count + sectors > grid::maximum_fields) {
+      found.warnings.push_back(fmt::format(
+          "body \"{}\": no velocity fields are left for its cracks, they do not part: each such body takes "
+          "{} of {}, and every body one",
+          setup.bodies[b].name, sectors, grid::maximum_fields));
+      continue;
+    }
+    cracked.push_back(found.of_body[b]);
+    count += sectors;
+  }
+  return cracked;
+}
+
 ContactFields find_contact_fields(const Case& setup) {
   ContactFields found;
   found.of_body.assign(setup.bodies.size(), 0);
@@ -163,6 +183,7 @@ ContactFields find_contact_fields(const Case& setup) {
         "the full mass matrix (transfer.particle_update = \"fmpm\") has no contact: all bodies move in one "
         "velocity field, bonded where they meet");
   }
+  found.cracked = cracked_fields(setup, found);
   warn_of_gaps(setup, found);
   return found;
 }

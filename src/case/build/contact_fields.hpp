@@ -13,6 +13,7 @@ struct Case;
 /// Which bodies share a velocity field, and why.
 struct ContactFields {
   std::vector<std::uint8_t> of_body;  ///< numbers from 0
+  std::vector<std::uint8_t> cracked;  ///< those that divide at cracks
   std::vector<std::string> remarks;   ///< what `auto` decided
   std::vector<std::string> warnings;  ///< bodies that meet, but have no fields of their own
   /// Returns whether there is more than one.
@@ -27,6 +28,10 @@ std::vector<std::uint8_t> fields_of_groups(const std::vector<Body>& bodies);
 
 /// Returns the number of different fields.
 unsigned count_of(const std::vector<std::uint8_t>& fields);
+
+/// Returns the fields of bodies whose cracks part, as many as there are velocity fields for; `found` has the fields of
+/// the bodies, and is told of those that there are none for.
+std::vector<std::uint8_t> cracked_fields(const Case& setup, ContactFields& found);
 
 /// Lets the particles of curved bodies have the part of their volume that is inside the body, unless the case
 /// file says otherwise: mass and surfaces follow from them.

@@ -175,7 +175,7 @@ std::vector<fem::Mesh> make_meshes(const Case& setup, std::uint64_t first_partic
     const Shape::Bounds bounds = body.shape->bounds();
     const Vector3 center = 0.5 * (bounds.lower + bounds.upper);
     for (std::size_t a = 0; a < mesh.nodes.size(); ++a) {
-      mesh.nodes.velocity[a] = body.velocity + body.angular_velocity.cross(mesh.nodes.position[a] - center);
+      mesh.nodes.velocity[a] = body.velocity_at(mesh.nodes.position[a], center);
     }
     hold_at_planes(setup, mesh, wall_impulse);
     for (const NodeCondition& condition : body.node_conditions) apply(condition, body.name, mesh);

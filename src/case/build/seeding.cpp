@@ -86,16 +86,19 @@ Seeding seed(const Case& setup, int rank, int ranks) {
     const double density = body_density(material, state);
     const bool planar = setup.geometry.is_planar();
     const double area = lattice.spacing[0] * lattice.spacing[1];
-    const double mass = density * lattice.spacing.prod();  // of a whole site in three dimensions
+    const double volume = lattice.spacing.prod();  // of a whole site in three dimensions
+    const double mass = density * volume;
     const Shape::Bounds bounds = bounds_of(setup, body);
     const Vector3 center = 0.5 * (bounds.lower + bounds.upper);
-    const Vector3& w = body.angular_velocity;
-    Matrix3 spin;
-    spin << 0, -w[2], w[1], w[2], 0, -w[0], -w[1], w[0], 0;
+    const Vector3 &w = body.angular_velocity, &e = body.expansion_rate;
+    Matrix3 gradient;  // of the velocity
+    gradient << e[0], -w[2], w[1], w[2], e[1], -w[0], -w[1], w[0], e[2];
+    std::vector<double> threshold_factor;
     std::size_t index = 0;
     for_each_site(setup, body, lattice, [&](const Site& site) {
       // The volume of a ring is its area times the way of its section's centroid (Pappus).
-      const double mass_of_site = planar ? density * area * setup.geometry.depth(site.position) : mass;
+      const double depth = setup.geometry.depth(site.position);
+      const double mass_of_site = planar ? density * area * depth : mass;
       if (planar) summary.mass += mass_of_site * site.fraction;
       if (!allotment.takes(site)) return;
       const std::size_t number = index++;
@@ -106,16 +109,20 @@ Seeding seed(const Case& setup, int rank, int ranks) {
       particles.mass[p] = mass_of_site * allotment.fraction(site);
       const Vector3 place = place_of_particle(setup, body, lattice, site);
       particles.position[p] = setup.geometry.is_axisymmetric() ? centre_of_mass(site) : place;
-      particles.velocity[p] = body.velocity + spin * (place - center);
-      particles.affine_velocity[p] = spin;
+      particles.velocity[p] = body.velocity + gradient * (place - center);
+      particles.affine_velocity[p] = gradient;
       particles.extent[p] = site.extent;
       particles.generation[p] = 0;
+      if (body.failure_scatter.given()) {
+        threshold_factor.push_back(
+            body.failure_scatter.factor(particles.id[p], planar ? area * depth : volume));
+      }
     });
     initialise(material, particles, summary.first, end, state);
-    if (body.failure_scatter.given()) particles.failure_threshold_factor.resize(end, 1.0);
-    for (std::size_t p = summary.first; body.failure_scatter.given() && p < end; ++p) {
-      particles.failure_threshold_factor[p] =
-          body.failure_scatter.factor(particles.id[p], lattice.spacing.prod());
+    if (body.failure_scatter.given()) {
+      particles.failure_threshold_factor.resize(summary.first, 1.0);
+      particles.failure_threshold_factor.insert(particles.failure_threshold_factor.end(),
+                                                threshold_factor.begin(), threshold_factor.end());
     }
     if (!planar) summary.mass = mass * allotment.volume;
     first_id += allotment.particles;

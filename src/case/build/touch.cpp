@@ -18,7 +18,7 @@ constexpr double same_velocity = 1e-9;  // relative to the speeds
 
 Vector3 velocity_at(const Body& body, const Vector3& x) {
   const Shape::Bounds box = body.shape->bounds();
-  return body.velocity + body.angular_velocity.cross(x - 0.5 * (box.lower + box.upper));
+  return body.velocity_at(x, 0.5 * (box.lower + box.upper));
 }
 
 bool move_alike(const Body& a, const Body& b, const Vector3& x) {
@@ -89,8 +89,10 @@ class BoxTable {
 }  // namespace
 
 bool touch_and_move_alike(const Case& setup, const Body& a, const Body& b) {
-  const bool turn = !a.angular_velocity.isZero(0.0) || !b.angular_velocity.isZero(0.0);
-  if (!turn && !move_alike(a, b, Vector3::Zero())) return false;
+  const auto varies = [](const Body& body) {
+    return !body.angular_velocity.isZero(0.0) || !body.expansion_rate.isZero(0.0);
+  };
+  if (!varies(a) && !varies(b) && !move_alike(a, b, Vector3::Zero())) return false;
   const double cell = setup.geometry.cell_size, distance = near * cell;
   // The boxes of particles may reach beyond the shape, by half a cell at most.
   const Shape::Bounds of_a = grown(a.shape->bounds(), 0.5 * cell),

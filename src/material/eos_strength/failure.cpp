@@ -24,6 +24,7 @@ void mark(const EosStrength& model, const Step& step, Chunk& chunk,
                                 .bulk_modulus = chunk.view(chunk.bulk_modulus),
                                 .shear_modulus = chunk.view(chunk.solid_modulus),
                                 .volume = chunk.view(chunk.whole_volume),
+                                .band = chunk.view(chunk.band),
                                 .plastic_strain = chunk.view(chunk.plastic_strain),
                                 .plastic_increment = chunk.view(chunk.increment),
                                 .melted_fraction = chunk.view(chunk.melted),
@@ -50,6 +51,7 @@ void prepare_failure(const EosStrength&, const Step& in, Chunk& out) {
   out.old_failed = out.failed;
   for (std::size_t k = 0; k < out.size; ++k) {
     out.whole_volume[k] = out.volume[k] + out.void_volume[k];
+    out.band[k] = in.settings.lengths.empty() ? in.settings.cell_size : in.settings.lengths[out.index[k]];
     out.bulk_modulus[k] = out.density[k] * out.bulk_sound_speed[k] * out.bulk_sound_speed[k];
   }
 }

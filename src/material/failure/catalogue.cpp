@@ -13,6 +13,7 @@
 #include "src/material/failure/plastic_strain.hpp"
 #include "src/material/failure/principal_strain.hpp"
 #include "src/material/failure/principal_stress.hpp"
+#include "src/material/failure/tearing.hpp"
 #include "src/material/failure/tensile_pressure.hpp"
 #include "src/material/failure/tuler_butcher.hpp"
 #include "src/material/failure/viscous_void_growth.hpp"
@@ -39,6 +40,7 @@ const Catalogue<CriterionEntry>& catalogue() {
                                                                       entry<TulerButcher>(),
                                                                       entry<ViscousVoidGrowth>(),
                                                                       entry<PlasticStrain>(),
+                                                                      entry<Tearing>(),
                                                                       entry<PrincipalStress>(),
                                                                       entry<PrincipalStrain>(),
                                                                       entry<JohnsonCookDamage>(),

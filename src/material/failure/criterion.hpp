@@ -49,6 +49,7 @@ struct State {
   std::span<const double> bulk_modulus;       ///< Pa, rho c^2
   std::span<const double> shear_modulus;      ///< Pa, of the solid
   std::span<const double> volume;             ///< m^3, of material and void
+  std::span<const double> band;               ///< m, width to which strain localises: a cell, an element
   std::span<const double> plastic_strain;     ///< equivalent plastic strain
   std::span<const double> plastic_increment;  ///< its increment in this step
   std::span<const double> melted_fraction;    ///< mass fraction of liquid and vapour

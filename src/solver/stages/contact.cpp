@@ -13,7 +13,13 @@ namespace whipple::solver {
 ContactStage::ContactStage(State& state, Hexahedra& hexahedra, transfer::GridUpdate& grid_update)
     : state_(state), hexahedra_(hexahedra), with_images_(grid_update.mirror_contact()) {
   const cases::ContactControl& control = state_.setup.contact;
-  if (state_.setup.contact_fields.several()) {
+  const cases::ContactFields& fields = state_.setup.contact_fields;
+  if (!fields.cracked.empty()) {
+    cracks_.emplace(contact::SectorFields(cases::count_of(fields.of_body), fields.cracked,
+                                          state_.setup.geometry.is_planar()));
+    state_.grid.set_wholes(cracks_->fields().wholes());
+  }
+  if (fields.several() || cracks_) {
     // Other schemes strain bodies by velocities before contact, or after it of each body alone.
     const bool common = control.method == cases::ContactMethod::automatic &&
                         state_.setup.time.scheme == cases::Scheme::symplectic;
@@ -25,7 +31,7 @@ ContactStage::ContactStage(State& state, Hexahedra& hexahedra, transfer::GridUpd
                           .gap_test = control.gap_test,
                           .gap = control.gap,
                           .least_relaxation_rate = least_relaxation_rates()});
-    field_of_body_ = state_.setup.contact_fields.of_body;
+    field_of_body_ = fields.of_body;
   }
   set_up_walls();
 }
@@ -67,16 +73,20 @@ void ContactStage::separate_fields() {
   for (std::size_t p = 0; p < state_.particles.size(); ++p) {
     field_[p] = field_of_body_[state_.particles.body[p]];
   }
+  if (cracks_) {
+    state_.profile.time("cracks",
+                        [&] { cracks_->find(state_.shape, state_.particles, state_.grid, field_); });
+  }
   field_of_node_.clear();
   for (const std::uint32_t body : state_.transition_body) field_of_node_.push_back(field_of_body_[body]);
   state_.grid.separate_fields(transfer::stencil(state_.shape), {state_.particles.position, field_},
                               {state_.transition.position, field_of_node_},
-                              *std::ranges::max_element(field_of_body_) + 1U,
+                              cracks_ ? cracks_->fields().count() : cases::count_of(field_of_body_),
                               state_.setup.contact.everywhere);
 }
 
 void ContactStage::find_surfaces(bool after_transfer) {
-  if (!contact_ || std::exchange(surfaces_found_, true)) return;
+  if (!has_fields() || std::exchange(surfaces_found_, true)) return;
   state_.profile.time("contact", [&] {
     surface_points_.clear();
     const std::vector<std::vector<fem::Facet>>& facets = hexahedra_.free_facets();
@@ -103,7 +113,8 @@ transfer::TouchAtNode ContactStage::touch_at_node() const {
 
 void ContactStage::apply() {
   if (!contact_) return;
-  const contact::Balance balance = contact_->apply(state_.grid, state_.run.time_step, *first_touches_);
+  const contact::Balance balance =
+      contact_->apply(state_.grid, state_.run.time_step, *first_touches_, cracks_ ? &*cracks_ : nullptr);
   state_.booked.contact_heat += balance.contact_heat;
   state_.booked.friction_heat += balance.friction_heat;
   state_.booked.contact_impulse += balance.impulse;

@@ -25,7 +25,7 @@ class ContactStage {
   /// Returns whether there is material that may meet its image as another body.
   [[nodiscard]] bool may_meet_images() const;
   /// Returns whether bodies have velocity fields of their own.
-  [[nodiscard]] bool has_fields() const { return contact_.has_value(); }
+  [[nodiscard]] bool has_fields() const { return state_.setup.contact_fields.several(); }
 
   /// Separates the velocity fields where bodies are near one another, after particles were binned. Collective.
   void separate_fields();
@@ -54,7 +54,9 @@ class ContactStage {
   State& state_;
   Hexahedra& hexahedra_;
   transfer::MirrorContact& with_images_;
-  std::optional<contact::Contact> contact_;  // if bodies have velocity fields of their own
+  std::optional<contact::Contact>
+      contact_;                            // if bodies have velocity fields of their own, or divide at cracks
+  std::optional<contact::Cracks> cracks_;  // of bodies that divide at them
   std::vector<std::uint8_t> field_of_body_;
   std::optional<transfer::FirstTouches> first_touches_;
   bool surfaces_found_ = false;              // in the step under way

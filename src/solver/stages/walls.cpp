@@ -17,12 +17,15 @@ void ContactStage::set_up_walls() {
   field_of_body.resize(touched.size(), 0);  // one field without contact of bodies
   const unsigned fields = *std::ranges::max_element(field_of_body) + 1U;
   // What no body has is bonded as well: then nothing has to be looked for.
-  const std::uint64_t unused = fields >= grid::maximum_fields ? 0 : ~((std::uint64_t{1} << fields) - 1);
+  const unsigned used = cracks_ ? cracks_->fields().count() : fields;
+  const std::uint64_t unused = used >= grid::maximum_fields ? 0 : ~((std::uint64_t{1} << used) - 1);
   std::array<std::uint64_t, 6> bonded{};
   bonded.fill(unused);
   for (std::size_t b = 0; b < touched.size(); ++b) {
     for (std::size_t face = 0; face < 6; ++face) {
-      if ((touched[b] >> face & 1U) != 0) bonded[face] |= std::uint64_t{1} << field_of_body[b];
+      if ((touched[b] >> face & 1U) == 0) continue;
+      const unsigned field = field_of_body[b];
+      bonded[face] |= cracks_ ? cracks_->fields().parts(field) : std::uint64_t{1} << field;
     }
   }
   state_.grid.bond_at_planes(bonded);

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Cracks on several ranks: damage, directions and sides of a node are sums of what all of them bring to it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/parallel/solver_ranks.hpp"
+#include "tests/verification/crack_problems.hpp"
+
+namespace whipple::solver {
+namespace {
+
+TEST(CrackRanks, AgreeWithOneRank) {
+  for (const char* dimension : {"plane_strain", "3d"}) {
+    SCOPED_TRACE(dimension);
+    constexpr double end = 1.2e-6;
+    const cases::Case setup = verification::breaking_plate(dimension, "fields");
+    Simulation together(setup, MPI_COMM_WORLD), alone(setup, MPI_COMM_SELF);
+    advance_to(together, end);
+    advance_on_root(alone, end);
+    expect_agreement(together, alone, 1e-9);
+    if (!is_root()) continue;
+    EXPECT_TRUE(std::ranges::any_of(alone.particles().failed, [](std::uint8_t code) { return code != 0; }));
+  }
+}
+
+}  // namespace
+}  // namespace whipple::solver
+
+int main(int argc, char** argv) {
+  whipple::parallel::world();
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

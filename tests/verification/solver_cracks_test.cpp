@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Cracks as velocity fields (docs/theory/cracks.md): faces part without an impulse and press when they are pushed together;
+// energy and momentum stay exact with planes, walls and other bodies, in two and three dimensions; a restart needs nothing.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include "tests/verification/crack_problems.hpp"
+#include "tests/verification/same_state.hpp"
+#include "tests/verification/solver_problems.hpp"
+
+namespace whipple {
+namespace {
+
+using solver::Simulation;
+using namespace verification;
+
+/// Two halves of an elastic block with a failed column of particles between them, that move with -v and v.
+class Halves {
+ public:
+  Halves(const std::string& dimension, const std::string& cracks, double speed)
+      : simulation_([&] {
+          const cases::Case setup = cases::read_case_text(
+              fmt::format("[domain]\ndimension = \"{}\"\nlower = [-0.012, 0{}]\nupper = [0.012, 0.006{}]\n"
+                          "cell_size = 0.001\nboundary = {{ y_lower = \"symmetry\" }}\n[time]\nend = 4e-6\n",
+                          dimension, dimension == "3d" ? ", -0.003" : "",
+                          dimension == "3d" ? ", 0.003" : "") +
+                  part("left", -8.0, -0.25, -speed) + "failure = { cracks = \"" + cracks + "\" }\n" +
+                  part("column", -0.25, 0.25, -speed) + part("right", 0.25, 8.25, speed),
+              "halves.toml");
+          const Simulation seeded(setup, parallel::world());
+          Particles particles = *seeded.contents().particles;
+          for (std::size_t p = 0; p < particles.size(); ++p) {
+            if (particles.body[p] == 1) particles.failed[p] = 1;
+          }
+          return Simulation(setup, std::move(particles), seeded.state(), parallel::world());
+        }()) {}
+
+  Simulation& simulation() { return simulation_; }
+  /// Returns the largest difference of the velocity of a body's particles from a speed (m/s).
+  double deviation(std::uint32_t body, double speed) const {
+    double worst = 0.0;
+    for (std::size_t p = 0; p < simulation_.particles().size(); ++p) {
+      if (simulation_.particles().body[p] != body) continue;
+      worst = std::max(worst, (simulation_.particles().velocity[p] - Vector3(speed, 0.0, 0.0)).norm());
+    }
+    return worst;
+  }
+  /// Returns the momentum along x per mass of a body (m/s).
+  double mean_speed(std::uint32_t body) const {
+    double mass = 0.0, momentum = 0.0;
+    for (std::size_t p = 0; p < simulation_.particles().size(); ++p) {
+      if (simulation_.particles().body[p] != body) continue;
+      mass += simulation_.particles().mass[p];
+      momentum += simulation_.particles().mass[p] * simulation_.particles().velocity[p].x();
+    }
+    return momentum / mass;
+  }
+
+ private:
+  static std::string part(const char* name, double from, double to, double speed) {
+    return fmt::format(
+        "[[body]]\nname = \"{}\"\nmaterial = \"{}\"\ncontact_group = \"block\"\nvelocity = [{}, 0, 0]\n"
+        "shape = {{ box = {{ lower = [{}, 0, -0.002], upper = [{}, 0.004, 0.002] }} }}\n",
+        name, elastic_aluminium(), speed, 1e-3 * from, 1e-3 * to);
+  }
+  Simulation simulation_;
+};
+
+class CracksInDimension : public testing::TestWithParam<const char*> {};
+
+TEST_P(CracksInDimension, PartWithoutAnImpulse) {
+  constexpr double speed = 100.0;
+  Halves apart(GetParam(), "fields", speed), whole(GetParam(), "none", speed);
+  for (int step = 0; step < 40; ++step) apart.simulation().advance(1.0);
+  for (int step = 0; step < 40; ++step) whole.simulation().advance(1.0);
+  EXPECT_LT(apart.deviation(0, -speed), 1e-9 * speed);
+  EXPECT_LT(apart.deviation(2, speed), 1e-9 * speed);
+  EXPECT_GT(whole.deviation(2, speed), 0.1 * speed);  // the failed column still holds the halves
+}
+
+TEST_P(CracksInDimension, PressLikeOneField) {
+  constexpr double speed = -100.0;
+  Halves apart(GetParam(), "fields", speed), whole(GetParam(), "none", speed);
+  EnergyWatch watch;
+  run_to(apart.simulation(), 1.5e-6, std::ref(watch));
+  run_to(whole.simulation(), 1.5e-6);
+  EXPECT_LT(watch.worst, 1e-12);
+  // Half of the block has given its momentum to the wave.
+  EXPECT_GT(whole.mean_speed(2), 0.5 * speed);
+  EXPECT_NEAR(apart.mean_speed(2), whole.mean_speed(2), 0.02 * std::abs(speed));
+}
+
+INSTANTIATE_TEST_SUITE_P(Dimensions, CracksInDimension, testing::Values("plane_strain", "3d"));
+
+/// Balances of a run with cracks.
+void expect_exact(const cases::Case& setup, double end) {
+  Simulation simulation(setup, parallel::world());
+  EnergyWatch watch;
+  run_to(simulation, end, std::ref(watch));
+  EXPECT_LT(watch.worst, 1e-12);
+  EXPECT_LT(simulation.state().ledger.momentum_error(simulation.totals()), 1e-12);
+  const Particles& particles = simulation.particles();
+  const auto failed = std::ranges::count_if(particles.failed, [](std::uint8_t code) { return code != 0; });
+  EXPECT_GT(failed, 0);
+  EXPECT_LT(static_cast<std::size_t>(failed), particles.size());
+}
+
+TEST(Cracks, KeepEnergyAndMomentumBesidePlanesWallsAndOtherBodies) {
+  for (const char* dimension : {"plane_strain", "axisymmetric", "3d"}) {
+    SCOPED_TRACE(dimension);
+    expect_exact(breaking_plate(dimension, "fields"), 3e-6);
+  }
+}
+
+TEST(Cracks, RestartBitwise) {
+  const cases::Case setup = breaking_plate("plane_strain", "fields");
+  Simulation whole(setup, parallel::world());
+  run_to(whole, 1.5e-6);
+  const TemporaryFolder folder;
+  Simulation restarted = restored(setup, save(whole, folder.path()), parallel::world());
+  while (whole.state().time < 2.5e-6) {
+    whole.advance(2.5e-6);
+    restarted.advance(2.5e-6);
+  }
+  expect_same(whole, restarted);
+}
+
+TEST(Cracks, ChangeNothingUntilSomethingFails) {
+  Simulation with(breaking_plate("plane_strain", "fields", 1e3), parallel::world());
+  Simulation without(breaking_plate("plane_strain", "none", 1e3), parallel::world());
+  run_to(with, 1e-6);
+  run_to(without, 1e-6);
+  expect_same(with, without);
+}
+
+}  // namespace
+}  // namespace whipple
