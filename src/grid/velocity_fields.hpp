@@ -125,7 +125,7 @@ class VelocityFields : public PointBins {
     return each;
   }();
   bool is_divided_ = false;
-  std::vector<std::uint8_t> field_;               // of each particle
+  std::vector<std::uint8_t> field_;  // of each particle
   std::vector<std::uint8_t> field_of_guest_;
   std::vector<std::uint64_t> fields_;        // of each slot: bit per field that reaches it
   std::vector<std::uint8_t> meets_contact_;  // of each slot: is one of its neighbours a contact slot?

@@ -2,15 +2,34 @@
 // Failed points: spall, free liquid, plastic failure, voids that open and close without changing the energy.
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+#include <random>
+
 #include "src/material/failure/plastic_strain.hpp"
 #include "src/material/failure/tensile_pressure.hpp"
 #include "src/material/material_file.hpp"
+#include "src/material/principal.hpp"
 #include "tests/unit/material_support.hpp"
 
 namespace whipple {
 namespace failure_test {
 
 using namespace material_test;
+
+TEST(PrincipalValue, IsTheGreatestEigenvalueOfEveryDeviator) {
+  std::mt19937_64 generator(5);
+  for (int i = 0; i < 2000; ++i) {
+    Matrix3 m = random_matrix(generator, 1e9);
+    m = (0.5 * (m + m.transpose())).eval();
+    if (i % 3 == 0) m = (Vector3(2, -1, -1) * (i % 2 == 0 ? 1e8 : -1e8)).asDiagonal();  // double values
+    m -= m.trace() / 3.0 * Matrix3::Identity();
+    const double expected = Eigen::SelfAdjointEigenSolver<Matrix3>(m).eigenvalues().maxCoeff();
+    const SymmetricTensor s = SymmetricTensor::from(m);
+    ASSERT_NEAR(material::greatest_principal_value(s), expected, 1e-7 * m.norm());
+    ASSERT_LE(expected, material::greatest_principal_bound(s) * (1 + 1e-12));
+  }
+  EXPECT_EQ(material::greatest_principal_value({}), 0.0);
+}
 
 std::shared_ptr<const failure::Criterion> spall(double strength) {
   return std::make_shared<failure::CriterionModel<failure::TensilePressure>>(
