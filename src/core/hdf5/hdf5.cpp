@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <new>
 #include <utility>
 #include <vector>
@@ -224,7 +225,14 @@ std::string File::close_as_bytes() {
   check(H5Fget_filesize(handle.get(), &size), path, "complete the file");
   memory->wanted = size;
   close();
-  return std::move(memory->bytes);
+  // What HDF5 keeps in reserve is no part of the file, whose end stands in its superblock (of version 2 or 3).
+  constexpr std::size_t version_at = 8, end_at = 28;
+  std::string& bytes = memory->bytes;
+  std::uint64_t end = 0;
+  if (bytes.size() < end_at + sizeof end || bytes[version_at] < 2) return std::move(bytes);
+  std::memcpy(&end, bytes.data() + end_at, sizeof end);
+  bytes.resize(std::min<std::size_t>(end, bytes.size()));
+  return std::move(bytes);
 }
 
 }  // namespace whipple::hdf5
