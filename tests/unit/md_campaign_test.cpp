@@ -126,9 +126,7 @@ TEST_F(Campaign, FullDiskIsNamedAndLosesNothing) {
     EXPECT_EQ(stopped.code, static_cast<int>(ExitCode::state));
     EXPECT_EQ(stopped.computed, 1);
     EXPECT_NE(words.find("the work stopped before its end: "), std::string::npos) << words;
-    EXPECT_NE(words.find("File too large; the points stored so far are safe"),
-              std::string::npos)
-        << words;
+    EXPECT_NE(words.find("File too large; the points stored so far are safe"), std::string::npos) << words;
     EXPECT_EQ(read_store(store).size(), 1U);
     tasks[1].compute = compute;
     const CampaignSummary rest = run(tasks);
