@@ -62,7 +62,11 @@ Dataset Group::open_dataset(const std::string& name) const {
           name_ + name, writers_};
 }
 
-bool Group::has(const std::string& name) const { return H5Lexists(id(), name.c_str(), H5P_DEFAULT) > 0; }
+bool Group::has(const std::string& name) const {
+  const htri_t found = H5Lexists(id(), name.c_str(), H5P_DEFAULT);
+  check(found, name_, "look for " + name);
+  return found > 0;
+}
 
 std::vector<std::string> Group::names(Order order) const {
   std::vector<std::string> names;
