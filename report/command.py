@@ -44,6 +44,8 @@ def main(words: list[str] | None = None) -> int:
     parser.add_argument("--view", metavar="FILE.html", type=pathlib.Path, help="page of `whipple view` to show in this one")
     parser.add_argument("--dpi", metavar="N", type=int, default=300, help="dots per inch of the pictures (default 300)")
     arguments = parser.parse_args(words)
+    for stream in (sys.stdout, sys.stderr):
+        stream.reconfigure(errors="surrogateescape")  # names of folders are printed as they are
     try:
         if len(arguments.runs) > 1:
             return compare(arguments)

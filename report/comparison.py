@@ -14,7 +14,7 @@ from report.case_text import describe_value
 from report.curves import legend_above, new_figure
 from report.errors import NotARun
 from report.expectations import BadExpectation
-from report.files import write_whole
+from report.files import encoded, write_whole
 from report.measured import Measures
 from report.page import Page
 from report.run import Run
@@ -181,7 +181,7 @@ class Comparison:
     def write(self) -> pathlib.Path:
         """Writes comparison.html and comparison.json. Returns the path of the page."""
         path = self.output / "comparison.html"
-        write_whole(path, lambda stream: stream.write(self.page.text().encode()))
+        write_whole(path, lambda stream: stream.write(encoded(self.page.text())))
         text = json.dumps({"runs": [str(run.folder) for run in self.runs], "quantities": self.data}, indent=1) + "\n"
-        write_whole(self.output / "comparison.json", lambda stream: stream.write(text.encode()))
+        write_whole(self.output / "comparison.json", lambda stream: stream.write(encoded(text)))
         return path

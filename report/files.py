@@ -25,6 +25,11 @@ def write_whole(path: pathlib.Path, write: Callable[[BinaryIO], object]) -> None
             raise
 
 
+def encoded(text: str) -> bytes:
+    """UTF-8 of a text that may hold names of files, which are bytes of any kind."""
+    return text.encode(errors="replace")
+
+
 def save_figure(figure: Figure, path: str | pathlib.Path, **options) -> None:
     """Writes a figure in the format of its ending."""
     path = pathlib.Path(path)

@@ -18,7 +18,7 @@ from report import analysis as measures
 from report import curves, expected, explosives, gauges, pictures, planar, sensitivity, style, units
 from report.analysis import AXES
 from report.case_text import describe_discretization, describe_shape, describe_value
-from report.files import write_whole
+from report.files import encoded, write_whole
 from report.page import Page
 from report.run import Run
 from report.units import number
@@ -320,8 +320,8 @@ class Report:
     def write(self) -> pathlib.Path:
         """Writes report.html and metrics.json, each as a whole. Returns the path of the page."""
         path = self.output / "report.html"
-        write_whole(path, lambda stream: stream.write(self.page.text().encode()))
+        write_whole(path, lambda stream: stream.write(encoded(self.page.text())))
         clean = json.loads(json.dumps(self.metrics), parse_constant=lambda _: None)  # JSON knows no NaN
         text = json.dumps(clean, indent=1) + "\n"
-        write_whole(self.output / "metrics.json", lambda stream: stream.write(text.encode()))
+        write_whole(self.output / "metrics.json", lambda stream: stream.write(encoded(text)))
         return path

@@ -3,6 +3,7 @@
 // no crash, no hang, no memory for what a file only declares (tests/fuzz/trials.hpp).
 #include <gmock/gmock.h>
 
+#include <fstream>
 #include <functional>
 
 #include "eos/experiments/comparison.hpp"

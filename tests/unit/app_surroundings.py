@@ -99,11 +99,24 @@ def limits():
                 require(first.startswith(b"\x89HDF") and b"steps to t" not in first, f"{before}: what a snapshot holds")
 
 
+def names(folder):
+    """Names of cases and folders are bytes: a run, its restart and its report take them."""
+    case, run = os.fsencode(folder) + b"/c\xe4.toml", os.fsencode(folder) + b"/o\xe4"
+    pathlib.Path(os.fsdecode(case)).write_bytes(pathlib.Path(CASE).read_bytes())
+    for arguments in ([b"run", case, b"-o", run, b"--set", b"time.end='0.02 us'"],
+                      [b"run", b"--restart", run, b"--set", b"time.end='0.03 us'"],
+                      [b"report", run, b"--dpi", b"20", b"--times", b"1", b"--view-megabytes", b"0"]):
+        done = subprocess.run([os.fsencode(WHIPPLE), *arguments], capture_output=True, timeout=120)
+        require(done.returncode == 0, f"{arguments}: {done.returncode} {done.stderr}")
+    index = next(pathlib.Path(os.fsdecode(run)).glob("*.series")).read_text(encoding="utf-8")
+    require('"c_.particles.000000.hdf"' in index, f"names in the index: {index}")
+
+
 def main():
     output_into_a_full_device()
     threads()
     limits()
-    for look in (search_paths, modules_of_others):
+    for look in (search_paths, modules_of_others, names):
         with tempfile.TemporaryDirectory() as folder:
             look(pathlib.Path(folder))
 

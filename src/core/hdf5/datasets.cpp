@@ -29,6 +29,7 @@ Dataset::Shape Dataset::stored_shape() const {
   if (lengths.size() > 2) throw InputError(fmt::format("{}: has {} dimensions", name_, lengths.size()));
   const Shape shape{lengths.empty() ? 1 : lengths[0], lengths.size() < 2 ? 1 : lengths[1]};
   const std::uint64_t stored = H5Dget_storage_size(id());
+  if (stored == 0 && H5Eget_num(H5E_DEFAULT) > 0) fail(name_, "read the size");
   const Handle type = checked(H5Dget_type(id()), H5Tclose, name_, "read the type");
   const double declared = static_cast<double>(shape.rows) * static_cast<double>(shape.columns) *
                           static_cast<double>(H5Tget_size(type.get()));

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <new>
 #include <utility>
 #include <vector>
@@ -61,7 +62,11 @@ Dataset Group::open_dataset(const std::string& name) const {
           name_ + name, writers_};
 }
 
-bool Group::has(const std::string& name) const { return H5Lexists(id(), name.c_str(), H5P_DEFAULT) > 0; }
+bool Group::has(const std::string& name) const {
+  const htri_t found = H5Lexists(id(), name.c_str(), H5P_DEFAULT);
+  check(found, name_, "look for " + name);
+  return found > 0;
+}
 
 std::vector<std::string> Group::names(Order order) const {
   std::vector<std::string> names;
@@ -224,7 +229,14 @@ std::string File::close_as_bytes() {
   check(H5Fget_filesize(handle.get(), &size), path, "complete the file");
   memory->wanted = size;
   close();
-  return std::move(memory->bytes);
+  // What HDF5 keeps in reserve is no part of the file, whose end stands in its superblock (of version 2 or 3).
+  constexpr std::size_t version_at = 8, end_at = 28;
+  std::string& bytes = memory->bytes;
+  std::uint64_t end = 0;
+  if (bytes.size() < end_at + sizeof end || bytes[version_at] < 2) return std::move(bytes);
+  std::memcpy(&end, bytes.data() + end_at, sizeof end);
+  bytes.resize(std::min<std::size_t>(end, bytes.size()));
+  return std::move(bytes);
 }
 
 }  // namespace whipple::hdf5
