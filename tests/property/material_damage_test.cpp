@@ -12,7 +12,6 @@
 #include "src/material/failure/johnson_cook_damage.hpp"
 #include "src/material/failure/principal_strain.hpp"
 #include "src/material/failure/principal_stress.hpp"
-#include "src/material/failure/tearing.hpp"
 #include "src/material/principal.hpp"
 #include "src/material/strength/elastic.hpp"
 #include "tests/unit/material_support.hpp"
@@ -96,38 +95,6 @@ TEST(PrincipalStrain, FailsAtTheLogarithmicStrainWhileTheMatterTurns) {
   }
   EXPECT_EQ(points.failed[0], failure::principal_strain);
   EXPECT_NEAR(std::log(stretch), 0.3, 0.002);
-}
-
-// The work of the deviator from the limit to separation, in a band of one cell, is the energy per area of the crack.
-TEST(Tearing, TakesItsEnergyPerAreaInTensionWhateverTheCell) {
-  failure::Tearing law;
-  law.failure_strain = 0.05;
-  law.energy_per_area = 2e4;
-  const Material material = with(taylor_copper(), {criterion(law)});
-  const auto stretch = [&](MaterialPoints& points, double cell, double across) {
-    UpdateSettings of_cell = settings;
-    of_cell.cell_size = cell;
-    const Matrix3 gradient = 2e-4 / dt * Matrix3(Vector3(1.0, across, across).asDiagonal());
-    const double before = points.plastic_strain[0];
-    points.specific_internal_energy[0] = 0.0;
-    update_material(material, points, 0, 1, std::span(&gradient, 1), of_cell);
-    return std::sqrt(1.5 * points.deviatoric_stress[0].squared_norm()) * (points.plastic_strain[0] - before);
-  };
-  for (const double cell : {0.25e-3, 0.5e-3, 1e-3, 2e-3}) {
-    MaterialPoints points = points_of(material, 1);
-    double work = 0.0;
-    while (points.failed[0] == failure::intact) {
-      const double of_step = stretch(points, cell, -0.4999);  // hardly in tension
-      work += points.history.scalar("damage")[0] > 0.0 ? of_step : 0.0;
-      ASSERT_LT(points.plastic_strain[0], 2.0);
-    }
-    EXPECT_EQ(points.failed[0], failure::plastic);
-    EXPECT_NEAR(work * cell, law.energy_per_area, 0.02 * law.energy_per_area) << cell;
-  }
-  MaterialPoints points = points_of(material, 1);
-  for (int i = 0; i < 2000; ++i) stretch(points, 1e-3, -0.5001);  // under pressure
-  EXPECT_GT(points.plastic_strain[0], 0.3);
-  EXPECT_EQ(points.history.scalar("damage")[0], 0.0);
 }
 
 failure::JohnsonCookDamage ofhc_damage() {  // Johnson and Cook (1985), OFHC copper

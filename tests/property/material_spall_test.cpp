@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Spall of a point: what a cut-off leaves of the deviator, the time that accumulated tension takes, voids
-// that grow at a rate, and what is whole again after compression.
+// that grow at a rate, what is whole again after compression, and the energy that tearing takes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "src/material/failure/tearing.hpp"
 #include "src/material/failure/tensile_pressure.hpp"
 #include "src/material/failure/tuler_butcher.hpp"
 #include "src/material/failure/viscous_void_growth.hpp"
@@ -259,6 +260,38 @@ TEST(Spall, OneModelOfAMaterialOpensVoids) {
   } catch (const InputError& fault) {
     EXPECT_THAT(fault.what(), testing::HasSubstr("both open voids"));
   }
+}
+
+// The work of the deviator from the limit to separation, in a band of one cell, is the energy per area of the crack.
+TEST(Tearing, TakesItsEnergyPerAreaInTensionWhateverTheCell) {
+  failure::Tearing law;
+  law.failure_strain = 0.05;
+  law.energy_per_area = 2e4;
+  const Material material = with_law(law);
+  const auto stretch = [&](MaterialPoints& points, double cell, double across) {
+    UpdateSettings of_cell = settings;
+    of_cell.cell_size = cell;
+    const Matrix3 gradient = 2e-4 / dt * Matrix3(Vector3(1.0, across, across).asDiagonal());
+    const double before = points.plastic_strain[0];
+    points.specific_internal_energy[0] = 0.0;
+    update_material(material, points, 0, 1, std::span(&gradient, 1), of_cell);
+    return std::sqrt(1.5 * points.deviatoric_stress[0].squared_norm()) * (points.plastic_strain[0] - before);
+  };
+  for (const double cell : {0.25e-3, 0.5e-3, 1e-3, 2e-3}) {
+    MaterialPoints points = points_of(material, 1);
+    double work = 0.0;
+    while (points.failed[0] == failure::intact) {
+      const double of_step = stretch(points, cell, -0.4999);  // hardly in tension
+      work += points.history.scalar("damage")[0] > 0.0 ? of_step : 0.0;
+      ASSERT_LT(points.plastic_strain[0], 2.0);
+    }
+    EXPECT_EQ(points.failed[0], failure::plastic);
+    EXPECT_NEAR(work * cell, law.energy_per_area, 0.02 * law.energy_per_area) << cell;
+  }
+  MaterialPoints points = points_of(material, 1);
+  for (int i = 0; i < 2000; ++i) stretch(points, 1e-3, -0.5001);  // under pressure
+  EXPECT_GT(points.plastic_strain[0], 0.3);
+  EXPECT_EQ(points.history.scalar("damage")[0], 0.0);
 }
 
 }  // namespace spall_test
