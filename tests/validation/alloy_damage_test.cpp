@@ -70,6 +70,7 @@ TEST(AlloyDamage, CountsStrainsBetweenItsTriaxialitiesAlone) {
             .bulk_modulus = one,
             .shear_modulus = one,
             .volume = one,
+            .band = one,
             .plastic_strain = increment,
             .plastic_increment = increment,
             .melted_fraction = zero,
