@@ -23,6 +23,7 @@ import signal
 import subprocess
 import sys
 import time
+import tomllib
 
 OPTIONS = ["--threads", "1", "--quiet"]
 MARK = ".torture"  # lies in the folders that this script made
@@ -197,14 +198,22 @@ def table(path):
     return rows[0], [[float(cell) for cell in row] for row in rows[1:]]
 
 
+def metres(quantity):
+    """A length of run.toml, which is in metres: a number, or a text with its unit."""
+    return float(str(quantity).split()[0])
+
+
 def difference(run, whole):
     """Largest difference of the histories and its column, relative to the largest value of the column; of energies to the
-    total, of momenta to the largest: a component may be round-off alone."""
+    total, of momenta to the largest, of angular momenta to that at the distance of the domain's extent: a component may be
+    round-off alone."""
     (names, found), (_, expected) = table(run / "history.csv"), table(whole / "history.csv")
     if len(found) != len(expected):
         return math.inf, "rows"
     energy = max(abs(row[names.index("total_energy [J]")]) for row in expected)
     momentum = max(abs(row[names.index(f"momentum_{axis} [kg m/s]")]) for row in expected for axis in "xyz")
+    domain = tomllib.loads((whole / "run.toml").read_text(encoding="utf-8"))["domain"]
+    extent = max(abs(a - b) for a, b in zip(map(metres, domain["upper"]), map(metres, domain["lower"])))
     largest = 0.0, ""
     for column, name in enumerate(names):
         if "error" in name:
@@ -214,6 +223,8 @@ def difference(run, whole):
             scale = energy
         elif name.endswith(("[kg m/s]", "[N s]")):
             scale = momentum
+        elif name.endswith("[kg m^2/s]"):
+            scale = momentum * extent
         largest = max(largest, (max(abs(a[column] - b[column]) for a, b in zip(found, expected)) / scale, name))
     return largest
 

@@ -203,7 +203,8 @@ def trial(setting, name, command, fault, error):
     if any(defect in words for defect in DEFECTS):
         faults.append("a defect")
     as_without = command.ends_as_without(code, words)
-    if not as_without and os.strerror(error) not in words:
+    reasons = [os.strerror(error)] + (["there is no such file"] if error == errno.ENOENT else [])
+    if not as_without and not any(reason in words for reason in reasons):
         faults.append("the message does not name the reason")
     if not as_without and error in TOLERATED:
         faults.append("stopped by what is no error")
