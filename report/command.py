@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Command line of the report."""
 import argparse
+import io
 import pathlib
 import sys
 
@@ -45,7 +46,8 @@ def main(words: list[str] | None = None) -> int:
     parser.add_argument("--dpi", metavar="N", type=int, default=300, help="dots per inch of the pictures (default 300)")
     arguments = parser.parse_args(words)
     for stream in (sys.stdout, sys.stderr):
-        stream.reconfigure(errors="surrogateescape")  # names of folders are printed as they are
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="surrogateescape")  # names of folders are printed as they are
     try:
         if len(arguments.runs) > 1:
             return compare(arguments)

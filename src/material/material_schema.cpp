@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "eos/files/models.hpp"
 #include "src/core/input/schema.hpp"
@@ -54,6 +55,21 @@ Schema keys_of() {
   return table;
 }
 
+/// Returns a schema without the keys that must be there: what a base does not leave to say.
+Schema partial(Schema schema) {
+  if (schema.is_object()) {
+    schema.erase("required");
+    if (schema.contains("oneOf")) {  // several variants may fit
+      schema["anyOf"] = schema["oneOf"];
+      schema.erase("oneOf");
+    }
+  }
+  if (schema.is_structured()) {
+    for (Schema& entry : schema) entry = partial(std::move(entry));
+  }
+  return schema;
+}
+
 }  // namespace
 
 std::string describe_material() {
@@ -75,15 +91,14 @@ std::string describe_material() {
 std::string material_schema() {
   using namespace material_tables;
   const auto models = eos::all_models();
-  Schema more, table, free;
-  table["$defs"]["unreacted"] = one_of(models);
-  table["$defs"]["modifiers"] = list_of(one_of(eos::modifier_catalogue()));
+  Schema more, table, free, all;
+  all["$defs"]["unreacted"] = one_of(models);
+  all["$defs"]["modifiers"] = list_of(one_of(eos::modifier_catalogue()));
   more["unreacted"] = input::reference_to("unreacted");
   more["modifier"] = input::reference_to("modifiers");
   input::add_keys(table, Head::parameters());
   input::add_keys(table, Base::parameters());
-  input::add_key(table, "eos", one_of(models, more));
-  for (const char* key : {"eos", "base"}) table["anyOf"].push_back({{"required", {key}}});
+  input::add_key(table, "eos", one_of(models, more), true);
   input::add_key(table, "reaction", one_of(reaction::catalogue()));
   input::add_key(table, "strength", one_of(strength::catalogue()));
   input::add_key(table, "failure", list_of(one_of(failure::catalogue())));
@@ -92,7 +107,11 @@ std::string material_schema() {
   input::add_key(table, "measured", keys_of<MeasuredTable>());
   free["description"] = "written by programs";
   for (const char* key : free_keys) input::add_key(table, key, free);
-  return input::schema_text(table, "Material of whipple",
+  all["if"]["required"] = {"base"};
+  all["then"] = partial(table);
+  all["then"]["required"] = {"name", "source", "base"};
+  all["else"] = table;
+  return input::schema_text(all, "Material of whipple",
                             "Material file of whipple. Quantities are texts with a unit, \"8.93 g/cm^3\".");
 }
 

@@ -19,7 +19,7 @@ from checks import require
 
 WHIPPLE, SOURCE, SMALL = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
 TYPES = {"object": dict, "array": list, "string": str, "boolean": bool, "integer": int, "number": (int, float)}
-REMARKS = {"$schema", "title", "description", "default", "$defs"}
+REMARKS = {"$schema", "title", "description", "default", "$defs", "then", "else"}
 
 
 def is_type(value, name):
@@ -102,6 +102,9 @@ class Checker:
 
     def of_exclusiveMaximum(self, content, value, schema, path):
         return self.limit(lambda v: v < content, value, f"< {content}")
+
+    def of_if(self, content, value, schema, path):
+        return self.faults(value, schema["else" if self.faults(value, content, path) else "then"], path)
 
     def of_anyOf(self, content, value, schema, path):
         tried = [self.faults(value, entry, path) for entry in content]
