@@ -31,7 +31,7 @@ whipple_test(test_rotation STARTS_MPI SOURCES verification/solver_rotation_test.
 # Writes docs/generated/orders_of_convergence.md; a program of its own, as it takes minutes.
 add_executable(orders_of_convergence EXCLUDE_FROM_ALL verification/solver_orders.cpp)
 target_link_libraries(orders_of_convergence PRIVATE whipple_flags whipple_solver)
-whipple_test(test_case SOURCES unit/case_bodies_test.cpp unit/case_lattice_test.cpp unit/case_case_test.cpp unit/case_check_test.cpp unit/case_shape_test.cpp unit/case_remarks_test.cpp
+whipple_test(test_case SOURCES unit/case_bodies_test.cpp unit/case_grains_test.cpp unit/case_lattice_test.cpp unit/case_case_test.cpp unit/case_check_test.cpp unit/case_shape_test.cpp unit/case_remarks_test.cpp
              DEPENDS whipple_case LABELS fast)
 
 # Distributed: against one rank, restart on another number of ranks, errors and killed ranks.

@@ -54,8 +54,17 @@ std::span<const Section<Body>> Body::sections() {
       section<&Body::failure>("failure", "", [](const Body& body) { return body.failure.given(); }),
       section<&Body::failure_scatter>("failure_scatter", "",
                                       [](const Body& body) { return body.failure_scatter.given(); }),
+      section<&Body::failure_grains>("failure_grains", "",
+                                     [](const Body& body) { return body.failure_grains.given(); }),
       section<&Body::viscosity>("artificial_viscosity", ", keys not given: those of [artificial_viscosity]")};
   return all;
+}
+
+double Body::failure_factor(std::uint64_t id, double volume, const Vector3& place,
+                            const grid::Geometry& geometry) const {
+  const double scattered = failure_scatter.given() ? failure_scatter.factor(id, volume) : 1.0;
+  if (!failure_grains.given()) return scattered;
+  return scattered * failure_grains.factor(place, geometry.cell_size, geometry.is_planar());
 }
 
 void Body::read_rest(input::Table& table) {
@@ -92,6 +101,9 @@ void Body::check(const Case& setup, const Faults& faults) const {
     for (std::size_t i = 0; i < node_conditions.size(); ++i) {
       faults.in("node_condition").in(i).add("", "a body of particles has no nodes");
     }
+  }
+  if (failure.cracks == CrackMotion::fields && !discretization.has_particles() && !discretization.converts()) {
+    faults.in("failure").add("cracks", "fields at cracks part particles, this body has none");
   }
   if (failure.cracks == CrackMotion::fields && setup.time.scheme != Scheme::symplectic) {
     faults.in("failure").add("cracks", "fields at cracks need time.scheme = \"symplectic\"");

@@ -14,9 +14,11 @@
 #include "src/case/body_state.hpp"
 #include "src/case/detonation.hpp"
 #include "src/case/discretization.hpp"
+#include "src/case/failure_grains.hpp"
 #include "src/case/section.hpp"
 #include "src/case/shapes/shape.hpp"
 #include "src/core/base/tensor.hpp"
+#include "src/grid/geometry.hpp"
 
 namespace whipple::cases {
 
@@ -48,6 +50,7 @@ struct Body {
   InitialState initial;
   Failure failure;
   FailureScatter failure_scatter;
+  FailureGrains failure_grains;
   std::optional<ArtificialViscosity> viscosity;  ///< instead of that of the case
   std::shared_ptr<const Shape> shape;            ///< of bars and meshes: made by `complete`
 
@@ -64,6 +67,12 @@ struct Body {
   [[nodiscard]] Vector3 velocity_at(const Vector3& x, const Vector3& centre) const {
     return velocity + angular_velocity.cross(x - centre) + expansion_rate.cwiseProduct(x - centre);
   }
+
+  /// Returns whether the failure thresholds of its points differ.
+  [[nodiscard]] bool varies_failure() const { return failure_scatter.given() || failure_grains.given(); }
+  /// Returns the factor of the failure thresholds of a point of this volume (m^3) at a place.
+  [[nodiscard]] double failure_factor(std::uint64_t id, double volume, const Vector3& place,
+                                      const grid::Geometry& geometry) const;
 
   /// Returns whether the shape is a key of the body, not made of its bars or its mesh.
   [[nodiscard]] bool has_own_shape() const {

@@ -4,25 +4,13 @@
 #include <cmath>
 #include <optional>
 
+#include "src/core/base/random_bits.hpp"
+
 namespace whipple::cases {
 namespace {
 
 std::optional<double> if_given(double value) {
   return std::isinf(value) ? std::nullopt : std::optional(value);
-}
-
-/// Finaliser of SplitMix64 (Steele, Lea and Flood, OOPSLA 2014): every bit of the result depends on all bits.
-std::uint64_t mixed(std::uint64_t x) {
-  x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
-  x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
-  return x ^ (x >> 31U);
-}
-
-/// In (0, 1].
-double uniform(std::uint64_t seed, std::uint64_t id) {
-  constexpr std::uint64_t golden = 0x9e3779b97f4a7c15U;
-  const std::uint64_t bits = mixed(mixed(seed + golden) + golden * (id + 1));
-  return static_cast<double>((bits >> 11U) + 1) * 0x1p-53;
 }
 
 }  // namespace

@@ -38,27 +38,28 @@ unsigned sector_of(const Vector3& n, bool planar) {
   return 6U + (n.x() > 0.0 ? 1U : 0U) + (n.y() > 0.0 ? 2U : 0U) + (n.z() > 0.0 ? 4U : 0U);
 }
 
-/// Calls at_point(p) for the particles of a body that reach nodes that matter, and what it returns for the places
+/// Calls at_point(p) for the points of a body that reach nodes that matter, and what it returns for the places
 /// of those nodes, where `contact_slot` is the slot; no two calls at a time for one node.
-/// @param counts  counts(p): does the particle take part?
-template <class Shape, class Counts, class AtPoint>
-void for_each_place_of(unsigned body, std::span<const std::uint8_t> body_of, const Particles& particles,
-                       const BlockGrid& grid, const std::vector<std::uint64_t>& matter, Counts&& counts,
-                       AtPoint&& at_point) {
+/// @param members  members(slot): indices of the points in it
+/// @param counts   counts(p): does the point take part?
+template <class Shape, class Points, class Members, class Counts, class AtPoint>
+void for_each_place_of(unsigned body, std::span<const std::uint8_t> body_of, const Points& points,
+                       Members&& members, const BlockGrid& grid, const std::vector<std::uint64_t>& matter,
+                       Counts&& counts, AtPoint&& at_point) {
   grid.for_each_apart([&](std::size_t slot) {
     const auto matters = [&](std::int32_t near) {
       return near != BlockGrid::no_slot && matter[static_cast<std::size_t>(near)] != 0;
     };
     if (!std::ranges::any_of(grid.neighbours(slot), matters)) return;
     std::optional<Reach> reach;
-    for (const std::uint32_t p : grid.particles_in(slot)) {
+    for (const std::uint32_t p : members(slot)) {
       if (body_of[p] != body || !counts(p)) continue;
       if (!reach) {
         reach.emplace(grid, grid.coordinate(slot), grid.neighbours(slot), body, [&](std::size_t near) {
           return SeenSlot{.nodes = matter[near], .contact_slot = static_cast<std::uint32_t>(near)};
         });
       }
-      reach->for_each_place<Shape>(particles, p, grid.coordinate(slot), grid.geometry(), at_point);
+      reach->for_each_place<Shape>(points, p, grid.coordinate(slot), grid.geometry(), at_point);
     }
   });
 }
@@ -157,8 +158,8 @@ std::optional<Cracks::Crack> Cracks::at(unsigned body, std::size_t slot, std::si
   return std::nullopt;
 }
 
-void Cracks::find(transfer::ShapeFunction shape, const Particles& particles, BlockGrid& grid,
-                  std::vector<std::uint8_t>& field) {
+void Cracks::find(transfer::ShapeFunction shape, const Particles& particles, const ElementNodes& nodes,
+                  BlockGrid& grid, std::vector<std::uint8_t>& field) {
   const std::vector<std::uint8_t> body_of = field;
   std::array<double, grid::maximum_fields> failed{};  // of each body: 1 if any of it has
   for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -169,17 +170,28 @@ void Cracks::find(transfer::ShapeFunction shape, const Particles& particles, Blo
     of_body_[n].nodes.clear();
     if (failed[fields_.cracked()[n]] == 0.0) continue;
     transfer::with_shape(shape,
-                         [&]<class Shape>(Shape) { find_in<Shape>(n, particles, grid, body_of, field); });
+                         [&]<class Shape>(Shape) { find_in<Shape>(n, particles, nodes, grid, body_of, field); });
   }
 }
 
 template <class Shape>
-void Cracks::find_in(std::size_t number, const Particles& particles, BlockGrid& grid,
-                     std::span<const std::uint8_t> body_of, std::vector<std::uint8_t>& field) {
+void Cracks::find_in(std::size_t number, const Particles& particles, const ElementNodes& nodes,
+                     BlockGrid& grid, std::span<const std::uint8_t> body_of,
+                     std::vector<std::uint8_t>& field) {
   const unsigned body = fields_.cracked()[number];
   const bool planar = grid.geometry().is_planar();
   const auto visit = [&](const Nodes& matter, auto&& counts, auto&& at_point) {
-    for_each_place_of<Shape>(body, body_of, particles, grid, matter, counts, at_point);
+    for_each_place_of<Shape>(
+        body, body_of, particles, [&](std::size_t slot) { return grid.particles_in(slot); }, grid, matter,
+        counts, at_point);
+  };
+  const auto visit_elements = [&](const Nodes& matter, auto&& at_point) {
+    if constexpr (transfer::CarriesAffineField<Shape>) {  // as elements need
+      if (nodes.position.empty()) return;
+      for_each_place_of<Shape>(
+          body, nodes.body, nodes, [&](std::size_t slot) { return grid.guests_in(slot); }, grid, matter,
+          [](std::uint32_t) { return true; }, at_point);
+    }
   };
   const auto every = [](std::uint32_t) { return true; };
   const auto join = [&](Nodes& nodes) {
@@ -208,6 +220,11 @@ void Cracks::find_in(std::size_t number, const Particles& particles, BlockGrid& 
     const Lanes brought = particles.mass[p] * Lanes{1.0, particles.failed[p] != 0 ? 1.0 : 0.0, 0.0, 0.0};
     return [&, brought](const Place& place) {
       *damage.at(damaged, place.contact_slot, place.node) += place.weight * brought;
+    };
+  });
+  visit_elements(damaged, [&](std::uint32_t a) {
+    return [&, whole = nodes.mass[a] * Lanes{1.0, 0.0, 0.0, 0.0}](const Place& place) {
+      *damage.at(damaged, place.contact_slot, place.node) += place.weight * whole;
     };
   });
   if (grid.is_shared()) grid.sum_to_owners(damage.of);
@@ -257,6 +274,15 @@ void Cracks::find_in(std::size_t number, const Particles& particles, BlockGrid& 
       sum[1] += m * Lanes{n[1] * n[2], n[2] * n[0], 0.0, 0.0};
       Lanes* const of_part = sum + lanes_of_directions + lanes_of_part * part;
       of_part[0] += m * Lanes{1.0, n[0], n[1], n[2]};
+      of_part[1] += m * Lanes{x[0], x[1], x[2], 0.0};
+    };
+  });
+  visit_elements(candidates, [&](std::uint32_t a) {  // without a direction: with the particles that have none
+    return [&, mass = nodes.mass[a]](const Place& place) {
+      const Vector3 x = place.distance.cwiseProduct(place.off_plane);
+      const double m = place.weight * mass;
+      Lanes* const of_part = sums.at(candidates, place.contact_slot, place.node) + lanes_of_directions;
+      of_part[0] += m * Lanes{1.0, 0.0, 0.0, 0.0};
       of_part[1] += m * Lanes{x[0], x[1], x[2], 0.0};
     };
   });

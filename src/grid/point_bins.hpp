@@ -57,7 +57,7 @@ class PointBins : public Topology {
   /// @param size  number of particles that stay
   void particles_removed(std::span<const Move> moves, std::size_t size);
 
-  /// Indices of the particles in a block, ascending.
+  /// Indices of the particles in a block, ascending; field by field while fields are divided.
   [[nodiscard]] std::span<const std::uint32_t> particles_in(std::size_t slot) const {
     return particles_.in(slot);
   }

@@ -38,7 +38,7 @@ class VelocityFields : public PointBins {
     return all;
   }
 
-  /// Calls f(points of one field, field) for the points of a slot, in the order of their indices; once for
+  /// Calls f(points of one field, field) for the points of a slot, in the order of their list; once for
   /// all of them where they reach no contact slot, and not at all where there are none.
   template <class Function>
   void for_each_field(Points points, std::size_t slot, Function&& f) const {

@@ -15,11 +15,14 @@ TEST(CrackRanks, AgreeWithOneRank) {
     SCOPED_TRACE(dimension);
     constexpr double end = 1.2e-6;
     const cases::Case setup = verification::breaking_plate(dimension, "fields");
-    Simulation together(setup, MPI_COMM_WORLD), alone(setup, MPI_COMM_SELF);
+    Simulation together(setup, MPI_COMM_WORLD), alone(setup, MPI_COMM_SELF),
+        whole(verification::breaking_plate(dimension, "none"), MPI_COMM_SELF);
     advance_to(together, end);
     advance_on_root(alone, end);
+    advance_on_root(whole, end);
     expect_agreement(together, alone, 1e-9);
     if (!is_root()) continue;
+    EXPECT_GT(verification::largest_distance(alone.particles(), whole.particles()), 1e-6);  // cracks part
     EXPECT_TRUE(std::ranges::any_of(alone.particles().failed, [](std::uint8_t code) { return code != 0; }));
   }
 }

@@ -349,6 +349,13 @@ TEST(Bodies, HaveVelocityFieldsForCracksAsLongAsThereAreSome) {
   EXPECT_EQ(cracked_fields(setup, found), (std::vector<std::uint8_t>{0, 1, 2, 3}));
   ASSERT_EQ(found.warnings.size(), 1U);
   EXPECT_NE(found.warnings[0].find("do not part"), std::string::npos);
+  found = {.of_body = {0, 0, 1, 2, 3}, .cracked = {}, .remarks = {}, .warnings = {}};
+  setup.bodies[1].failure.cracks = CrackMotion::none;
+  EXPECT_EQ(cracked_fields(setup, found), (std::vector<std::uint8_t>{0, 1, 2, 3}));
+  ASSERT_EQ(found.remarks.size(), 1U);
+  EXPECT_NE(found.remarks[0].find("cracks of either"), std::string::npos);
+  expect_error(domain + sphere + cracks + "discretization = { method = \"finite_elements\" }\n",
+               {"cracks", "part particles"});
   const std::string end = "end = \"4 us\"";
   expect_error(replaced(domain, end, end + "\nscheme = \"musl\"") + sphere + cracks,
                {"cracks", "symplectic"});

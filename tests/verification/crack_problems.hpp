@@ -3,13 +3,28 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <string>
+#include <unordered_map>
 
 #include "src/case/case.hpp"
 #include "tests/verification/solver_problems.hpp"
 
 /// Problems with cracks that several tests share.
 namespace whipple::verification {
+
+/// Returns the largest distance (m) of particles of the same number in two runs.
+inline double largest_distance(const Particles& a, const Particles& b) {
+  std::unordered_map<std::uint64_t, Vector3> place;
+  for (std::size_t p = 0; p < a.size(); ++p) place[a.id[p]] = a.position[p];
+  double largest = 0.0;
+  for (std::size_t p = 0; p < b.size(); ++p) {
+    if (const auto found = place.find(b.id[p]); found != place.end())
+      largest = std::max(largest, (found->second - b.position[p]).norm());
+  }
+  return largest;
+}
 
 /// A plate whose failure strain is scattered breaks at a mirror plane (y = 0, or the axis) while a hard block strikes it and
 /// carries it against a wall.

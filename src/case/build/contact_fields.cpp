@@ -140,8 +140,16 @@ std::vector<std::uint8_t> cracked_fields(const Case& setup, ContactFields& found
   const unsigned sectors = grid::crack_sectors(setup.geometry.is_planar());
   std::vector<std::uint8_t> cracked;
   unsigned count = count_of(found.of_body);
+  const auto divides = [&](std::size_t b) { return setup.bodies[b].failure.cracks == CrackMotion::fields; };
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
-    if (setup.bodies[b].failure.cracks != CrackMotion::fields) continue;
+    if (!divides(b)) continue;
+    for (std::size_t other = 0; other < setup.bodies.size(); ++other) {
+      if (found.of_body[other] != found.of_body[b] || divides(other)) continue;
+      found.remarks.push_back(
+          fmt::format("cracks: bodies \"{}\" and \"{}\" are bonded in one velocity field: it divides at the "
+                      "cracks of either",
+                      setup.bodies[b].name, setup.bodies[other].name));
+    }
     if (std::ranges::find(cracked, found.of_body[b]) != cracked.end()) continue;
     if (count + sectors > grid::maximum_fields) {
       found.warnings.push_back(fmt::format(

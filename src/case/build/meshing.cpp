@@ -167,10 +167,13 @@ std::vector<fem::Mesh> make_meshes(const Case& setup, std::uint64_t first_partic
     const std::vector<double> volume = mesh.points.volume;
     initialise(material, mesh.points, 0, mesh.points.size(), state);
     const std::size_t rows = fem::points_per_element(mesh.quadrature);
-    if (body.failure_scatter.given()) mesh.points.failure_threshold_factor.resize(mesh.points.size());
-    for (std::size_t i = 0; body.failure_scatter.given() && i < mesh.points.size(); ++i) {
+    if (body.varies_failure()) mesh.points.failure_threshold_factor.resize(mesh.points.size());
+    for (std::size_t i = 0; body.varies_failure() && i < mesh.points.size(); ++i) {
       const std::uint64_t id = 8 * mesh.elements.id[i / rows] + i % rows;
-      mesh.points.failure_threshold_factor[i] = body.failure_scatter.factor(id, volume[i]);
+      Vector3 place = Vector3::Zero();  // of the element's centre
+      for (const std::uint32_t corner : mesh.elements.corners[i / rows])
+        place += mesh.nodes.position[corner] / 8.0;
+      mesh.points.failure_threshold_factor[i] = body.failure_factor(id, volume[i], place, setup.geometry);
     }
     const Shape::Bounds bounds = body.shape->bounds();
     const Vector3 center = 0.5 * (bounds.lower + bounds.upper);

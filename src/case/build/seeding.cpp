@@ -67,7 +67,7 @@ Seeding seed(const Case& setup, int rank, int ranks) {
     }
     if (body.discretization.has_elements()) {
       use_fields(material, particles);  // of those that its elements may become
-      if (body.failure_scatter.given()) particles.failure_threshold_factor.resize(particles.size(), 1.0);
+      if (body.varies_failure()) particles.failure_threshold_factor.resize(particles.size(), 1.0);
       seeding.bodies.push_back({.first = particles.size()});
       continue;
     }
@@ -113,13 +113,13 @@ Seeding seed(const Case& setup, int rank, int ranks) {
       particles.affine_velocity[p] = gradient;
       particles.extent[p] = site.extent;
       particles.generation[p] = 0;
-      if (body.failure_scatter.given()) {
-        threshold_factor.push_back(
-            body.failure_scatter.factor(particles.id[p], planar ? area * depth : volume));
+      if (body.varies_failure()) {
+        threshold_factor.push_back(body.failure_factor(
+            particles.id[p], planar ? area * depth : volume, particles.position[p], setup.geometry));
       }
     });
     initialise(material, particles, summary.first, end, state);
-    if (body.failure_scatter.given()) {
+    if (body.varies_failure()) {
       particles.failure_threshold_factor.resize(summary.first, 1.0);
       particles.failure_threshold_factor.insert(particles.failure_threshold_factor.end(),
                                                 threshold_factor.begin(), threshold_factor.end());

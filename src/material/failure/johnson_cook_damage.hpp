@@ -65,9 +65,8 @@ struct JohnsonCookDamage {
   static constexpr const char* theory =
       "dD = dep / (eps_f * scatter factor), fails (code 5) at D = 1, where\n"
       "eps_f = (d1 + d2 exp(d3 t)) (1 + d4 ln max(1, rate/reference_rate)) (1 + d5 T*), at least\n"
-      "least_failure_strain; t = -p/sqrt(3/2 s:s), at most greatest_triaxiality, no damage below "
-      "least_triaxiality; T* = (T - T_r)/(T_m - T_r) "
-      "in [0, 1].\n"
+      "least_failure_strain; t = -p/sqrt(3/2 s:s), at most 1.5; no damage outside of\n"
+      "least_triaxiality <= t <= greatest_triaxiality; T* = (T - T_r)/(T_m - T_r) in [0, 1].\n"
       "Source: Johnson and Cook, Eng. Fract. Mech. 21 (1985) 31-48.";
 
   /// @throws InputError if the constants contradict one another

@@ -73,12 +73,14 @@ void ContactStage::separate_fields() {
   for (std::size_t p = 0; p < state_.particles.size(); ++p) {
     field_[p] = field_of_body_[state_.particles.body[p]];
   }
-  if (cracks_) {
-    state_.profile.time("cracks",
-                        [&] { cracks_->find(state_.shape, state_.particles, state_.grid, field_); });
-  }
   field_of_node_.clear();
   for (const std::uint32_t body : state_.transition_body) field_of_node_.push_back(field_of_body_[body]);
+  if (cracks_) {
+    state_.profile.time("cracks", [&] {
+      cracks_->find(state_.shape, state_.particles,
+                    {state_.transition.position, state_.transition.mass, field_of_node_}, state_.grid, field_);
+    });
+  }
   state_.grid.separate_fields(transfer::stencil(state_.shape), {state_.particles.position, field_},
                               {state_.transition.position, field_of_node_},
                               cracks_ ? cracks_->fields().count() : cases::count_of(field_of_body_),
