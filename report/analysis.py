@@ -3,10 +3,10 @@
 import pathlib
 from dataclasses import dataclass
 
-import h5py
 import numpy as np
 
 from report.errors import NotARun
+from report.files import open_hdf5
 from report.geometry import AXES, Geometry
 from report.views import Views
 
@@ -54,7 +54,7 @@ class Analysis:
 
     def __init__(self, path: pathlib.Path):
         try:
-            with h5py.File(path, "r") as file:
+            with open_hdf5(path) as file:
                 self._read(file)
         except (OSError, KeyError) as error:
             raise NotARun(f"{path}: {error}; made by `whipple analyse`") from None

@@ -24,7 +24,7 @@ def particles_of(folder, body, time=math.inf):
     """Fields of the particles of a body at the last snapshot until a time (s) and, as "position" and "x", their places (m); None
     without any.
     """
-    import h5py
+    from report.files import open_hdf5
 
     newest = snapshot_at(folder, time)
     if newest is None or not (folder / "run.toml").is_file():
@@ -32,7 +32,7 @@ def particles_of(folder, body, time=math.inf):
     bodies = [entry["name"] for entry in tomllib.loads((folder / "run.toml").read_text(encoding="utf-8"))["body"]]
     if body not in bodies:
         return None
-    with h5py.File(folder / newest[0]) as file:
+    with open_hdf5(folder / newest[0]) as file:
         data = file["VTKHDF"]["PointData"]
         own = data["body"][:] == bodies.index(body)
         places = file["VTKHDF"]["Points"][:][own]

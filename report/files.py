@@ -1,12 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Files that are written as a whole or not at all."""
+"""Files that are read as a whole, and written as a whole or not at all."""
+import io
 import os
 import pathlib
 import tempfile
 from collections.abc import Callable
 from typing import BinaryIO
 
+import h5py
 from matplotlib.figure import Figure
+
+
+def open_hdf5(path: str | pathlib.Path) -> h5py.File:
+    """Opens an HDF5 file to be read. Python reads it into memory: where the disk fails libhdf5, whose closing cannot be
+    repeated, h5py ends with a segmentation fault instead of an OSError."""
+    return h5py.File(io.BytesIO(pathlib.Path(path).read_bytes()), "r")
 
 
 def write_whole(path: pathlib.Path, write: Callable[[BinaryIO], object]) -> None:

@@ -24,6 +24,7 @@ import sys
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
+DATA = ROOT / "tests" / "data"
 DOCUMENTED = {0, 2, 3, 124}
 # Mutants of each kind in a hundred; those that simulate molecules take seconds.
 SHARES = {"case": 9, "material": 9, "plan": 2, "ls_dyna": 12, "mpm3d": 8, "abaqus": 8, "gmsh": 8, "vtk": 8, "table": 8,
@@ -38,19 +39,6 @@ WORDS = [b"nan", b"inf", b"-inf", b"1e308", b"-1e308", b"1e-320", b"0", b"-1", b
          b"..", b"1e400", b"1 km", b"1 K", b"-0.0", b"2147483647"]
 NUMBER = re.compile(rb"[-+]?\d+(?:\.\d*)?(?:[eE][-+]?\d+)?")
 
-SMALL_CASE = """
-[domain]
-lower = ["-4 mm", "-4 mm", "-4 mm"]
-upper = ["4 mm", "4 mm", "4 mm"]
-cell_size = "0.8 mm"
-[time]
-end = "0.05 us"
-[[body]]
-name = "ball"
-material = "{material}"
-velocity = ["0 m/s", "0 m/s", "1 km/s"]
-shape = {{ sphere = {{ center = ["0 mm", "0 mm", "-1.6 mm"], radius = "1.5 mm" }} }}
-"""
 MESH_CASE = """
 [domain]
 lower = ["-40 mm", "-40 mm", "-40 mm"]
@@ -64,43 +52,16 @@ material = "copper_ofhc_mie_gruneisen.toml"
 velocity = ["0 m/s", "0 m/s", "1 km/s"]
 discretization = {{ method = "finite_elements", mesh = "{file}", mesh_unit = "10 mm"{group} }}
 """
-PLAN = """
-title = "mutant"
-element = "Cu"
-potential = "{potential}"
-[zero_pressure_volume]
-temperature = ["293 K"]
-cells = 2
-equilibration_steps = 100
-steps = 200
-"""
-ABAQUS = """*HEADING
-two bricks
-*NODE, NSET=ALL
-1, 0., 0., 0.
-2, 1., 0., 0.
-3, 1., 1., 0.
-4, 0., 1., 0.
-5, 0., 0., 1.
-6, 1., 0., 1.
-7, 1., 1., 1.
-8, 0., 1., 1.
-9, 0., 0., 2.
-10, 1., 0., 2.
-11, 1., 1., 2.
-12, 0., 1., 2.
-*ELEMENT, TYPE=C3D8R, ELSET=BOX
-1, 1, 2, 3, 4, 5, 6, 7, 8
-2, 5, 6, 7, 8, 9, 10, 11, 12
-*ELSET, ELSET=TOP, GENERATE
-2, 2, 1
-"""
 POINTS = """particle velocity [m/s],shock velocity [m/s]
 500,4685
 1000,5430
 1500,6175
 2000,6920
 """
+
+
+def plan_of(potential):
+    return (DATA / "small_plan.toml").read_text().replace("copper_universal_3", potential)
 
 
 def mesh_case(file, group):
@@ -118,13 +79,12 @@ class Kind:
 def kinds(whipple, base):
     """All kinds. Files that only a program can make (tables, stores, runs) are made once in the folder `base`."""
     made = Base(whipple, base)
-    data = ROOT / "tests" / "data"
     library = sorted((ROOT / "eos" / "materials").glob("*.toml"))
     cases = [path for path in sorted((ROOT / "cases").glob("*/case.toml"))]
 
     def case(folder, chosen):
         if chosen.random() < 0.8:
-            (folder / "case.toml").write_text(SMALL_CASE.format(material="copper.toml"))
+            shutil.copy(DATA / "small_impact.toml", folder / "case.toml")
         else:
             shutil.copy(chosen.choice(cases), folder / "case.toml")
         return [folder / "case.toml"]
@@ -143,8 +103,8 @@ def kinds(whipple, base):
         return prepare
 
     def abaqus(folder, chosen):
-        (folder / "mesh.inp").write_text(ABAQUS)
-        (folder / "case.toml").write_text(mesh_case("mesh.inp", chosen.choice(["BOX", "TOP"])))
+        shutil.copy(DATA / "fem" / "two_bricks.inp", folder / "mesh.inp")
+        (folder / "case.toml").write_text(mesh_case("mesh.inp", chosen.choice(["Lower Box", "upper", "both"])))
         return [folder / "mesh.inp"]
 
     def table(folder, chosen):
@@ -154,13 +114,13 @@ def kinds(whipple, base):
         return [folder / name]
 
     def plan(folder, chosen):
-        (folder / "plan.toml").write_text(PLAN.format(potential="copper_universal_3"))
+        shutil.copy(DATA / "small_plan.toml", folder / "plan.toml")
         return [folder / "plan.toml"]
 
     def potential(folder, chosen):
         source = chosen.choice(made.potentials)
         shutil.copy(source, folder / source.name)
-        (folder / "plan.toml").write_text(PLAN.format(potential=source.name))
+        (folder / "plan.toml").write_text(plan_of(source.name))
         return [folder / source.name]
 
     def of_run(pattern):
@@ -192,12 +152,12 @@ def kinds(whipple, base):
         "case": Kind(case, run, "out"),
         "material": Kind(material, ["eos", "audit", "m.toml"]),
         "plan": Kind(plan, ["md", "plan.toml", "-o", "s.md.h5", "--ranks", "1", "--quiet"]),
-        "ls_dyna": Kind(deck(data / "decks" / "bar_on_plate.k"), ["import", "input.k", *imported], "out"),
-        "mpm3d": Kind(deck(*sorted((data / "decks").glob("*.mpm"))), ["import", "input.mpm", "-o", "out", "--allow-missing", "--units", "m kg s"], "out"),
+        "ls_dyna": Kind(deck(DATA / "decks" / "bar_on_plate.k"), ["import", "input.k", *imported], "out"),
+        "mpm3d": Kind(deck(*sorted((DATA / "decks").glob("*.mpm"))), ["import", "input.mpm", "-o", "out", "--allow-missing", "--units", "m kg s"], "out"),
         "abaqus": Kind(abaqus, run, "out"),
-        "gmsh": Kind(mesh([(path, "plate") for path in sorted((data / "fem").glob("*.msh"))]),
+        "gmsh": Kind(mesh([(path, "plate") for path in sorted((DATA / "fem").glob("*.msh"))]),
                      run, "out"),
-        "vtk": Kind(mesh([(path, "body 0") for path in [*sorted((data / "fem").glob("*.vtu")), *sorted((data / "fem").glob("*.vtk"))]]),
+        "vtk": Kind(mesh([(path, "body 0") for path in [*sorted((DATA / "fem").glob("*.vtu")), *sorted((DATA / "fem").glob("*.vtk"))]]),
                     run, "out"),
         "table": Kind(table, state),
         "potential": Kind(potential, ["md", "plan.toml", "-o", "s.md.h5", "--ranks", "1", "--quiet"]),
@@ -232,13 +192,10 @@ class Base:
         for file, model in (("copper.ses", "sesame"), ("copper.eos.h5", "table")):
             body = re.sub(r"\[eos\].*?(?=\n\[)", f'[eos]\nmodel = "{model}"\nfile = "{file}"\n', text, flags=re.DOTALL)
             (self.folder / (file + ".toml")).write_text(body)
-        (self.folder / "case.toml").write_text(SMALL_CASE.format(material="copper.toml") +
-                                               '[output]\nsnapshot_every = "0.02 us"\ncheckpoint_every = "1 ms"\n')
-        subprocess.run([whipple, "run", "case.toml", "-o", "run", "--threads", "1", "--quiet", "--wall-time", "0.15 s"],
-                       cwd=self.folder, stdout=subprocess.DEVNULL)
+        subprocess.run([whipple, "run", DATA / "small_impact.toml", "-o", "run", "--threads", "1", "--quiet", "--set",
+                        "time.end='0.06 us'", "--wall-time", "0.15 s"], cwd=self.folder, stdout=subprocess.DEVNULL)
         shutil.copy("/usr/share/lammps/potentials/Cu_u3.eam", self.folder)
-        (self.folder / "plan.toml").write_text(PLAN.format(potential="copper_universal_3"))
-        call("md", "plan.toml", "-o", "s.md.h5", "--ranks", "1", "--quiet")
+        call("md", DATA / "small_plan.toml", "-o", "s.md.h5", "--ranks", "1", "--quiet")
 
 
 def damaged(content, chosen):

@@ -78,12 +78,13 @@ def plot_energy(data, top, bottom):
         colour = colours(i / max(1, len(volumes) - 1) * 0.9)
         temperature = table["temperature"][here]
         harmonic = 3.0 * gas_constant * (temperature - temperature.min())
-        top.plot(temperature, (table["datum"][here] * mass - harmonic) / 1e3, "o", ms=4, color=colour,
-                 label=f"{volume / v0:.3f}")
+        # What is left of the energy is small: without its errors the scatter of the volumes would read as a failed fit.
+        top.errorbar(temperature, (table["datum"][here] * mass - harmonic) / 1e3, yerr=table["sigma"][here] * mass / 1e3,
+                     fmt="o", ms=4, lw=0.6, capsize=2, color=colour, label=f"{volume / v0:.3f}")
         top.plot(temperature, (table["fitted"][here] * mass - harmonic) / 1e3, "-", lw=1.0, color=colour)
         bottom.errorbar(temperature, (table["datum"][here] - table["fitted"][here]) * mass / 1e3,
                         yerr=table["sigma"][here] * mass / 1e3, fmt="o", ms=3.5, capsize=2, color=colour)
-    top.set_ylabel("$E - 3RT$ above the coldest (kJ/mol)")
+    top.set_ylabel("anharmonic energy $E - 3RT$ (kJ/mol)")
     top.legend(frameon=False, title="$V/V_0$", fontsize=7)
     bottom.axhline(0.0, color="0.4", lw=0.8)
     bottom.set_ylabel("residual\n(kJ/mol)")

@@ -52,7 +52,28 @@ def command(arguments, ranks):
     return [*map(str, arguments), *OPTIONS, *(["--ranks", str(ranks)] if ranks > 1 else [])]
 
 
-def disturbed(whipple, case, run, ranks, kills, seconds):
+def rows_of(run):
+    """Rows of the history of a run, without its head and what is half written."""
+    try:
+        return max((run / "history.csv").read_bytes().count(b"\n") - 1, 0)
+    except FileNotFoundError:
+        return 0
+
+
+def wait_for_a_moment(process, run, whole, kills_left, seconds):
+    """Waits for a moment of what is left of a run, so that the kills to come find something left too; now and then for one
+    of its start. Steps count, for the time of a step and of the start depends on who else uses the machine."""
+    if random.random() < 0.2:
+        time.sleep(random.uniform(0.0, 0.3) * seconds)
+        return
+    rows, all_rows = rows_of(run), rows_of(whole)
+    row = rows + random.uniform(0.0, 1.0) * (all_rows - rows) / kills_left
+    while process.poll() is None and rows_of(run) < row:
+        time.sleep(0.003)
+    time.sleep(random.uniform(0.0, 2.0) * seconds / max(all_rows, 1))
+
+
+def disturbed(whipple, case, run, ranks, kills, seconds, whole):
     """Runs a case to its end through so many kills; returns how often it was killed while it ran."""
     killed = 0
     for attempt in range(kills + 1):
@@ -61,7 +82,7 @@ def disturbed(whipple, case, run, ranks, kills, seconds):
         call = ["run", "--restart", run] if goes_on else ["run", case, "-o", run, "--force"]
         process = subprocess.Popen([whipple, *command(call, ranks)], stderr=subprocess.PIPE, text=True)
         if attempt < kills:
-            time.sleep(random.uniform(0.2, 1.0) * seconds)
+            wait_for_a_moment(process, run, whole, kills - attempt, seconds)
             victims = [process.pid] + [p for p in processes_below(process.pid) if name_of(p) == "whipple"]
             try:
                 os.kill(random.choice(victims), signal.SIGKILL)
@@ -284,7 +305,7 @@ def main():
         elif options.writers:
             found = two_writers(*what, run, options.ranks)
         else:
-            kills += disturbed(*what, run, options.ranks, options.kills, seconds)
+            kills += disturbed(*what, run, options.ranks, options.kills, seconds, whole)
             found = [f"{run}: {path} is left" for path in run.rglob("*.partial")]
         faults += found
         if not options.writers and end.exists():

@@ -37,6 +37,9 @@ if(WHIPPLE_PYTHON)
   add_test(NAME report COMMAND ${WHIPPLE_PYTHON} -m unittest discover -s report/tests -t .
            WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
   set_tests_properties(report PROPERTIES LABELS fast TIMEOUT 120)
+  if(NOT WHIPPLE_SANITIZE)
+    set_tests_properties(report PROPERTIES ENVIRONMENT "WHIPPLE_FAILING_CALLS=$<TARGET_FILE:failing_calls>")
+  endif()
   foreach(part whole several)
     add_test(NAME io_report.${part} COMMAND ${WHIPPLE_PYTHON} ${PROJECT_SOURCE_DIR}/report/tests/synthetic_cloud.py
              ${CMAKE_CURRENT_BINARY_DIR}/synthetic_cloud_1 $<TARGET_FILE:whipple> ${part})

@@ -86,6 +86,11 @@ if(WHIPPLE_PYTHON)
                        $<TARGET_FILE:failing_calls> ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml
                        ${CMAKE_CURRENT_BINARY_DIR}/injected_faults_${faults} --faults ${faults} ${only})
     endforeach()
+    add_test(NAME restart_read_errors
+             COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/parallel/restart_read_errors.py $<TARGET_FILE:whipple>
+                     $<TARGET_FILE:failing_calls> ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml
+                     ${CMAKE_CURRENT_BINARY_DIR}/restart_read_errors)
+    set_tests_properties(restart_read_errors PROPERTIES LABELS fast TIMEOUT 300)
     set_tests_properties(injected_faults.4 PROPERTIES LABELS fast TIMEOUT 300 COST 20)
     set_tests_properties(injected_faults.500 PROPERTIES LABELS long TIMEOUT 7200 PROCESSORS 2)
   endif()

@@ -39,22 +39,23 @@ double as_written(double value, const std::string& si_unit) {
   return units::parse_quantity(practical_quantity(value, si_unit), si_unit);
 }
 
-double electronic_coefficient(const ElementDefaults& table, const std::string& choice, Sources& sources) {
+double electronic_coefficient(const ElementDefaults& table, const std::optional<std::string>& choice,
+                              Sources& sources) {
   std::vector<std::string> names;
-  if (choice.empty()) {
+  if (!choice) {
     const NamedDefault& entry = table.at("electronic_heat_coefficient");
     sources.by_default(entry);
     return entry.value;
   }
   for (const NamedDefault* entry : table.choices("electronic_heat_coefficient")) {
-    if (entry->name == choice) {
+    if (entry->name == *choice) {
       sources.by_default(*entry);
       return entry->value;
     }
     names.push_back(entry->name);
   }
   try {
-    const double value = units::parse_quantity(choice, "J/(mol K^2)");
+    const double value = units::parse_quantity(*choice, "J/(mol K^2)");
     sources.given("electronic_heat_coefficient", "command line");
     if (value >= 0.0) return value;
   } catch (const InputError&) {
@@ -63,7 +64,7 @@ double electronic_coefficient(const ElementDefaults& table, const std::string& c
   throw InputError(
       fmt::format("electronic heat coefficient '{}': expected {} or a quantity >= 0 such as "
                   "\"0.69 mJ/(mol K^2)\"",
-                  choice, fmt::join(names, ", ")));
+                  *choice, fmt::join(names, ", ")));
 }
 
 void list_constants(Fit& fit, const std::vector<BoundParameter>& table, const Sources& sources) {

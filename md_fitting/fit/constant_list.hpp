@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,10 +37,11 @@ struct Sources {
   static std::string named(const NamedDefault& entry);
 };
 
-/// The electrons of the material by the name of a choice of the element's table (empty: the first), or as a
+/// The electrons of the material by the name of a choice of the element's table (none: the first), or as a
 /// quantity, J/(mol K^2).
 /// @throws InputError naming the choices
-double electronic_coefficient(const ElementDefaults& table, const std::string& choice, Sources& sources);
+double electronic_coefficient(const ElementDefaults& table, const std::optional<std::string>& choice,
+                              Sources& sources);
 
 /// Lists the constants of a bound parameter table in `fit`, each with its error or its source, and rounds
 /// them to what the material file will hold. Covariances and fitted names must be there.

@@ -39,7 +39,7 @@ struct Options {
   std::vector<std::string> outputs;
   std::string model = "gray";
   std::string density;
-  std::string electrons;
+  std::optional<std::string> electrons;
   std::string defaults;
   int bootstrap = 0;
   int samples = 0;

@@ -79,7 +79,8 @@ struct FitSettings {
   bool inflation = true;  ///< model errors grow until chi^2 of each kind of data is what it should be
   WindowChoice windows = WindowChoice::averaged;
   Nuclei nuclei = Nuclei::quantum;
-  std::string electrons;  ///< name of a choice of the element's table, or a quantity; empty: the first choice
+  /// Name of a choice of the element's table, or a quantity; none: the first choice.
+  std::optional<std::string> electrons;
   std::optional<std::filesystem::path> defaults{};  ///< a file of the user with constants of elements
   int bootstrap = 0;                                ///< replicates; 0: none
   std::optional<double> density;  ///< kg/m^3: replaces the fitted reference volume by a measured one

@@ -145,9 +145,10 @@ std::string choose_structure(EamTables& tables, std::optional<CrystalStructure> 
     try {
       const double a = own.static_lattice_constant();
       candidates.push_back({own, a * a * a / own.atoms_per_cell(), own.crystal_energy(a)});
-    } catch (const InputError&) {
+    } catch (const InputError& fault) {
       // A structure for comparison need not exist.
-      if (structure == (stated ? stated : header)) throw;
+      if (structure == (stated ? stated : header))
+        throw InputError(fmt::format("potential {}: {}", name, fault.what()));
     }
   }
   if (candidates.empty()) {

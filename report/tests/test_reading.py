@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Histories, the frame of the impact, and the folder of a run."""
 import math
+import os
 import pathlib
+import subprocess
+import sys
 import tempfile
 import types
 import unittest
 
+import h5py
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -55,6 +59,22 @@ class Histories(unittest.TestCase):
         history = self.history("time [s]," + ",".join(phases) + "\n0,1,0,0,0,2,0,0,0\n1,1,0,0,0,1,1,0,0\n")
         figure = curves.phase_figure(types.SimpleNamespace(history=history, multiplicity=4))
         self.assertEqual([ax.get_title(loc="left") for ax in figure.axes], ["ball: 4000 g", "wall 2: 8000 g"])
+
+
+class Snapshots(unittest.TestCase):
+    @unittest.skipUnless("WHIPPLE_FAILING_CALLS" in os.environ, "the library of failing calls is not built")
+    def test_that_cannot_be_closed_are_an_error_of_the_file(self):
+        reads = ("import sys\nfrom report.files import open_hdf5\ntry:\n    with open_hdf5(sys.argv[1]) as file:\n"
+                 "        print(file['place'][:])\nexcept OSError as error:\n    sys.exit(str(error))\n")
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "snapshot.hdf"
+            with h5py.File(path, "w") as file:
+                file["place"] = [1.0, 2.0]
+            fault = dict(os.environ, LD_PRELOAD=os.environ["WHIPPLE_FAILING_CALLS"], FAULT_CALL="close", FAULT_PATH=folder,
+                         FAULT_NUMBER="1", FAULT_ERRNO="5")
+            result = subprocess.run([sys.executable, "-c", reads, path], env=fault, capture_output=True, text=True, check=False)
+        self.assertEqual((result.returncode, result.stdout), (1, ""))
+        self.assertIn("Input/output error", result.stderr)
 
 
 class Frames(unittest.TestCase):

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <span>
@@ -69,6 +70,22 @@ Profile diameters(const Snapshot& snapshot, const Frame& frame, std::size_t body
   return {std::move(result), upper};
 }
 
+/// Twice the distance from the axis beyond which a thousandth of the mass of a body lies, and half a particle.
+double largest_diameter(const Snapshot& snapshot, const Frame& frame, std::size_t body, double spacing) {
+  std::vector<std::pair<double, double>> places;  // radius, mass
+  double left_out = 0.0;
+  for (std::size_t i = 0; i < snapshot.size(); ++i) {
+    if (snapshot.body[i] != body) continue;
+    places.emplace_back(frame.radius(snapshot.position[i]), snapshot.mass[i]);
+    left_out += 1e-3 * snapshot.mass[i];
+  }
+  std::ranges::sort(places, std::ranges::greater());
+  for (const auto& [radius, mass] : places) {
+    if ((left_out -= mass) < 0.0) return 2.0 * radius + spacing;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
 }  // namespace
 
 Table diameter_profile(const Snapshot& snapshot, const Frame& frame, const Run& run) {
@@ -108,7 +125,9 @@ Quantities bar_measures(const Snapshot& snapshot, const Frame& frame, std::size_
   Quantities row = {
       measured("length", input.name, length),
       measured("foot_diameter", input.name,
-               n < 3 ? nan : (15.0 * d[n - 1] - 10.0 * d[n - 2] + 3.0 * d[n - 3]) / 8.0)};  // parabola
+               n < 3 ? nan : (15.0 * d[n - 1] - 10.0 * d[n - 2] + 3.0 * d[n - 3]) / 8.0),  // parabola
+      measured("contact_diameter", input.name, n < 1 ? nan : d[n - 1]),
+      measured("largest_diameter", input.name, largest_diameter(snapshot, frame, body, input.spacing))};
   if (diameter_at > 0.0) {
     const double x = diameter_at / size - 0.5;  // in layers from the impact end
     const double k = std::clamp(std::floor(x), 0.0, static_cast<double>(n) - 2.0);

@@ -93,6 +93,8 @@ constexpr auto table = std::to_array<Measure>({
     // Bars against a wall.
     {"length.BODY", "m", "length of a bar that flies at a wall: from its end at the wall to the far end", bar_gone},
     {"foot_diameter.BODY", "m", "diameter of a bar at its end at the wall, extrapolated from the three layers of a cell above it", bar_gone},
+    {"contact_diameter.BODY", "m", "diameter of a bar where it lies at the wall: of the circle with the cross-section of the layer of a cell there", bar_gone},
+    {"largest_diameter.BODY", "m", "largest diameter of a bar, which is that of its rim where that curls off the wall: 0.1 % of the mass lies further from the axis", bar_gone},
     {"diameter_at.BODY", "m", "diameter of a bar at the distance from that end that was asked for", "the bar is shorter than that"},
     {"foot_temperature.BODY", "K", "mean temperature of a bar within a particle spacing of that end and two of the axis", bar_gone},
     {"foot_plastic_strain.BODY", "1", "mean plastic strain of a bar within a particle spacing of that end and two of the axis", bar_gone},

@@ -341,6 +341,10 @@ std::vector<double> drawn_diameters(const std::vector<Vector3>& positions, const
       return true;
     });
   }
+  // The cross-section of a ring of thin debris grows without bound: alone, it is not a ball of that width.
+  if (planar) {
+    for (const std::size_t i : left) diameters[i] = std::min(diameters[i], edge);
+  }
   return diameters;
 }
 

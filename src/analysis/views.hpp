@@ -21,7 +21,8 @@ std::vector<std::size_t> shown_snapshots(const std::vector<SnapshotEntry>& entri
 
 /// Computes the diameter (m) of the spheres that stand for points of material of given edges. In debris that has spread,
 /// but whose points are nearer to one another than five edges in the mean, it is their mean distance, so that the
-/// rows of the lattice on which they began do not show as rings; from seven edges on, and in small fragments, it is the edge.
+/// rows of the lattice on which they began do not show as rings; from seven edges on, and in small fragments, it is the
+/// edge, of what is alone in a plane at most the median one.
 /// @param edges  edge (m) of the cube, or square, of each point's material
 std::vector<double> drawn_diameters(const std::vector<Vector3>& positions, const std::vector<double>& edges,
                                     bool planar);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <tuple>
 
@@ -165,6 +166,21 @@ void check_planar(const Case& setup, const Faults& faults) {
   }
 }
 
+/// Adds bodies, and rims of bodies that rotate, that are faster than light: slips of a unit.
+void check_speeds(const Case& setup, const Faults& faults) {
+  constexpr double light = 299792458.0;  // m/s
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    const Body& body = setup.bodies[b];
+    const Faults of_body = faults.in("body").in(b);
+    if (body.velocity.norm() >= light) of_body.add("velocity", "'velocity' is beyond the speed of light");
+    if (body.shape == nullptr) continue;
+    const Shape::Bounds bounds = body.shape->bounds();
+    const double radius = 0.5 * (bounds.upper - bounds.lower).norm();
+    if (std::isfinite(radius) && body.angular_velocity.norm() * radius >= light)
+      of_body.add("angular_velocity", "'angular_velocity' moves the rim beyond the speed of light");
+  }
+}
+
 bool can_be_placed(const Case& setup) {
   return std::ranges::all_of(setup.geometry.cells, [](std::int32_t count) { return count > 0; }) &&
          std::ranges::all_of(setup.bodies, [](const Body& body) { return body.shape != nullptr; });
@@ -181,6 +197,7 @@ std::vector<InputFault> settle(Case& setup) {
   if (setup.bodies.empty()) faults.add("body", "no bodies: expected at least one [[body]]");
   input::check_content(setup, setup, faults);
   if (setup.domain.is_planar()) check_planar(setup, faults);
+  check_speeds(setup, faults);
   check_explosives(setup, faults);
   // Only sound values can be placed.
   if (list.size() > of_files || !can_be_placed(setup)) return list;

@@ -16,8 +16,6 @@ namespace whipple::decks::dyna {
 namespace {
 
 constexpr int deepest_include = 20;
-constexpr std::size_t most_included = std::size_t{1} << 30;  // bytes
-constexpr std::size_t most_includes = 1000;  // files that name the next one twice are 2^19 at that depth
 
 /// Typographic dashes and minus signs, which copied cards hold, in UTF-8.
 constexpr std::array dashes = {"\xE2\x80\x90", "\xE2\x80\x91", "\xE2\x80\x92", "\xE2\x80\x93",
@@ -49,7 +47,7 @@ std::string with_exponent(std::string text) {
 /// Reads the lines of a deck and of the files that it includes.
 class BlockReader {
  public:
-  explicit BlockReader(Deck& deck) : deck_(deck) {}
+  BlockReader(Deck& deck, const IncludeLimits& limits) : deck_(deck), limits_(limits) {}
 
   void read(const std::filesystem::path& file, std::string_view text, int depth) {
     Block block;
@@ -122,17 +120,18 @@ class BlockReader {
       fail(block, "of the keywords *INCLUDE_... none is read: put its file into the deck");
     if (depth >= deepest_include) fail(block, "files include one another too deeply");
     for (const Card& card : block.cards) {
-      if (++included_ > most_includes)
-        fail(block, fmt::format("more than {} files are included", most_includes));
+      if (++included_ > limits_.files)
+        fail(block, fmt::format("more than {} files are included", limits_.files));
       const std::filesystem::path path = std::filesystem::path(block.file).parent_path() / trimmed(card.text);
       const std::string text = deck_text(path);
-      if ((included_bytes_ += text.size()) > most_included)
-        fail(block, fmt::format("more than {} GiB of files are included", most_included >> 30U));
+      if ((included_bytes_ += text.size()) > limits_.bytes)
+        fail(block, fmt::format("files of more than {} bytes are included", limits_.bytes));
       read(path, text, depth + 1);
     }
   }
 
   Deck& deck_;
+  const IncludeLimits& limits_;
   Layout usual_ = Layout::standard;  ///< of keywords without a sign
   std::size_t included_ = 0, included_bytes_ = 0;
 };
@@ -257,10 +256,10 @@ bool recognise(std::string_view text) {
   return false;
 }
 
-Deck parse(const std::filesystem::path& file, std::string_view text) {
+Deck parse(const std::filesystem::path& file, std::string_view text, const IncludeLimits& limits) {
   Deck deck;
   deck.file = file;
-  BlockReader(deck).read(file, text, 0);
+  BlockReader(deck, limits).read(file, text, 0);
   return deck;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -109,9 +110,15 @@ std::string capitals(std::string text);
 /// Returns whether the first keyword of a text is one of LS-DYNA.
 bool recognise(std::string_view text);
 
+/// What the files that a deck includes may be: they may name one another again and again.
+struct IncludeLimits {
+  std::size_t files = 1000;  ///< two lines that name the next file are 2^19 files at the deepest level
+  std::size_t bytes = std::size_t{1} << 30;  ///< of all of them
+};
+
 /// Reads a deck with the files that it includes.
 /// @throws InputError with all faults
-Deck parse(const std::filesystem::path& file, std::string_view text);
+Deck parse(const std::filesystem::path& file, std::string_view text, const IncludeLimits& limits = {});
 
 /// Returns the place of a keyword, and of one of its lines.
 Place place_of(const Block& block);

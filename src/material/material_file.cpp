@@ -83,25 +83,24 @@ constexpr std::array<std::string_view, 8> not_inherited = {
     "name", "source", "note", "provenance", "covariance", "defaults", "default_errors", "potential_spread"};
 constexpr int most_bases = 8;
 
-/// Reads a material file and those that it is based on.
-input::Document read_document(const fs::path& file, int depth = 0) {
-  input::Document document = input::Document::from_file(file);
+/// Takes over the tables of the material that a document is based on, and those of that one's base.
+void inherit_from_base(input::Document& document, int depth = 0) {
   input::Table root = document.root();
   Base of_file;
-  if (!root.read(Base::parameters(), of_file) || of_file.base.empty()) return document;
+  if (!root.read(Base::parameters(), of_file) || of_file.base.empty()) return;
   const auto refuse = [&](const std::string& why) {
     throw InputError(fmt::format("{}: error: 'base' {}", root.where("base"), why));
   };
   fs::path base;
   try {
-    base = find_material(of_file.base, file.parent_path());
+    base = find_material(of_file.base, document.path().parent_path());
   } catch (const InputError& fault) {
     refuse(fault.what());
   }
   if (depth == most_bases) refuse("goes on to more than 8 further materials: is one of them its own?");
-  input::Document inherited = read_document(base, depth + 1);
+  input::Document inherited = input::Document::from_file(base);
+  inherit_from_base(inherited, depth + 1);
   document.inherit(std::move(inherited), "base", not_inherited);
-  return document;
 }
 
 /// A material file whose tables are read and checked, but whose parts are not built yet.
@@ -121,7 +120,8 @@ struct Declared {
 
 Declared declare_file(const fs::path& file,
                       std::span<const std::pair<std::string, std::string>> changes = {}) {
-  input::Document document = read_document(file);
+  input::Document document = input::Document::from_file(file);
+  inherit_from_base(document);
   for (const auto& [key, value] : changes) document.set(key, value);
   input::Table root = document.root();
   Declared declared;
@@ -304,8 +304,10 @@ void require_usable(const Material& material) {
 }
 
 std::string material_text(const fs::path& file) {
-  if (!input::Document::from_file(file).root().has("base")) return read_text(file);
-  return read_document(file).text();
+  input::Document document = input::Document::from_file(file);
+  if (!document.root().has("base")) return read_text(file);
+  inherit_from_base(document);
+  return document.text();
 }
 
 std::vector<LibraryMaterial> library_materials() {

@@ -59,6 +59,7 @@ json last_lines(const fs::path& file, std::size_t lines) {
   std::vector<std::string> all;
   for (std::string line; std::getline(in, line);) all.push_back(line);
   if (size > most && !all.empty()) all.erase(all.begin());  // the rest of a line
+  std::erase_if(all, [](const std::string& line) { return line.find(" debug: ") != std::string::npos; });
   for (std::size_t i = all.size() > lines ? all.size() - lines : 0; i < all.size(); ++i)
     list.push_back(all[i]);
   return list;

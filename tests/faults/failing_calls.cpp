@@ -124,6 +124,10 @@ struct AtExit {
     va_end(more);                                                       \
   }                                                                     \
   return fate(kind, path) == Fate::passes ? real(__VA_ARGS__, mode) : -1
+#define STREAM(name, path, mode)                                 \
+  NEXT(name);                                                    \
+  const char* kind = (mode)[0] == 'r' ? "open_to_read" : "open"; \
+  return fate(kind, path) == Fate::passes ? real(path, mode) : nullptr
 
 extern "C" {
 
@@ -200,13 +204,7 @@ int openat(int folder, const char* path, int flags, ...) {
 int openat64(int folder, const char* path, int flags, ...) {
   OPEN(openat64, kind_of_open(flags), path, flags, folder, path, flags);
 }
-FILE* fopen(const char* path, const char* mode) {
-  NEXT(fopen);
-  return fate(mode[0] == 'r' ? "open_to_read" : "open", path) == Fate::passes ? real(path, mode) : nullptr;
-}
-FILE* fopen64(const char* path, const char* mode) {
-  NEXT(fopen64);
-  return fate(mode[0] == 'r' ? "open_to_read" : "open", path) == Fate::passes ? real(path, mode) : nullptr;
-}
+FILE* fopen(const char* path, const char* mode) { STREAM(fopen, path, mode); }
+FILE* fopen64(const char* path, const char* mode) { STREAM(fopen64, path, mode); }
 
 }  // extern "C"

@@ -31,22 +31,7 @@ TOLERATED = (errno.EINTR, 0)  # these are no errors: the call is to be repeated
 
 NAMES = ["run", "restart", "run on ranks", "restart on ranks", "analyse", "report", "fit", "md", "md on ranks"]
 
-PLAN = """
-title = "small"
-element = "Cu"
-potential = "copper_universal_3"
-[zero_pressure_volume]
-temperature = ["293 K"]
-cells = 2
-equilibration_steps = 100
-steps = 200
-[[isotherm]]
-temperature = "293 K"
-volume_ratio = [1.0, 0.9]
-cells = 2
-equilibration_steps = 100
-steps = 200
-"""
+PLAN = pathlib.Path(__file__).resolve().parents[1] / "data" / "small_plan.toml"
 
 
 class Setting:
@@ -61,7 +46,7 @@ class Setting:
         self.call("run", self.case, "-o", "whole", *self.small)
         if any("restart" in name for name in names):
             self.call("run", self.case, "-o", "stopped", *self.small, "--wall-time", "0.2 s", codes=(0, 124))
-        (self.folder / "plan.toml").write_text(PLAN)
+        shutil.copy(PLAN, self.folder / "plan.toml")
         if "fit" in names:
             self.call("md", "plan.toml", "-o", "half.md.h5", "--ranks", "1", "--quiet")
 

@@ -169,6 +169,10 @@ TEST(Views, SpheresReachTheirNeighboursInThinDebrisOnly) {
   for (Vector3& x : positions) x *= 0.05;
   EXPECT_NEAR(drawn_diameters(positions, edges, false)[555], 1.0, 0.25) << "dense material";
   EXPECT_EQ(drawn_diameters({}, {}, true).size(), 0U);
+  for (Vector3& x : positions) x[2] = 0.0;
+  edges[1000] = 8.0;
+  EXPECT_EQ(drawn_diameters(positions, edges, false)[1000], 8.0) << "thin material in space";
+  EXPECT_EQ(drawn_diameters(positions, edges, true)[1000], 1.0) << "a ring alone";
 }
 
 TEST(Views, AreCloserTogetherAtTheBeginning) {

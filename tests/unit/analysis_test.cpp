@@ -298,6 +298,21 @@ TEST(Bar, LengthAndDiametersOfAConeOnACylinder) {
   EXPECT_DOUBLE_EQ(value(row, "foot_temperature.bar"), 300.0);
 }
 
+TEST(Bar, ARimThatCurlsOffTheWallIsItsLargestDiameterAndNoContact) {
+  constexpr double cell = 0.5e-3;
+  Maker maker(0.5 * cell);
+  const auto radius_at = [](double z) { return z > 1e-3 && z < 1.5e-3 ? 6e-3 : 4e-3; };
+  maker.fill({0, 0, 0}, {8e-3, 8e-3, 20e-3},
+             [&](const Vector3& p) { return std::hypot(p.x(), p.y()) < radius_at(p.z()); }, {0, 0, -200});
+  Frame frame = quarter(200);
+  frame.sign = -1.0;
+  frame.wall = 0.0;
+  const Quantities row =
+      bar_measures(maker.snapshot, frame, 0, {"bar", {0, 0, -200}, 0.5 * cell}, cell, 5e-3, true);
+  EXPECT_NEAR(value(row, "contact_diameter.bar"), 8e-3, 0.06e-3);
+  EXPECT_NEAR(value(row, "largest_diameter.bar"), 12e-3, 0.2e-3);
+}
+
 TEST(Bar, AFootThatStandsBeforeTheWallIsAsWideAndTheBarAsLong) {
   constexpr double cell = 0.5e-3;
   for (const double gap : {0.0, 0.1, 0.2, 0.4, 0.6, 0.8, 0.95, 1.3, 4.0}) {

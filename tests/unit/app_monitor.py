@@ -159,6 +159,7 @@ def check_run(monitor, folder):
     require(described["status"]["step"] == step and rows > 1, f"no step in the pause: {step}, {described['status']}, {rows} rows")
     require(described["answers"][-1]["request"] == "pause" and described["answers"][-1]["answer"] == "accepted", f"{described['answers']}")
     require("A ball" not in described["title"] and described["log"], "title and log")
+    require(not any(" debug: " in line for line in described["log"]), f"what is for developers: {described['log']}")
     status, body = monitor.post("/steer", {"run": "ball", "request": "snapshot_every", "value": "3 s/m"})
     require(status == 400 and b"unit" in body, f"a wrong unit: {status} {body}")
     require(monitor.post("/steer", {"run": "ball", "request": "snapshot_every", "value": "0.01 us"})[0] == 202, "an interval")

@@ -63,6 +63,14 @@ TEST(Case, RefusesCombinationsThatHaveNoMeaning) {
                {"'name' is \"../sphere\"", "letters, digits"});
 }
 
+TEST(Case, NothingIsFasterThanLight) {
+  EXPECT_EQ(error_of(domain + replaced(sphere, "5.55 km/s", "2e5 km/s")), "");
+  expect_error(domain + replaced(sphere, "5.55 km/s", "3e5 km/s"),
+               {"'velocity' is beyond the speed of light"});
+  expect_error(domain + sphere + "angular_velocity = [\"0 rad/s\", \"0 rad/s\", \"1e12 rad/s\"]\n",
+               {"'angular_velocity' moves the rim beyond the speed of light"});
+}
+
 // All particles would be divided in every step, a million times with 20 generations.
 TEST(Case, SplittingShorterThanTheParticlesIsRefused) {
   expect_error(domain + sphere + "[splitting]\nlength = 1e-300\nmaximum_generations = 20\n",

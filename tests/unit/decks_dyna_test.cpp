@@ -420,5 +420,17 @@ TEST_F(DynaImport, FilesThatIncludeOneAnotherAreLimitedInNumber) {
               HasSubstr("more than 1000 files are included"));
 }
 
+TEST_F(DynaImport, FilesThatAreIncludedAreLimitedInTheirSum) {
+  const std::string included = "*KEYWORD\n" + std::string(2048, '$') + "\n";
+  std::ofstream(folder_ / "a.k") << included;
+  const std::string twice = "*KEYWORD\n*INCLUDE\na.k\na.k\n";
+  const auto parse = [&](std::size_t bytes) {
+    static_cast<void>(dyna::parse(folder_ / "deck.k", twice, {.bytes = bytes}));
+  };
+  EXPECT_NO_THROW(parse(2 * included.size()));
+  EXPECT_THAT(message_of<InputError>([&] { parse(2 * included.size() - 1); }),
+              HasSubstr("deck.k:2:1: error: *INCLUDE: files of more than "));
+}
+
 }  // namespace
 }  // namespace whipple::decks

@@ -221,41 +221,10 @@ TEST_F(Gmsh, RefusesElementsThatItCannotComputeWith) {
 
 /// Two hexahedra and a bar of an input of Abaqus: sets by name, by list, by range and of sets; comments, blank lines, lines
 /// that go on, small letters.
-const char* const abaqus_text = R"(** written for this test
-*Heading
- two boxes
-*Node, NSET=all
-1, 0., 0., 0.
-2, 1., 0., 0.
-3, 1., 1., 0.
-4, 0., 1., 0.
- 5, 0., 0., 1.
- 6, 1., 0., 1.
- 7, 1., 1., 1.
- 8, 0., 1., 1.
- 9, 0., 0., 2.
-10, 1., 0., 2.
-11, 1., 1., 2.
-12, 0., 1., 2.
-
-*Element, type=C3D8R, elset="Lower Box"
-1, 1, 2, 3, 4, 5, 6,
-   7, 8
-*ELEMENT, TYPE=C3D8R
-7, 5, 6, 7, 8, 9, 10, 11, 12
-*ELEMENT, TYPE=T3D2, ELSET=bar
-9, 1, 9
-*ELSET, ELSET=upper, GENERATE
-7, 7, 1
-*ELSET, ELSET=both
-lower box, 7
-*Material, name=steel
-*Density
- 7.85e-9,
-)";
+const char* const bricks = "two_bricks.inp";
 
 TEST_F(Gmsh, AbaqusWithoutElementSetsIsOneGroup) {
-  const std::string all = abaqus_text;
+  const std::string all = text_of(bricks);
   std::ofstream(folder_ / "mesh.inp")
       << all.substr(0, all.find("*Element")) << "*Element, type=C3D8\n1, 1,2,3,4,5,6,7,8\n";
   const fem::MeshFile file = fem::MeshFile::read(folder_ / "mesh.inp", 1e-3);
@@ -287,7 +256,7 @@ one hexahedron
 
 TEST_F(Gmsh, AbaqusHasElementSets) {
   const auto read = [&](const std::string& from = "", const std::string& to = "") {
-    std::string text = abaqus_text;
+    std::string text = text_of(bricks);
     if (!from.empty()) text.replace(text.find(from), from.size(), to);
     std::ofstream(folder_ / "mesh.inp") << text;
     return fem::MeshFile::read(folder_ / "mesh.inp", 1e-3);

@@ -227,7 +227,7 @@ TEST_F(FitMaterial, ElectronsAreANamedChoice) {
   const GrayFit given = fit_gray(points, settings, "s");
   EXPECT_DOUBLE_EQ(given.value("electronic_heat_coefficient"), 5e-4);
   EXPECT_EQ(given.constant("electronic_heat_coefficient").origin, Origin::given);
-  for (const char* wrong : {"mesured", "-1e-4", "3 km"}) {
+  for (const char* wrong : {"mesured", "-1e-4", "3 km", ""}) {
     settings.electrons = wrong;
     EXPECT_THROW(fit_gray(points, settings, "s"), InputError) << wrong;
   }
@@ -320,7 +320,7 @@ TEST(ElementDefaults, CopperHoldsThePublishedConstants) {
 // Every metal of the program has what GRAY needs, each number with its source; another one has it from a file.
 TEST_F(FitMaterial, MetalsHaveTheirConstantsFromTheProgramOrAFile) {
   for (const char* metal :
-       {"Ag", "Al", "Au", "Cr", "Cu", "Fe", "Mo", "Nb", "Ni", "Pb", "Pd", "Pt", "Ta", "V", "W"}) {
+       {"Ag", "Al", "Au", "Cr", "Cu", "Fe", "Ir", "Mo", "Nb", "Ni", "Pb", "Pd", "Pt", "Rh", "Ta", "V", "W"}) {
     const ElementDefaults table = elements::element_defaults(metal);
     EXPECT_TRUE(elements::missing_for_gray(table, false).empty()) << metal;
     for (const NamedDefault& entry : table.constants)

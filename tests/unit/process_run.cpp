@@ -7,6 +7,8 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <string>
 #include <thread>
 
 #include "src/core/base/error.hpp"
@@ -106,6 +108,36 @@ TEST(RunProcess, ASupervisorThatDoesNotNoticeTheEndOfItsChildIsKilled) {
   // One that waits for its children is left alone.
   EXPECT_EQ(
       run_process({"sh", "-c", "sleep 0.8 & wait; exit 3"}, {}, {.may_be_killed = true, .patience = 0.5}), 3);
+}
+
+// Ranks may wait for one another in a library, where no signal but KILL ends them.
+TEST(RunProcess, ASupervisorThatDoesNotEndWhenAskedIsKilledWithWhatItStarted) {
+  const std::filesystem::path ready =
+      std::filesystem::temp_directory_path() / ("whipple_signal_" + std::to_string(getpid()) + "deaf");
+  std::filesystem::remove(ready);
+  const std::string script = "trap '' USR2 TERM; sleep 30 & echo $! > '" + ready.string() + ".new'; mv '" +
+                             ready.string() + ".new' '" + ready.string() + "'; wait; sleep 30";
+  const auto begin = std::chrono::steady_clock::now();
+  {
+    const std::jthread sender = signal_when_ready(ready, SIGTERM);
+    EXPECT_EQ(run_process({"sh", "-c", script}, {},
+                          {.end_signal = SIGUSR2, .may_be_killed = true, .patience_with_end = 0.5}),
+              128 + SIGKILL);
+  }
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(15));
+  pid_t started = 0;
+  std::ifstream(ready) >> started;
+  ASSERT_GT(started, 0);
+  // What it started belongs to init now, which may take notice of its end a little later.
+  const auto is_alive = [&] {
+    std::ifstream file("/proc/" + std::to_string(started) + "/stat");
+    std::string number, name, state;
+    file >> number >> name >> state;
+    return !state.empty() && state != "Z";
+  };
+  for (int i = 0; i < 200 && is_alive(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  EXPECT_FALSE(is_alive());
+  std::filesystem::remove(ready);
 }
 
 TEST(Mpirun, FarMoreRanksThanProcessorsAreRefused) {

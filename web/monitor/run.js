@@ -5,12 +5,12 @@ import { plainNumber, quantity } from '/viewer/numbers.js';
 import { Cloud } from './cloud.js';
 import { parts, Plot } from './plot.js';
 import { ask, tell } from './server.js';
-import { answersTable, requests } from './steering.js';
+import { allow, answersTable, requests, wordsOf } from './steering.js';
 
 const POINTS = 1600;
 /** Plots that are there from the beginning: title and the names of their columns. */
 const PLOTS = [
-  ['Energies', ['kinetic_energy', 'internal_energy', 'unresolved_energy', 'total_energy']],
+  ['Energies', ['kinetic_energy', 'internal_energy', 'unresolved_energy', 'outflow_energy', 'total_energy']],
   ['Momentum', ['momentum_x', 'momentum_y', 'momentum_z']],
   ['Masses by phase', ['mass_solid', 'mass_melting', 'mass_liquid', 'mass_vapour', 'failed_mass']],
 ];
@@ -22,6 +22,12 @@ export function duration(seconds) {
   const whole = Math.round(seconds), hours = Math.floor(whole / 3600), minutes = Math.floor(whole % 3600 / 60);
   if (hours > 0) return `${hours} h ${minutes} min`;
   return minutes > 0 ? `${minutes} min ${whole % 60} s` : `${Math.max(whole, LEAST_SECONDS)} s`;
+}
+
+/** Those curves that are not zero all the time; all if there is none. */
+export function worthShowing(curves) {
+  const found = curves.filter((curve) => curve.y.some((value) => value !== null && value !== 0));
+  return found.length > 0 ? found : curves;
 }
 
 const nameOf = (head) => head.replace(/ \[.*/, '');
@@ -65,6 +71,9 @@ export class RunPage {
     if (status.message) facts.push(['message', status.message.split('\n')[0]]);
     this.facts.replaceChildren(...facts.map(([what, value]) => element('span', {}, `${what} `, element('b', {}, value))));
     this.offer(run);
+    allow(this.acts, status.state);
+    if (run.answers.length > (this.answered ?? run.answers.length)) this.tell(wordsOf(run.answers.at(-1)));
+    this.answered = run.answers.length;
     this.log.textContent = run.log.join('\n');
     this.answers.replaceChildren(answersTable(run.answers));
     await Promise.all([this.drawCurves(run), this.cloud.follow(run.snapshots)]);
@@ -98,7 +107,7 @@ export class RunPage {
       if (time === undefined || plots.length === 0) continue;
       const columns = [...new Set(plots.flatMap((each) => each.heads))];
       const curves = await ask('/curves', { run: this.name, table, x: time, y: columns, points: POINTS });
-      for (const { plot, heads: own } of plots) plot.show(own.map((head) => ({ head, ...curves[head] })));
+      for (const { plot, heads: own } of plots) plot.show(worthShowing(own.map((head) => ({ head, ...curves[head] }))));
     }
   }
 

@@ -4,6 +4,22 @@ import { element, labelled } from '/viewer/elements.js';
 import { quantity } from '/viewer/numbers.js';
 import { tell } from './server.js';
 
+/** States in which an act makes no sense: its button is off. */
+const USELESS = { pause: ['paused'], resume: ['running'] };
+
+/** Switches the buttons of acts off that make no sense in a state. @param root  what holds them */
+export function allow(root, state) {
+  for (const [word, states] of Object.entries(USELESS)) {
+    const button = root.querySelector(`[data-act="${word}"]`);
+    if (button) button.disabled = states.includes(state);
+  }
+}
+
+/** What a person reads of the newest answer. */
+export function wordsOf({ request, value, answer, detail }) {
+  return `${request}${value === '' ? '' : ` ${value}`}: ${answer}${detail ? `: ${detail}` : ''}`;
+}
+
 /** Buttons and boxes for the requests that a run accepts. @param tellUser  tells a person what became of it */
 export function requests(run, acts, tellUser) {
   const send = async (word, value) => {

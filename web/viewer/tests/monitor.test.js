@@ -9,10 +9,10 @@ import { test } from 'node:test';
 
 const STAND_INS = {
   'package.json': '{"type": "module"}',
-  'elements.js': 'export const element = () => ({ prepend() {}, replaceChildren() {} });',
+  'elements.js': 'export const element = () => ({ prepend() {}, replaceChildren() {} }), labelled = null, tickBox = null;',
   'panel.js': 'export const panel = () => null, timeBar = () => null;',
   'wpv.js': 'export const fromBase64 = null, unpackCloud = async (cloud) => cloud;',
-  'server.js': 'export const askBytes = async (path, keys) => `${globalThis.answering} ${keys.index}`;',
+  'server.js': 'export const ask = null, tell = null, askBytes = async (path, keys) => `${globalThis.answering} ${keys.index}`;',
   'viewer.js': `export class Viewer {
     constructor(times, cloud, index) { Object.assign(this, { times, cloud, index }); }
     changed() {}
@@ -20,14 +20,20 @@ const STAND_INS = {
   }`,
 };
 
-async function followed() {
+/** A module of the monitor beside the stand-ins and further modules of the viewer. */
+async function monitorModule(module, ...beside) {
   const folder = mkdtempSync(join(tmpdir(), 'whipple_monitor_'));
   const source = (path) => readFileSync(new URL(path, import.meta.url), 'utf8').replaceAll('/viewer/', './');
   for (const [name, text] of Object.entries(STAND_INS)) writeFileSync(join(folder, name), text);
-  writeFileSync(join(folder, 'times.js'), source('../times.js'));
-  writeFileSync(join(folder, 'cloud.js'), source('../../monitor/cloud.js'));
-  const { Cloud } = await import(join(folder, 'cloud.js'));
+  for (const path of beside) writeFileSync(join(folder, path.split('/').at(-1)), source(path));
+  writeFileSync(join(folder, module), source(`../../monitor/${module}`));
+  const made = await import(join(folder, module));
   rmSync(folder, { recursive: true });
+  return made;
+}
+
+async function followed() {
+  const { Cloud } = await monitorModule('cloud.js', '../times.js');
   return new Cloud('disk');
 }
 
@@ -63,4 +69,25 @@ test('opened files stay while the run goes on', async () => {
   await cloud.follow([0, 1, 2]);
   assert.equal(cloud.viewer.cloud, 'file');
   assert.equal(cloud.times.count, 1);
+});
+
+test('requests that a state makes useless have no button, and answers take the place of what was asked', async () => {
+  const { allow, wordsOf } = await monitorModule('steering.js', '../numbers.js');
+  const buttons = { '[data-act="pause"]': {}, '[data-act="resume"]': {} };
+  const root = { querySelector: (which) => buttons[which] };
+  const disabled = (state) => {
+    allow(root, state);
+    return Object.values(buttons).map((button) => button.disabled);
+  };
+  assert.deepEqual(disabled('running'), [false, true]);
+  assert.deepEqual(disabled('paused'), [true, false]);
+  assert.equal(wordsOf({ request: 'end', value: '1 us', answer: 'refused', detail: 'it is past' }), 'end 1 us: refused: it is past');
+  assert.equal(wordsOf({ request: 'pause', value: '', answer: 'accepted', detail: '' }), 'pause: accepted');
+});
+
+test('curves that are zero all the time are left out, unless all are', async () => {
+  const { worthShowing } = await monitorModule('run.js', '../numbers.js', '../times.js', '../../monitor/cloud.js', '../../monitor/plot.js', '../../monitor/steering.js');
+  const solid = { head: 'mass_solid [kg]', y: [1, 1, null] }, vapour = { head: 'mass_vapour [kg]', y: [0, 0, null] };
+  assert.deepEqual(worthShowing([solid, vapour]), [solid]);
+  assert.deepEqual(worthShowing([vapour]), [vapour]);
 });
