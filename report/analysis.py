@@ -25,7 +25,8 @@ DEFINITIONS = [
     ("half angle", "of the cone about the axis whose directions hold 95% of the kinetic energy of the debris"),
     ("residual velocity", "mean axial velocity of what is left of a body (momentum over mass)"),
     ("perforated", "a path leads through the body that no connected, unfailed material of it closes"),
-    ("fragment", "particles of condensed material connected by links of the linking length, by default a cell"),
+    ("fragment", "at least four particles of a body that have not failed, connected by links of the linking length, by default "
+                 "1.5 cells, and the failed particles within that distance of them"),
 ]
 
 

@@ -130,23 +130,24 @@ def expansion_figure(run: Run, bodies: list[str]) -> Figure | None:
 
 
 def piece_figure(run: Run, bodies: list[str]) -> Figure | None:
-    """Draws the number of pieces over their mass of bodies that break, with N exp(-(m/m_c)^b) fitted to it."""
+    """Draws the number of fragments over their mass of bodies that break, with N exp(-(m/m_c)^b) fitted to it."""
     if run.analysis.geometry.planar:
         return None  # a piece of the section is a ring or a bar
     figure, (ax,) = new_figure(1)
     drawn = 0
+    shares = {body: row.get("failed_fraction", 0.0) for body, part, row in run.analysis.bodies if part == "whole"}
     for name in bodies:
-        found = particles_of(run.folder, name)
-        if found is None or "failed" not in found or not found["failed"].any():
+        if not shares.get(name, 0.0) > 0.0:
             continue
-        _, masses, dust, _ = pieces.fragments_of(run.folder, name)
+        masses = pieces.masses_of(run.analysis.tables["fragments"], run.analysis.body_names.index(name))
         exponent, error = pieces.weibull_exponent(masses)
         if not np.isfinite(exponent):
             continue
         colour = style.LINES[drawn % len(style.LINES)]
         mass = np.sort(masses)
         ax.step(units.MILLIGRAMS * mass, len(mass) - np.arange(len(mass)), where="pre", color=colour,
-                label=f"{name}: {len(mass)} pieces, mean {units.mass(mass.mean())}; {units.percent(dust)} of the mass has failed")
+                label=f"{name}: {len(mass)} fragments, mean {units.mass(mass.mean())}; {units.percent(shares[name])} of the mass has "
+                f"failed, {units.percent(run.analysis.quantity(f'loose_fraction.{name}'))} is in no fragment")
         typical = float(((masses ** exponent).mean()) ** (1.0 / exponent))
         along = np.linspace(0.0, mass[-1], 200)
         ax.plot(units.MILLIGRAMS * along, len(mass) * np.exp(-((along / typical) ** exponent)), "--", color=colour,
@@ -155,7 +156,7 @@ def piece_figure(run: Run, bodies: list[str]) -> Figure | None:
     if not drawn:
         plt.close(figure)
         return None
-    ax.set(yscale="log", xlabel="mass m of a piece (mg)", ylabel="pieces of at least m", ylim=(0.7, None))
+    ax.set(yscale="log", xlabel="mass m of a fragment (mg)", ylabel="fragments of at least m", ylim=(0.7, None))
     legend_above(ax, columns=1)
     return figure
 
@@ -171,8 +172,7 @@ def add_to(page: Page, run: Run, add_figure: Callable) -> None:
          f"down to {units.percent(LEAST_MASS)} of each.", mass_figure(run, bodies)),
         ("expansion.png", f"Outer radius about the axis, which {units.percent(OUTER)} of the body's mass exceeds, and its speed from snapshot "
          "to snapshot.", expansion_figure(run, bodies)),
-        ("pieces.png", f"Number of pieces of at least a mass at the last snapshot, N(>m), and N exp(-(m/m_c)^b) fitted to them: connected "
-         f"particles that have not failed, at least {pieces.LEAST} of them within {pieces.LINK:g} cells of one another.",
+        ("pieces.png", "Number of fragments of at least a mass at the last snapshot, N(>m), and N exp(-(m/m_c)^b) fitted to them.",
          piece_figure(run, bodies))) if figure is not None]
     if not found and not figures:
         return

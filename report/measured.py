@@ -92,9 +92,9 @@ class Measures:
         if kind == "history_error":
             from report import measured_history  # takes numpy and matplotlib
             return measured_history.measure(self.folder / "gauges.csv", of, expectation.table)
-        if kind in ("piece_count", "piece_mass", "piece_exponent", "dust_share", "small_piece_share"):
+        if kind == "piece_exponent":
             from report import pieces  # takes numpy
-            return pieces.measure(kind, self.folder, of)
+            return pieces.exponent_of_run(self.folder, of, self.report)
         if kind == "jet_speed":
             return detonation.jet_speed(self.folder, of, expectation.fraction)
         if kind == "jet_gap":

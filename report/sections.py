@@ -192,8 +192,8 @@ class Report:
         fragments = None if analysis.geometry.planar else curves.fragment_figure(analysis)
         if fragments is not None:
             self.page.heading("Fragments of the debris")
-        self._add_figure("fragments.png", "Number of fragments of at least a mass (connected particles of condensed "
-                         "material; fragments cut by symmetry planes are completed).", fragments)
+        self._add_figure("fragments.png", "Number of fragments of at least a mass (connected particles that have not failed, "
+                         "with failed ones beside them; fragments cut by symmetry planes are completed).", fragments)
         self._add_figure("witness.png", "Loads on the witness plate if the debris flies on freely.",
                          curves.loads_figure(analysis, "witness"))
         self._final_table(float(analysis.series["time"][-1]), analysis)
@@ -240,6 +240,8 @@ class Report:
         ]
         if analysis.has_debris:
             tiles.append(("fragments of at least 8 particles", number(final("debris_fragments_resolved"), 6)))
+        tiles += [(f"{name.split('.', 1)[1]} in no fragment", units.percent(value))
+                  for name, value in analysis.final.items() if name.startswith("loose_fraction.") and value > 0.001]
         tiles += [(f"hole of {name.split('.')[1]}", f"{number(units.MILLIMETRES * value)} mm")
                   for name, value in analysis.final.items() if name.startswith("hole_diameter.") and value > 0]
         tiles += [(f"{name.split('.', 1)[1]} perforated", "yes" if value else "no")

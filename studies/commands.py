@@ -3,6 +3,7 @@
 import pathlib
 import subprocess
 import sys
+import tomllib
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 
@@ -13,3 +14,8 @@ def call(command, allowed=(0,)):
     if result.returncode not in allowed:
         sys.exit(f"{' '.join(map(str, command))}\nfailed with code {result.returncode}:\n{result.stdout}{result.stderr}")
     return result
+
+
+def cell_size(folder):
+    """Cell size of a run (m)."""
+    return float(tomllib.loads((folder / "run.toml").read_text(encoding="utf-8"))["domain"]["cell_size"].split()[0])

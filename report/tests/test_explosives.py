@@ -34,7 +34,7 @@ class Section(unittest.TestCase):
             ("x [m]", "y [m]", "z [m]", "velocity_x [m/s]", "velocity_y [m/s]", "velocity_z [m/s]", "pressure [Pa]", "temperature [K]"))
             + "".join(f"\n{time}," + f"0.02,0,0,0,0,0,{pressure},300," + "0.03,0,0,0,0,0,nan,nan"
                       for time, pressure in ((0, 0), (1e-6, 4e9), (2e-6, 2e10), (3e-6, 1e9))))
-        # 99 particles around (10, 0) mm, every tenth of them failed: ten pieces between them.
+        # 99 particles around (10, 0) mm, every tenth of them failed.
         angle = 2 * np.pi * np.arange(99) / 99
         files = []
         for step, radius in enumerate((0.010, 0.012, 0.016)):
@@ -50,7 +50,11 @@ class Section(unittest.TestCase):
         geometry = Geometry(0, 1.0, 1, 2, np.zeros(3), 0.0, "charge")
         self.run = types.SimpleNamespace(folder=self.folder, input={"body": bodies, "detonation": [LINE]},
                                          entries=[(self.folder / f["name"], f["time"]) for f in files],
-                                         analysis=types.SimpleNamespace(geometry=geometry))
+                                         analysis=types.SimpleNamespace(
+                                             geometry=geometry, body_names=["charge", "tube"], quantity=lambda name: 0.01,
+                                             bodies=[("tube", "whole", {"failed_fraction": 0.1})],
+                                             tables={"fragments": {"body": np.ones(5), "mass": 1e-6 * np.arange(8, 13),
+                                                                   "copies": np.full(5, 2.0)}}))
 
     def test_explosives_are_told_by_their_material(self):
         self.assertEqual(explosives.driven_bodies(self.run), ["tube"])
@@ -71,10 +75,10 @@ class Section(unittest.TestCase):
         self.run.input["detonation"] = [{"shape": "point", "position": ["0 m", "0 m", "0 m"]}]
         self.assertEqual(explosives.axis_of_charge(self.run)[0], 0)  # that of the pictures
 
-    def test_pieces_are_those_that_have_not_failed(self):
+    def test_fragments_are_those_of_the_analysis(self):
         steps, fit = explosives.piece_figure(self.run, ["tube"]).axes[0].lines
-        self.assertIn("tube: 10 pieces", steps.get_label())
-        self.assertIn("10 % of the mass has failed", steps.get_label())
+        self.assertIn("tube: 10 fragments", steps.get_label())
+        self.assertIn("10 % of the mass has failed, 1 % is in no fragment", steps.get_label())
         self.assertEqual(fit.get_ydata()[0], 10)
         self.run.analysis.geometry.dimension = "axisymmetric"
         self.assertIsNone(explosives.piece_figure(self.run, ["tube"]))

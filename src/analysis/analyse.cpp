@@ -394,11 +394,15 @@ void analyse(const Run& run, const Options& options, const fs::path& folder) {
     log::warning("the snapshots have no density: no crater, holes, perforation or profile");
   }
   const OutflowHistory outflow(run);
+  const double link = options.link > 0.0 ? options.link : 1.5 * run.cell_size;
   Snapshot last;
+  Fragments fragments;
   Quantities row;
   for (const SnapshotEntry& entry : run.snapshots) {
     last = read_snapshot(entry);
     row = measure(run, start, options, outflow, last);
+    fragments = find_fragments(last, run.bodies, frame, link);
+    append(row, piece_measures(fragments, run.bodies));
     series.append(row);
     if (peaks) peaks->add(last);
     if (arrivals) arrivals->add(last);
@@ -412,19 +416,18 @@ void analyse(const Run& run, const Options& options, const fs::path& folder) {
     append(values, spall_measures(first, last, frame, b, run.bodies[b], start.planar));
     append(values, rod_measures(first, last, b, run.bodies[b], run.cell_size));
   }
-  const double link = options.link > 0.0 ? options.link : run.cell_size;
-  const std::vector<Fragment> fragments = find_fragments(last, frame, link);
-  Quantities of_fragments = fragment_measures(fragments, start.projectile_mass, start.particle_mass);
+  Quantities of_fragments = fragment_measures(fragments.list, start.projectile_mass, start.particle_mass);
   if (frame.is_planar()) {
     for (Quantity& value : of_fragments) {
       value.value = nan;
-      value.reason = "in two dimensions a connected piece of the section is a ring or a bar, no fragment";
+      value.reason = "in two dimensions a piece of the section is a ring or a bar: see piece_count";
     }
   }
   append(values, std::move(of_fragments));
 
   std::vector<Table> tables = {std::move(series), body_table(last, frame, run.bodies),
-                               fragment_table(fragments, frame), fragment_distribution(fragments)};
+                               fragment_table(fragments.list, frame), fragment_distribution(fragments.list)};
+  if (options.by_distance) tables.push_back(pieces_by_distance(last, run.bodies, frame, run.cell_size));
   if (last.scalar("density") != nullptr) tables.push_back(diameter_profile(last, frame, run));
   if (peaks) {
     tables.push_back(peaks->profile(run.cell_size));

@@ -12,7 +12,8 @@
 namespace whipple::analysis {
 
 struct Options {
-  double link = 0.0;               ///< linking length of fragments, m; 0: the cell size
+  double link = 0.0;               ///< linking length of fragments, m; 0: 1.5 cells
+  bool by_distance = false;        ///< also pieces of all particles by distance alone
   std::optional<double> witness;   ///< axial coordinate of a witness plate, m
   std::string loads;               ///< body on whose face the loads are measured; empty: none
   std::optional<double> loads_at;  ///< axial coordinate of a plane on which they are measured instead, m
@@ -29,8 +30,8 @@ struct Options {
 };
 
 /// Measures a run and writes into `folder`: quantities.csv (final values), series.csv (a row per snapshot),
-/// bodies.csv, fragments.csv, fragment_distribution.csv, profile.csv, peak_pressure.csv, witness_*.csv and
-/// loads_*.csv where asked for, and analysis.h5 with all of them, the radiographs and views (docs/manual/output.md).
+/// bodies.csv, fragments.csv, fragment_distribution.csv, profile.csv, pieces_by_distance.csv, peak_pressure.csv,
+/// witness_*.csv and loads_*.csv where asked for, and analysis.h5 with all of them, the radiographs and views (docs/manual/output.md).
 /// @throws InputError if the run has no snapshots, a body of the options is not in it, or the output cannot
 /// be written
 void analyse(const Run& run, const Options& options, const std::filesystem::path& folder);

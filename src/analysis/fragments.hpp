@@ -7,29 +7,52 @@
 #include "src/analysis/frame.hpp"
 #include "src/analysis/table.hpp"
 
-/// Fragments: connected components of the condensed particles (docs/theory/analysis.md, section 3).
+/// Fragments: pieces of bodies that break (docs/theory/analysis.md, section 3).
 namespace whipple::analysis {
 
-/// Components of points closer than `distance` to each other: for every point the least index of its
-/// component. Cell list and concurrent union-find; the result does not depend on the number of threads.
-std::vector<std::uint32_t> connected_components(std::span<const Vector3> points, double distance);
-
 struct Fragment {
-  std::size_t particles = 0;
-  double mass = 0.0;    ///< of the whole fragment; one cut by mirror planes is completed
-  double copies = 1.0;  ///< how many such fragments the full problem has
+  std::size_t particles = 0;  ///< in the model
+  std::size_t intact = 0;     ///< of these have not failed
+  double mass = 0.0;          ///< of the whole fragment; one cut by mirror planes is completed
+  double copies = 1.0;        ///< how many such fragments the full problem has
   Vector3 position = Vector3::Zero(), velocity = Vector3::Zero();
   double temperature = 0.0;      ///< mean by mass, K; NaN if not written
   double melted_fraction = 0.0;  ///< NaN if not written
   double internal_energy = 0.0;  ///< J/kg, NaN if not written
   double volume = 0.0;           ///< m^3 with its voids, 0 if the density was not written
-  std::uint16_t body = 0;        ///< of the largest fraction of the mass
-  bool debris = false;           ///< faster than the threshold of debris
+  std::uint16_t body = 0;
+  bool debris = false;  ///< faster than the threshold of debris
 };
 
-/// Fragments by decreasing mass. Vapour is none: particles of the phase vapour are left out.
-/// @param link distance within which two particles belong together, m
-std::vector<Fragment> find_fragments(const Snapshot& snapshot, const Frame& frame, double link);
+/// Intact particles that a fragment has at least, with their images.
+constexpr double least_particles = 4.0;
+
+/// Sums of a body over the full problem.
+struct OfBody {
+  double pieces = 0.0;
+  double mass = 0.0;       ///< kg, with vapour
+  double connected = 0.0;  ///< kg in fragments
+  double loose = 0.0;      ///< kg of condensed material in none
+};
+
+struct Fragments {
+  std::vector<Fragment> list;   ///< by decreasing mass
+  std::vector<OfBody> of_body;  ///< of each body
+};
+
+/// Finds the fragments of each body. Gases and particles of the phase vapour belong to none.
+/// @param link distance within which intact particles are connected, and a failed one belongs to the nearest of them, m
+Fragments find_fragments(const Snapshot& snapshot, std::span<const BodyInput> bodies, const Frame& frame,
+                         double link);
+
+/// Number and mean mass of the fragments of each body, and the fraction of its mass that belongs to none.
+Quantities piece_measures(const Fragments& fragments, std::span<const BodyInput> bodies);
+
+/// Pieces of each body by distance alone, of particles that have failed or not, for links of 1.25, 1.5 and 2 cells: where the
+/// numbers agree with each other and with that of the fragments, all gaps are open.
+/// @param cell  cell size, m
+Table pieces_by_distance(Snapshot snapshot, std::span<const BodyInput> bodies, const Frame& frame,
+                         double cell);
 
 Table fragment_table(const std::vector<Fragment>& fragments, const Frame& frame);
 

@@ -104,7 +104,10 @@ constexpr auto table = std::to_array<Measure>({
     {"residual_length_ratio.BODY", "1", "length of the part that keeps 0.9 of its initial speed and half of its initial section, from the rear end on, over the initial length", "the first snapshot does not show the body at its initial speed"},
     {"residual_speed_ratio.BODY", "1", "mean speed of that part along the initial direction over the initial speed", "nothing of the body keeps 0.9 of its initial speed"},
     // Fragments.
-    {"debris_fragments", "1", "number of fragments of the debris, single particles included", ""},
+    {"piece_count.BODY", "1", "number of fragments: at least four connected intact particles, with what has failed beside them; in two dimensions of pieces of the section", gone},
+    {"piece_mass.BODY", "kg", "mean mass of the fragments of the body", "the body has no fragments"},
+    {"loose_fraction.BODY", "1", "fraction of its mass in no fragment, without vapour", gone},
+    {"debris_fragments", "1", "number of fragments of the debris", ""},
     {"debris_fragments_resolved", "1", "number of those of at least eight particles", ""},
     {"largest_fragment", "kg", "mass of the largest fragment of the debris", "there is no debris"},
     {"largest_fragment_over_projectile", "1", "mass of the largest fragment of the debris over that of the projectile", "there is no debris"},

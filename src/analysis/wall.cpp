@@ -7,8 +7,8 @@
 #include <optional>
 #include <tuple>
 
-#include "src/analysis/fragments.hpp"
 #include "src/analysis/measures.hpp"
+#include "src/analysis/pieces.hpp"
 #include "src/analysis/surfaces.hpp"
 
 namespace whipple::analysis {

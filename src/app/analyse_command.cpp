@@ -32,8 +32,10 @@ double length(const std::string& text, const char* option) {
 void add_analysis_options(CLI::App& command, AnalysisWords& words) {
   command.add_option("--axis", words.axis, "Axis of the flight (default: along which the bodies approach)")
       ->check(CLI::IsMember({"x", "y", "z"}));
-  command.add_option("--link", words.link, "Linking length of fragments (default: the cell size)")
+  command.add_option("--link", words.link, "Linking length of fragments (default: 1.5 cells)")
       ->type_name("LENGTH");
+  command.add_flag("--by-distance", words.by_distance,
+                   "Also pieces by distance alone, failed or not, for links of 1.25, 1.5 and 2 cells");
   command.add_option("--witness", words.witness, "Axial coordinate of a witness plate, e.g. '200 mm'")
       ->type_name("LENGTH");
   command
@@ -69,6 +71,7 @@ void run_analysis(const std::filesystem::path& run, const AnalysisWords& words,
   analysis::Options options;
   if (!words.axis.empty()) options.axis = words.axis[0] - 'x';
   options.link = length(words.link, "--link");
+  options.by_distance = words.by_distance;
   options.pixel = length(words.pixel, "--pixel");
   options.spot = option_quantity("--spot", words.spot, "m", range::non_negative());
   options.diameter_at = length(words.diameter_at, "--diameter-at");

@@ -12,6 +12,7 @@ namespace whipple::app {
 
 /// The options of the analysis as words, shared by `analyse` and `report`.
 struct AnalysisWords {
+  bool by_distance = false;
   std::string axis, link, witness, loads, diameter_at, peak_decay, pixel, spot = "1 mm";
   std::vector<std::string> attenuation;
   int radiographs = 6;

@@ -117,18 +117,15 @@ class Measures(unittest.TestCase):
         self.assertEqual(detonation.peak_of_gauge(path, "far.pressure"), (300.0, 3.0))
         self.assertTrue(math.isnan(detonation.peak_of_gauge(path, "near.pressure")[0]))
 
-    def test_fragments_are_pieces_of_what_has_not_failed(self):
-        line = np.arange(12)[:, None] * np.array([[0.5e-3, 0.0, 0.0]])
-        failed = np.zeros(12, dtype=int)
-        failed[[5, 6, 7]] = 2
-        write_run(self.folder, line, {"mass": np.full(12, 2.0), "failed": failed})
-        cell, masses, dust, small = pieces.fragments_of(self.folder, "metal", 1.2)
-        self.assertEqual(cell, 1e-3)
-        self.assertEqual(sorted(masses), [8.0, 10.0])
-        self.assertAlmostEqual(dust, 0.25)
-        self.assertEqual(small, 0.0)
-        self.assertEqual(pieces.measure("piece_mass", self.folder, "metal"), 9.0)
-        self.assertTrue(math.isnan(pieces.measure("piece_count", self.folder, "air")))
+    def test_exponent_is_that_of_the_fragments_of_the_body(self):
+        write_run(self.folder, np.zeros((1, 3)), {"mass": np.ones(1)})
+        (self.folder / "report").mkdir()
+        (self.folder / "report/fragments.csv").write_text(
+            "mass [kg],copies [1],body [1]\n" + "".join(f"{m},2,1\n" for m in (1.0, 2.0, 4.0)) + "50,1,0\n")
+        self.assertEqual(sorted(pieces.masses_of_run(self.folder, "metal")), [1.0, 1.0, 2.0, 2.0, 4.0, 4.0])
+        self.assertEqual(len(pieces.masses_of_run(self.folder, "copper")), 0)
+        self.assertEqual(pieces.exponent_of_run(self.folder, "metal"), pieces.weibull_exponent([1, 1, 2, 2, 4, 4])[0])
+        self.assertTrue(math.isnan(pieces.exponent_of_run(self.folder, "air")))
 
 
 class Theory(unittest.TestCase):

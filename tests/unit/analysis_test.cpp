@@ -9,14 +9,11 @@
 #include <fstream>
 #include <iterator>
 #include <numbers>
-#include <numeric>
-#include <random>
 #include <set>
 
 #include "src/analysis/bar.hpp"
 #include "src/analysis/cloud.hpp"
 #include "src/analysis/columns.hpp"
-#include "src/analysis/fragments.hpp"
 #include "src/analysis/measures.hpp"
 #include "src/analysis/surfaces.hpp"
 #include "src/core/base/error.hpp"
@@ -25,99 +22,6 @@
 
 namespace whipple::analysis {
 namespace {
-
-TEST(Fragments, TwoSpheresOfAWholeModel) {
-  Maker maker(0.5e-3);
-  const auto sphere = [](const Vector3& centre, double radius) {
-    return [=](const Vector3& p) { return (p - centre).norm() < radius; };
-  };
-  const Vector3 a(0, 0, 0), b(9e-3, 0, 0), fast(100, 0, 3000), slow(-100, 50, 2000);
-  const Vector3 box = Vector3::Constant(20e-3);
-  maker.fill(-box, box, sphere(a, 4e-3), fast, 0);
-  const std::size_t in_first = maker.snapshot.size();
-  maker.fill(-box, box, sphere(b, 3e-3), slow, 1);
-  maker.add(Vector3(0, 0, 15e-3), fast, 0, 3.0);  // vapour is no fragment
-  Frame frame;
-  frame.impact_speed = 6000.0;
-  // Nominal gap 2 mm, between the outermost lattice points 2.5 mm: linked at 3 mm, apart at 1 mm.
-  EXPECT_EQ(find_fragments(maker.snapshot, frame, 3e-3).size(), 1U);
-  const std::vector<Fragment> found = find_fragments(maker.snapshot, frame, 1e-3);
-  ASSERT_EQ(found.size(), 2U);
-  EXPECT_EQ(found[0].particles, in_first);
-  EXPECT_EQ(found[1].particles, maker.snapshot.size() - 1 - in_first);
-  const double particle = density * std::pow(0.5e-3, 3);
-  EXPECT_NEAR(found[0].mass, static_cast<double>(in_first) * particle, 1e-12 * found[0].mass);
-  EXPECT_LT((found[0].velocity - fast).norm(), 1e-9);
-  EXPECT_LT((found[1].velocity - slow).norm(), 1e-9);
-  EXPECT_LT(found[0].position.norm(), 1e-12);
-  EXPECT_LT((found[1].position - b).norm(), 1e-12);
-  EXPECT_NEAR(found[0].temperature, 300.0, 1e-9);
-  EXPECT_EQ(found[1].body, 1);
-  EXPECT_TRUE(found[0].debris);
-  EXPECT_NEAR(found[0].volume, found[0].mass / density, 1e-12 * found[0].volume);
-}
-
-TEST(Fragments, OneOnTheMirrorPlanesIsWholeOneApartHasCopies) {
-  Maker maker(0.5e-3);
-  const auto everything = [](const Vector3&) { return true; };
-  const Vector3 velocity(10, 20, 1000);
-  maker.fill(Vector3::Zero(), Vector3::Constant(2e-3), everything, velocity);          // on both planes
-  maker.fill({5e-3, 0, 0}, {7e-3, 2e-3, 2e-3}, everything, velocity);                  // on y = 0
-  maker.fill(Vector3::Constant(5e-3), Vector3::Constant(6e-3), everything, velocity);  // on none
-  const std::vector<Fragment> found = find_fragments(maker.snapshot, quarter(), 1e-3);
-  ASSERT_EQ(found.size(), 3U);
-  const double particle = density * std::pow(0.5e-3, 3);
-  EXPECT_NEAR(found[0].mass, 4 * 64 * particle, 1e-15);
-  EXPECT_EQ(found[0].copies, 1.0);
-  EXPECT_LT((found[0].velocity - Vector3(0, 0, 1000)).norm(), 1e-9);
-  EXPECT_NEAR(found[1].mass, 2 * 64 * particle, 1e-15);
-  EXPECT_EQ(found[1].copies, 2.0);
-  EXPECT_LT((found[1].velocity - Vector3(10, 0, 1000)).norm(), 1e-9);
-  EXPECT_NEAR(found[2].mass, 8 * particle, 1e-15);
-  EXPECT_EQ(found[2].copies, 4.0);
-}
-
-TEST(Fragments, ComponentsOfRandomPointsAgreeWithTheDefinitionOnAnyThreads) {
-  std::mt19937_64 random(7);
-  std::uniform_real_distribution<double> coordinate(0.0, 1.0);
-  std::vector<Vector3> points(3000);
-  for (Vector3& p : points) p = {coordinate(random), coordinate(random), coordinate(random)};
-  constexpr double distance = 0.055;
-  // Every label by sweeps over all pairs until nothing changes.
-  std::vector<std::uint32_t> expected(points.size());
-  std::iota(expected.begin(), expected.end(), 0U);
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
-        if ((points[i] - points[j]).norm() >= distance || expected[i] == expected[j]) continue;
-        expected[i] = expected[j] = std::min(expected[i], expected[j]);
-        changed = true;
-      }
-    }
-  }
-  const std::size_t components = std::set(expected.begin(), expected.end()).size();
-  EXPECT_GT(components, 50U);
-  EXPECT_LT(components, 2900U);
-  const int threads = parallel::threads();
-  for (const int n : {1, 2, 4}) {
-    parallel::set_threads(n);
-    EXPECT_EQ(connected_components(points, distance), expected) << n << " threads";
-  }
-  parallel::set_threads(threads);
-}
-
-TEST(Fragments, ExponentOfAPowerLaw) {
-  // Quantiles of N(m) = (m / m0)^-b: m_i = m0 ((i + 1/2) / n)^(-1/b).
-  constexpr double b = 1.06, least = 2e-6;
-  std::vector<std::pair<double, double>> masses;
-  for (int i = 0; i < 4000; ++i) masses.emplace_back(least * std::pow((i + 0.5) / 4000, -1.0 / b), 2.0);
-  masses.emplace_back(0.5 * least, 1.0);  // below the range
-  const Exponent found = distribution_exponent(masses, least);
-  EXPECT_NEAR(found.value, b, 1e-3);
-  EXPECT_EQ(found.count, 8000.0);
-  EXPECT_NEAR(found.error, b / std::sqrt(8000.0), 1e-4);
-}
 
 TEST(Cloud, KnownSpeeds) {
   // Axial speeds uniform over 1 to 3 km/s, a tenth of it outward, from one point: everything is a quantile.

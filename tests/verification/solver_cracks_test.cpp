@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cracks as velocity fields (docs/theory/cracks.md): faces part without an impulse and press when they are pushed together;
 // energy and momentum stay exact with planes, walls and other bodies, in two and three dimensions; a restart needs nothing.
+// A bar that tears takes an energy per area.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "tests/verification/crack_problems.hpp"
 #include "tests/verification/same_state.hpp"
@@ -141,6 +144,88 @@ TEST(Cracks, KeepEnergyAndMomentumBesidePlanesWallsAndOtherBodies) {
   for (const char* dimension : {"plane_strain", "axisymmetric", "3d"}) {
     SCOPED_TRACE(dimension);
     expect_exact(dimension, 3e-6);
+  }
+}
+
+/// Work of the deviator per area of a crack (J/m^2), from the first damage on.
+struct CrackWork {
+  double in_tension = 0.0, in_all = 0.0;
+};
+
+/// Stretches a bar at 4e4 1/s that may tear in `width` cells of its middle, until nearly all of these have failed.
+CrackWork work_of_a_crack(double cell, double width, double energy_per_area) {
+  const std::string solid = aluminium("plain_aluminium", "300 MPa");
+  const std::string tears =
+      aluminium("tearing_aluminium", "300 MPa",
+                fmt::format("[[failure]]\nmodel = \"tearing\"\nsource = \"test\"\nfailure_strain = 0.05\n"
+                            "energy_per_area = \"{} J/m^2\"\n",
+                            energy_per_area));
+  constexpr double height = 2e-3, half_length = 10e-3;
+  const auto part = [&](const char* name, const std::string& material, double from, double to) {
+    return fmt::format(
+        "[[body]]\nname = \"{}\"\nmaterial = \"{}\"\ncontact_group = \"bar\"\nexpansion_rate = [4e4, 0, 0]\n"
+        "shape = {{ box = {{ lower = [{}, 0, -0.001], upper = [{}, {}, 0.001] }} }}\n",
+        name, material, from, to, height);
+  };
+  const double edge = 0.5 * width * cell;
+  solver::Simulation simulation(
+      cases::read_case_text(
+          fmt::format(
+              "[domain]\ndimension = \"plane_strain\"\nlower = [-0.02, -0.004]\nupper = [0.02, 0.006]\n"
+              "cell_size = {}\n[time]\nend = 5e-6\n",
+              cell) +
+              part("left", solid, -half_length, -edge) + part("middle", tears, -edge, edge) +
+              part("right", solid, edge, half_length),
+          "bar.toml"),
+      parallel::world());
+  const Particles& particles = simulation.particles();
+  std::vector<double> strain(particles.size(), 0.0), stress(particles.size(), 0.0);
+  CrackWork work;
+  double failed = 0.0;
+  while (failed < 0.9 && simulation.state().time < 5e-6) {
+    simulation.advance(5e-6);
+    const std::vector<double>& damage = particles.history.scalar("damage");
+    double broken = 0.0, whole = 0.0;
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      const double now = std::sqrt(1.5 * particles.deviatoric_stress[p].squared_norm());
+      if (damage[p] > 0.0) {
+        const double of_step = 0.5 * (now + stress[p]) * (particles.plastic_strain[p] - strain[p]) *
+                               particles.volume[p] / height;
+        work.in_all += of_step;
+        if (particles.pressure[p] <= 0.0) work.in_tension += of_step;
+      }
+      stress[p] = now;
+      strain[p] = particles.plastic_strain[p];
+      if (particles.body[p] == 1) (particles.failed[p] != 0 ? broken : whole) += 1.0;
+    }
+    failed = broken / (broken + whole);
+  }
+  EXPECT_GT(failed, 0.4) << "the bar holds";
+  return work;
+}
+
+// A middle as wide as the band of the law, a cell, takes its energy in tension on three grids. Damaged material that is
+// strained under pressure, as waves come back from the ends, adds a fifth to two fifths.
+TEST(Tearing, OfABarTakesItsEnergyPerAreaOnThreeGrids) {
+  constexpr double energy = 5e3;
+  for (const double cell : {1e-3, 0.5e-3, 0.25e-3}) {
+    const CrackWork work = work_of_a_crack(cell, 1.0, energy);
+    std::printf("cells of %g mm: in tension %.3f, in all %.3f of the energy per area\n", 1e3 * cell,
+                work.in_tension / energy, work.in_all / energy);
+    EXPECT_NEAR(work.in_tension, energy, 0.2 * energy) << cell;
+    EXPECT_LT(work.in_all, 1.5 * energy) << cell;
+  }
+}
+
+// Softening that no lattice holds within a cell spreads to the next one: two cells that may tear take up to twice as much.
+TEST(Tearing, SpreadsOverTwoCells) {
+  constexpr double energy = 5e3;
+  for (const double cell : {1e-3, 0.5e-3}) {
+    const CrackWork work = work_of_a_crack(cell, 2.0, energy);
+    std::printf("cells of %g mm: in tension %.3f, in all %.3f of the energy per area\n", 1e3 * cell,
+                work.in_tension / energy, work.in_all / energy);
+    EXPECT_GT(work.in_tension, 0.8 * energy) << cell;
+    EXPECT_LT(work.in_tension, 2.4 * energy) << cell;
   }
 }
 

@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What belongs to a fragment: failed particles beside intact ones, in made-up sets and against the definition.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numeric>
+#include <random>
+#include <set>
+#include <tuple>
+
+#include "src/analysis/fragments.hpp"
+#include "src/analysis/pieces.hpp"
+#include "src/core/parallel/threads.hpp"
+#include "tests/unit/analysis_support.hpp"
+
+namespace whipple::analysis {
+namespace {
+
+constexpr double cell = 1e-3, half = 0.5e-3;
+const std::vector<BodyInput> one_body(1);
+
+TEST(Fragments, TwoSpheresOfAWholeModel) {
+  Maker maker(0.5e-3);
+  const auto sphere = [](const Vector3& centre, double radius) {
+    return [=](const Vector3& p) { return (p - centre).norm() < radius; };
+  };
+  const Vector3 a(0, 0, 0), b(9e-3, 0, 0), fast(100, 0, 3000), slow(-100, 50, 2000);
+  const Vector3 box = Vector3::Constant(20e-3);
+  maker.fill(-box, box, sphere(a, 4e-3), fast, 0);
+  const std::size_t in_first = maker.snapshot.size();
+  maker.fill(-box, box, sphere(b, 3e-3), slow, 1);
+  maker.add(Vector3(0, 0, 15e-3), fast, 0, 3.0);  // vapour is no fragment
+  Frame frame;
+  frame.impact_speed = 6000.0;
+  const std::vector<BodyInput> bodies(2);
+  EXPECT_EQ(find_fragments(maker.snapshot, bodies, frame, 3e-3).list.size(),
+            2U);  // bodies never are one piece
+  const std::vector<Fragment> found = find_fragments(maker.snapshot, bodies, frame, 1e-3).list;
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].particles, in_first);
+  EXPECT_EQ(found[1].particles, maker.snapshot.size() - 1 - in_first);
+  const double particle = density * std::pow(0.5e-3, 3);
+  EXPECT_NEAR(found[0].mass, static_cast<double>(in_first) * particle, 1e-12 * found[0].mass);
+  EXPECT_LT((found[0].velocity - fast).norm(), 1e-9);
+  EXPECT_LT((found[1].velocity - slow).norm(), 1e-9);
+  EXPECT_LT(found[0].position.norm(), 1e-12);
+  EXPECT_LT((found[1].position - b).norm(), 1e-12);
+  EXPECT_NEAR(found[0].temperature, 300.0, 1e-9);
+  EXPECT_EQ(found[1].body, 1);
+  EXPECT_TRUE(found[0].debris);
+  EXPECT_NEAR(found[0].volume, found[0].mass / density, 1e-12 * found[0].volume);
+}
+
+TEST(Fragments, OneOnTheMirrorPlanesIsWholeOneApartHasCopies) {
+  Maker maker(0.5e-3);
+  const auto everything = [](const Vector3&) { return true; };
+  const Vector3 velocity(10, 20, 1000);
+  maker.fill(Vector3::Zero(), Vector3::Constant(2e-3), everything, velocity);          // on both planes
+  maker.fill({5e-3, 0, 0}, {7e-3, 2e-3, 2e-3}, everything, velocity);                  // on y = 0
+  maker.fill(Vector3::Constant(5e-3), Vector3::Constant(6e-3), everything, velocity);  // on none
+  const std::vector<Fragment> found = find_fragments(maker.snapshot, one_body, quarter(), 1e-3).list;
+  ASSERT_EQ(found.size(), 3U);
+  const double particle = density * std::pow(0.5e-3, 3);
+  EXPECT_NEAR(found[0].mass, 4 * 64 * particle, 1e-15);
+  EXPECT_EQ(found[0].copies, 1.0);
+  EXPECT_LT((found[0].velocity - Vector3(0, 0, 1000)).norm(), 1e-9);
+  EXPECT_NEAR(found[1].mass, 2 * 64 * particle, 1e-15);
+  EXPECT_EQ(found[1].copies, 2.0);
+  EXPECT_LT((found[1].velocity - Vector3(10, 0, 1000)).norm(), 1e-9);
+  EXPECT_NEAR(found[2].mass, 8 * particle, 1e-15);
+  EXPECT_EQ(found[2].copies, 4.0);
+}
+
+TEST(Fragments, ComponentsOfRandomPointsAgreeWithTheDefinitionOnAnyThreads) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> coordinate(0.0, 1.0);
+  std::vector<Vector3> points(3000);
+  for (Vector3& p : points) p = {coordinate(random), coordinate(random), coordinate(random)};
+  constexpr double distance = 0.055;
+  // Every label by sweeps over all pairs until nothing changes.
+  std::vector<std::uint32_t> expected(points.size());
+  std::iota(expected.begin(), expected.end(), 0U);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        if ((points[i] - points[j]).norm() >= distance || expected[i] == expected[j]) continue;
+        expected[i] = expected[j] = std::min(expected[i], expected[j]);
+        changed = true;
+      }
+    }
+  }
+  const std::size_t components = std::set(expected.begin(), expected.end()).size();
+  EXPECT_GT(components, 50U);
+  EXPECT_LT(components, 2900U);
+  const int threads = parallel::threads();
+  for (const int n : {1, 2, 4}) {
+    parallel::set_threads(n);
+    EXPECT_EQ(connected_components(points, distance), expected) << n << " threads";
+  }
+  parallel::set_threads(threads);
+}
+
+TEST(Fragments, ExponentOfAPowerLaw) {
+  // Quantiles of N(m) = (m / m0)^-b: m_i = m0 ((i + 1/2) / n)^(-1/b).
+  constexpr double b = 1.06, least = 2e-6;
+  std::vector<std::pair<double, double>> masses;
+  for (int i = 0; i < 4000; ++i) masses.emplace_back(least * std::pow((i + 0.5) / 4000, -1.0 / b), 2.0);
+  masses.emplace_back(0.5 * least, 1.0);  // below the range
+  const Exponent found = distribution_exponent(masses, least);
+  EXPECT_NEAR(found.value, b, 1e-3);
+  EXPECT_EQ(found.count, 8000.0);
+  EXPECT_NEAR(found.error, b / std::sqrt(8000.0), 1e-4);
+}
+
+/// Particles of a section, two in a cell.
+struct Section {
+  Maker maker{half};
+  Frame frame;
+
+  Section() {
+    frame.dimension = grid::Dimension::plane_strain;
+    maker.snapshot.scalars["failed"] = {};
+  }
+  void add(double x, double y, bool failed = false) {
+    maker.add(Vector3(x, y, 0.0), Vector3(x, 0.0, 0.0));
+    maker.snapshot.scalars["failed"].push_back(failed ? 2.0 : 0.0);
+  }
+  void square(double x, double y, int n, bool failed = false) {
+    for (int i = 0; i < n; ++i) {
+      for (int j = 0; j < n; ++j) add(x + half * i, y + half * j, failed);
+    }
+  }
+  [[nodiscard]] Fragments found(double link = 1.5 * cell) const {
+    return find_fragments(maker.snapshot, one_body, frame, link);
+  }
+};
+
+TEST(Pieces, TwoSquaresPartedByAStringOfFailedParticlesAreTwo) {
+  Section section;
+  section.square(0.0, 0.0, 10);
+  section.square(4.5e-3 + 2.0 * cell, 0.0, 10);
+  for (int j = 0; j < 10; ++j) section.add(4.5e-3 + 0.9 * cell, half * j, true);
+  const Fragments two = section.found();
+  ASSERT_EQ(two.list.size(), 2U);
+  EXPECT_EQ(two.list[0].particles, 110U);  // the string belongs to the nearer face
+  EXPECT_EQ(two.list[0].intact, 100U);
+  EXPECT_EQ(two.list[1].particles, 100U);
+  EXPECT_EQ(two.of_body[0].loose, 0.0);
+  EXPECT_EQ(two.of_body[0].pieces, 2.0);
+  // By distance alone the string connects them.
+  const Table by_distance = pieces_by_distance(section.maker.snapshot, one_body, section.frame, cell);
+  EXPECT_EQ(by_distance["pieces"], (std::vector<double>{1.0, 1.0, 1.0}));
+  EXPECT_EQ(by_distance["link"], (std::vector<double>{1.25, 1.5, 2.0}));
+
+  section.square(40.0 * cell, -30.0 * cell, 5, true);
+  section.square(-40.0 * cell, 3.0 * cell, 1);
+  section.add(-39.0 * cell, 3.0 * cell, true);
+  const Fragments with_loose = section.found();
+  EXPECT_EQ(with_loose.list.size(), 2U);
+  const double particle = section.maker.snapshot.mass[0];
+  EXPECT_NEAR(with_loose.of_body[0].loose, 27.0 * particle,
+              1e-9 * particle);  // an intact one alone is no fragment
+  EXPECT_NEAR(with_loose.of_body[0].connected, 210.0 * particle, 1e-9 * particle);
+  const Quantities row = piece_measures(with_loose, one_body);
+  EXPECT_EQ(row[0].value, 2.0);
+  EXPECT_NEAR(row[1].value, 105.0 * particle, 1e-9 * particle);
+  EXPECT_NEAR(row[2].value, 27.0 / 237.0, 1e-12);
+}
+
+TEST(Pieces, FailedParticlesOnAMirrorPlaneConnectNothing) {
+  Section section;
+  section.frame.planes = {{0, 0.0}};
+  section.square(1.25e-3, 0.0, 6);
+  for (int j = 0; j < 6; ++j) section.add(0.25e-3, half * j, true);  // a crack in the plane
+  const Fragments apart = section.found();
+  ASSERT_EQ(apart.list.size(), 1U);
+  EXPECT_EQ(apart.list[0].copies, 2.0);
+  EXPECT_EQ(apart.list[0].particles, 42U);
+  EXPECT_EQ(apart.of_body[0].pieces, 2.0);
+  EXPECT_NEAR(apart.list[0].velocity.x(), apart.list[0].position.x(), 1e-15);
+
+  // Two particles and their images are four.
+  Section pair;
+  pair.frame.planes = {{0, 0.0}};
+  pair.add(0.25e-3, 0.0);
+  pair.add(0.25e-3, half);
+  EXPECT_EQ(pair.found().list.size(), 1U);
+  EXPECT_EQ(pair.found().of_body[0].pieces, 1.0);
+  pair.frame.planes.clear();
+  EXPECT_TRUE(pair.found().list.empty());
+}
+
+TEST(Pieces, AGasHasNone) {
+  Section section;
+  section.square(0.0, 0.0, 10);
+  std::vector<BodyInput> gas(1);
+  gas[0].name = "gas";
+  gas[0].condensed = false;
+  const Fragments found = find_fragments(section.maker.snapshot, gas, section.frame, 1.5 * cell);
+  EXPECT_TRUE(found.list.empty());
+  EXPECT_TRUE(std::isnan(piece_measures(found, gas)[0].value));
+}
+
+/// Points on a fine lattice, so that equal distances are exactly equal, whatever is added to all of them.
+struct Cloud {
+  std::vector<Vector3> points;
+  std::vector<bool> failed;
+};
+
+Cloud random_cloud(unsigned seed, bool flat) {
+  std::mt19937_64 random(seed);
+  std::uniform_int_distribution<int> coordinate(0, flat ? 400 : 100), of_ten(0, 9);
+  Cloud cloud;
+  for (int i = 0; i < 1200; ++i) {
+    Vector3 place(coordinate(random), coordinate(random), flat ? 0 : coordinate(random));
+    if (i % 300 == 0) place *= i % 600 == 0 ? 50.0 : -50.0;  // beyond all others
+    cloud.points.push_back(place / 1024.0);
+    cloud.failed.push_back(i % 300 == 0 || of_ten(random) < 4);
+  }
+  return cloud;
+}
+
+/// Pieces by the words of the definition, from all pairs.
+std::vector<std::uint32_t> by_definition(const Cloud& cloud, double distance) {
+  const std::size_t n = cloud.points.size();
+  const auto apart = [&](std::size_t i, std::size_t j) { return (cloud.points[i] - cloud.points[j]).norm(); };
+  std::vector<std::uint32_t> piece(n, loose);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    if (cloud.failed[i] || piece[i] != loose) continue;
+    std::vector<std::size_t> reached{i};
+    piece[i] = i;
+    while (!reached.empty()) {
+      const std::size_t k = reached.back();
+      reached.pop_back();
+      for (std::size_t j = 0; j < n; ++j) {
+        if (cloud.failed[j] || piece[j] != loose || !(apart(k, j) < distance)) continue;
+        piece[j] = i;
+        reached.push_back(j);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!cloud.failed[i]) continue;
+    std::vector<std::size_t> near;
+    for (std::size_t j = 0; j < n; ++j) {
+      if (!cloud.failed[j] && apart(i, j) < distance) near.push_back(j);
+    }
+    const auto least = std::ranges::min_element(near, {}, [&](std::size_t j) {
+      const Vector3& p = cloud.points[j];
+      return std::tuple((p - cloud.points[i]).squaredNorm(), p.x(), p.y(), p.z());
+    });
+    if (least != near.end()) piece[i] = piece[*least];
+  }
+  return piece;
+}
+
+TEST(Pieces, OfRandomPointsAgreeWithTheDefinitionInAnyOrderPlaceAndThreads) {
+  const int threads = parallel::threads();
+  for (const bool flat : {true, false}) {
+    for (unsigned seed = 1; seed <= 3; ++seed) {
+      const Cloud cloud = random_cloud(seed, flat);
+      const double distance = flat ? 0.0105 : 0.009;
+      const std::vector<std::uint32_t> expected = by_definition(cloud, distance);
+      const std::size_t pieces = std::set(expected.begin(), expected.end()).size();
+      EXPECT_GT(pieces, 50U);
+      EXPECT_LT(pieces, 1100U);
+      EXPECT_GT(std::ranges::count(expected, loose), 4);
+      for (const int n : {1, 2, 4}) {
+        parallel::set_threads(n);
+        EXPECT_EQ(pieces_of(cloud.points, cloud.failed, distance), expected) << n << " threads";
+      }
+      parallel::set_threads(threads);
+
+      Cloud shifted = cloud;
+      for (Vector3& p : shifted.points) p += Vector3(17.0, -3.0, 0.5);
+      EXPECT_EQ(pieces_of(shifted.points, cloud.failed, distance), expected);
+
+      std::vector<std::size_t> order(cloud.points.size());
+      std::iota(order.begin(), order.end(), std::size_t{0});
+      std::ranges::shuffle(order, std::mt19937_64(seed));
+      Cloud shuffled;
+      for (const std::size_t i : order) {
+        shuffled.points.push_back(cloud.points[i]);
+        shuffled.failed.push_back(cloud.failed[i]);
+      }
+      const std::vector<std::uint32_t> found = pieces_of(shuffled.points, shuffled.failed, distance);
+      std::map<std::uint32_t, std::uint32_t> name;  // of a piece in one order, by that in the other
+      for (std::size_t k = 0; k < order.size(); ++k) {
+        const std::uint32_t other = name.try_emplace(expected[order[k]], found[k]).first->second;
+        EXPECT_EQ(found[k], other);
+        EXPECT_EQ(found[k] == loose, expected[order[k]] == loose);
+      }
+      EXPECT_EQ(std::set(found.begin(), found.end()).size(), pieces);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace whipple::analysis
