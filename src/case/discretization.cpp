@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "src/case/case.hpp"
+#include "src/core/base/text.hpp"
 #include "src/transfer/shape_function.hpp"
 
 namespace whipple::cases {
@@ -176,6 +177,11 @@ void Discretization::check(const Case& setup, const Faults& faults) const {
   if (lattice == Arrangement::layered) check_layers(*this, setup, faults);
   if (has_elements() || is_bars()) {
     check_elements(*this, setup, faults);
+  }
+  if (utf8(mesh) != mesh) {  // run.toml holds the path, and texts of TOML are UTF-8
+    faults.add("mesh",
+               fmt::format("'mesh' is {}: a run could not name this file again: rename what is not UTF-8",
+                           utf8(mesh)));
   }
   if (mesh.empty() && !group.empty()) {
     faults.add("group", "'group' names a group of a mesh file: give 'mesh' as well");

@@ -120,13 +120,28 @@ class BlockReader {
       fail(block, "of the keywords *INCLUDE_... none is read: put its file into the deck");
     if (depth >= deepest_include) fail(block, "files include one another too deeply");
     for (const Card& card : block.cards) {
+      const std::string name = trimmed(card.text);
+      if (name.empty()) continue;
       if (++included_ > limits_.files)
         fail(block, fmt::format("more than {} files are included", limits_.files));
-      const std::filesystem::path path = std::filesystem::path(block.file).parent_path() / trimmed(card.text);
-      const std::string text = deck_text(path);
+      const std::filesystem::path path = std::filesystem::path(block.file).parent_path() / name;
+      const std::string text = included_text(block, card, path);
       if ((included_bytes_ += text.size()) > limits_.bytes)
         fail(block, fmt::format("files of more than {} bytes are included", limits_.bytes));
       read(path, text, depth + 1);
+    }
+  }
+
+  /// What is wrong with a file is wrong with the card that names it.
+  static std::string included_text(const Block& block, const Card& card, const std::filesystem::path& path) {
+    try {
+      return deck_text(path);
+    } catch (const InputError& error) {
+      std::string reason = error.what();
+      constexpr std::string_view mark = ": error: ";
+      if (const std::size_t at = reason.find(mark); at != std::string::npos)
+        reason.replace(at, mark.size(), ": ");
+      fail(block, card.line, reason);
     }
   }
 

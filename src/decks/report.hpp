@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <compare>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -32,7 +31,6 @@ struct Place {
   std::string file;   ///< that the deck includes; empty: the deck
 
   Place(unsigned line, std::string file = {}) : line(line), file(std::move(file)) {}
-  auto operator<=>(const Place&) const = default;
 };
 
 struct Remark {

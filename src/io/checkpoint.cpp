@@ -7,6 +7,7 @@
 #include <charconv>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <string_view>
 #include <system_error>
 
@@ -268,6 +269,36 @@ void remove_old_generations(const fs::path& folder, std::int64_t step) {
   }
 }
 
+/// Reads what is of this rank, without communication.
+Checkpoint read_share(const fs::path& path, const Ranks& ranks) {
+  const hdf5::File file = hdf5::File::open(path);
+  Checkpoint checkpoint;
+  checkpoint.path = path;
+  read_points(file.root.open_group("particles"), checkpoint.particles, ranks);
+  const std::vector<std::string> groups = file.root.names();
+  if (std::ranges::find(groups, "meshes") != groups.end()) {
+    checkpoint.meshes = read_meshes(file.root.open_group("meshes"), ranks);
+  }
+  if (std::ranges::find(groups, "bars") != groups.end()) {
+    checkpoint.bars = read_bars(file.root.open_group("bars"), ranks);
+  }
+  checkpoint.values = read_values(file.root.open_group("values"));
+  checkpoint.values.source = path.string();
+  return checkpoint;
+}
+
+/// The checkpoints that the root sees, for all ranks: they try the same ones. Collective.
+std::vector<fs::path> list_together(const fs::path& folder, const Ranks& ranks) {
+  std::string names;
+  ranks.on_root([&] {
+    for (const fs::path& path : list_checkpoints(folder)) names += path.filename().string() + '\n';
+  });
+  std::istringstream lines(ranks.broadcast(names));
+  std::vector<fs::path> paths;
+  for (std::string name; std::getline(lines, name);) paths.push_back(folder / name);
+  return paths;
+}
+
 template <class Map>
 const typename Map::mapped_type& find(const Map& map, const std::string& name, const std::string& source) {
   const auto entry = map.find(name);
@@ -327,26 +358,15 @@ fs::path write_checkpoint(const fs::path& folder, std::int64_t step, const Parti
 Checkpoint read_checkpoint(const fs::path& path, MPI_Comm communicator) {
   const Ranks ranks(communicator);
   ranks.on_root([&] { require_seal(path); });
-  const hdf5::File file = hdf5::File::open(path);
   Checkpoint checkpoint;
-  checkpoint.path = path;
-  read_points(file.root.open_group("particles"), checkpoint.particles, ranks);
-  const std::vector<std::string> groups = file.root.names();
-  if (std::ranges::find(groups, "meshes") != groups.end()) {
-    checkpoint.meshes = read_meshes(file.root.open_group("meshes"), ranks);
-  }
-  if (std::ranges::find(groups, "bars") != groups.end()) {
-    checkpoint.bars = read_bars(file.root.open_group("bars"), ranks);
-  }
-  checkpoint.values = read_values(file.root.open_group("values"));
-  checkpoint.values.source = path.string();
+  ranks.on_all([&] { checkpoint = read_share(path, ranks); });
   return checkpoint;
 }
 
 Checkpoint read_latest_checkpoint(const fs::path& folder, MPI_Comm communicator) {
   const Ranks ranks(communicator);
   std::string reasons;
-  for (const fs::path& path : list_checkpoints(folder)) {
+  for (const fs::path& path : list_together(folder, ranks)) {
     try {
       Checkpoint checkpoint = read_checkpoint(path, communicator);
       if (!reasons.empty() && ranks.is_root()) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/io/ranks.hpp"
 
+#include <algorithm>
 #include <exception>
 #include <new>
 #include <numeric>
@@ -9,6 +10,44 @@
 #include "src/core/base/resource_error.hpp"
 
 namespace whipple::io {
+namespace {
+
+/// Runs `work`. @returns nothing, or what it threw as a text: the kind of error, which must survive the way to other
+/// ranks, as its first character
+std::string outcome_of(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const std::bad_alloc&) {
+    return "m";
+  } catch (const StateError& error) {
+    return std::string("s") + error.what();
+  } catch (const ResourceError& error) {
+    return std::string("r") + error.what();
+  } catch (const std::exception& error) {
+    return (exit_code(error) == ExitCode::input ? "i" : "d") + std::string(error.what());
+  }
+  return {};
+}
+
+/// Throws what an outcome tells of.
+void rethrow(const std::string& outcome) {
+  if (outcome.empty()) return;
+  const std::string text = outcome.substr(1);
+  switch (outcome[0]) {
+    case 'i':
+      throw InputError(text);
+    case 'm':
+      throw std::bad_alloc();
+    case 's':
+      throw StateError(text);
+    case 'r':
+      throw ResourceError(text);
+    default:
+      throw InternalError(text);
+  }
+}
+
+}  // namespace
 
 Ranks::Ranks(MPI_Comm communicator) : communicator_(communicator) {
   int initialised = 0;
@@ -34,38 +73,24 @@ hdf5::Slab Ranks::slab(std::uint64_t count) const {
           std::accumulate(counts.begin(), counts.end(), std::uint64_t{0})};
 }
 
-std::string Ranks::broadcast(std::string text) const {
+std::string Ranks::broadcast(std::string text, int source) const {
   if (!is_parallel()) return text;
   std::uint64_t length = text.size();
-  MPI_Bcast(&length, 1, MPI_UINT64_T, 0, communicator_);
+  MPI_Bcast(&length, 1, MPI_UINT64_T, source, communicator_);
   text.resize(length);
-  MPI_Bcast(text.data(), static_cast<int>(length), MPI_CHAR, 0, communicator_);
+  MPI_Bcast(text.data(), static_cast<int>(length), MPI_CHAR, source, communicator_);
   return text;
 }
 
 void Ranks::on_root(const std::function<void()>& work) const {
-  // The kind of error must survive the way to the other ranks: a first character tells an InputError and
-  // exhausted memory from a defect.
-  std::string outcome;
-  if (is_root()) {
-    try {
-      work();
-    } catch (const std::bad_alloc&) {
-      outcome = "m";
-    } catch (const std::exception& error) {
-      const ExitCode code = exit_code(error);
-      outcome = std::string(code == ExitCode::input   ? "i"
-                            : code == ExitCode::state ? "s"
-                                                      : "d") +
-                error.what();
-    }
-  }
-  outcome = broadcast(outcome);
-  if (outcome.empty()) return;
-  if (outcome[0] == 'i') throw InputError(outcome.substr(1));
-  if (outcome[0] == 'm') throw std::bad_alloc();
-  if (outcome[0] == 's') throw ResourceError(outcome.substr(1));
-  throw InternalError(outcome.substr(1));
+  rethrow(broadcast(is_root() ? outcome_of(work) : std::string()));
+}
+
+void Ranks::on_all(const std::function<void()>& work) const {
+  const std::string outcome = outcome_of(work);
+  const std::vector<std::uint64_t> failed = gather(outcome.empty() ? 0 : 1);
+  const auto first = std::ranges::find(failed, 1U);
+  if (first != failed.end()) rethrow(broadcast(outcome, static_cast<int>(first - failed.begin())));
 }
 
 SharedPartialFile::SharedPartialFile(const std::filesystem::path& target, const Ranks& ranks) {

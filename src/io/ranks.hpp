@@ -33,11 +33,13 @@ class Ranks {
   [[nodiscard]] std::vector<std::uint64_t> gather(std::uint64_t value) const;
   /// The rows of an array of which this rank holds so many, after those of the ranks before. Collective.
   [[nodiscard]] hdf5::Slab slab(std::uint64_t count) const;
-  /// The root's text on every rank. Collective.
-  [[nodiscard]] std::string broadcast(std::string text) const;
-  /// Runs `work` on the root; if it throws there, every rank throws an InputError of the same text.
-  /// Collective.
+  /// The text of one rank, the root, on every rank. Collective.
+  [[nodiscard]] std::string broadcast(std::string text, int source = 0) const;
+  /// Runs `work` on the root; if it throws there, every rank throws an error of the same kind and text. Collective.
   void on_root(const std::function<void()>& work) const;
+  /// Runs `work`, which does not communicate, on every rank; if it throws on some, every rank throws an error of the kind
+  /// and text of the first of them: none goes on and waits for the others. Collective.
+  void on_all(const std::function<void()>& work) const;
 
  private:
   MPI_Comm communicator_;

@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 #include <mpi.h>
 
+#include <new>
 #include <numeric>
 
 #include "src/core/base/error.hpp"
+#include "src/core/base/resource_error.hpp"
 #include "src/core/hdf5/hdf5.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/particle_series.hpp"
@@ -86,6 +88,24 @@ TEST_F(RanksTest, damage_is_recognised_on_every_rank) {
   EXPECT_EQ(read_latest_checkpoint(folder_).path.filename(), "checkpoint.00000001.h5");
 }
 
+// Every rank opens the file for itself: what one of them cannot read, none does, and all take the older one.
+TEST_F(RanksTest, an_error_of_reading_on_one_rank_is_an_error_of_all) {
+  write_checkpoint(folder_, 1, share(random_bits(100, 12)), {});
+  const fs::path newest = write_checkpoint(folder_, 2, share(random_bits(100, 13)), {});
+  const fs::path other = folder_ / "other";
+  ranks_.on_root([&] {
+    fs::create_directory(other);
+    for (const char* name : {"checkpoint.00000001.h5", "checkpoint.00000002.h5"})
+      fs::copy_file(folder_ / name, other / name);
+    fs::resize_file(other / newest.filename(), fs::file_size(newest) / 2);
+  });
+  const bool is_last = ranks_.rank() + 1 == ranks_.count();
+  const fs::path folder = is_last ? other : folder_;
+  EXPECT_THAT(message_of<InputError>([&] { (void)read_checkpoint(folder / newest.filename()); }),
+              ::testing::HasSubstr((other / newest.filename()).string()));
+  EXPECT_EQ(read_latest_checkpoint(folder).path.filename(), "checkpoint.00000001.h5");
+}
+
 TEST_F(RanksTest, a_snapshot_has_one_partition_per_rank) {
   const Particles all = random_bits(100'000, 14);
   SeriesOptions options{.folder = folder_,
@@ -124,6 +144,24 @@ TEST_F(RanksTest, an_error_of_the_root_is_an_error_of_all) {
               "disk full");
   EXPECT_THAT(message_of<InternalError>([&] { ranks_.on_root([] { throw std::runtime_error("odd"); }); }),
               "odd");
+  EXPECT_THAT(message_of<StateError>([&] { ranks_.on_root([] { throw StateError("hot"); }); }), "hot");
+  EXPECT_THAT(message_of<ResourceError>([&] { ranks_.on_root([] { throw ResourceError("full"); }); }),
+              "full");
+  EXPECT_THROW(ranks_.on_root([] { throw std::bad_alloc(); }), std::bad_alloc);
+}
+
+TEST_F(RanksTest, of_errors_of_several_ranks_all_throw_the_first) {
+  const int own = ranks_.rank(), last = ranks_.count() - 1;
+  EXPECT_NO_THROW(ranks_.on_all([] {}));
+  EXPECT_THAT(
+      message_of<InputError>([&] { ranks_.on_all([&] { throw InputError("of " + std::to_string(own)); }); }),
+      "of 0");
+  EXPECT_THAT(message_of<ResourceError>([&] {
+                ranks_.on_all([&] {
+                  if (own == last) throw ResourceError("of the last");
+                });
+              }),
+              "of the last");
 }
 
 }  // namespace

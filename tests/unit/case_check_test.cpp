@@ -61,6 +61,16 @@ TEST(CaseInCode, BodiesThatTouchMayHaveUnknownMaterials) {
   EXPECT_EQ(keys_of(check(setup)), (Keys{"body.0.material", "body.1.material"}));
 }
 
+TEST(CaseInCode, AMeshThatRunTomlCannotNameIsRefused) {
+  Case setup = ball_in_box();
+  setup.bodies[0].shape = nullptr;
+  setup.bodies[0].discretization.mesh = "/folder \xff/ball.msh";
+  const std::vector<InputFault> faults = check(setup);
+  const auto found = std::ranges::find(faults, "body.0.discretization.mesh", &InputFault::key);
+  ASSERT_NE(found, faults.end());
+  EXPECT_NE(found->text.find("rename what is not UTF-8"), std::string::npos) << found->text;
+}
+
 TEST(CaseInCode, FaultsAreListedWithTheirKeys) {
   Case setup = ball_in_box();
   setup.domain.cell_size = 0.0;

@@ -244,6 +244,16 @@ TEST_F(DynaImport, OfAnIncludedFileWithAByteOrderMark) {
   EXPECT_THAT(import_deck(folder_ / "deck.k", in_mpa).case_text, HasSubstr("end = \"0.0005 ms\""));
 }
 
+TEST_F(DynaImport, OfAnIncludedFileThatIsMissingNamesTheCard) {
+  std::ofstream(folder_ / "deck.k") << "*KEYWORD\n*INCLUDE\n\n  none.k\n";
+  EXPECT_EQ(
+      message_of<InputError>([&] { static_cast<void>(import_deck(folder_ / "deck.k", in_mpa)); }),
+      fmt::format("{0}/deck.k:4:1: error: *INCLUDE: {0}/none.k: there is no such file", folder_.string()));
+  std::ofstream(folder_ / "blank.k") << replaced(text_of("base.k"), "*NODE\n", "*INCLUDE\n \n*NODE\n");
+  EXPECT_NO_THROW(static_cast<void>(import_deck(folder_ / "blank.k", in_mpa)))
+      << "a blank card names no file";
+}
+
 TEST_F(DynaImport, OfAnIncludedFileIsRemarkedWithItsName) {
   std::ofstream(folder_ / "part.k") << "*MAT_ADD_EROSION\n1\n";
   std::ofstream(folder_ / "deck.k") << replaced(text_of("base.k"), "*NODE\n", "*INCLUDE\npart.k\n*NODE\n");
