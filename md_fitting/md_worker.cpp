@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "md_fitting/elements/element_defaults.hpp"
+#include "md_fitting/elements/needs.hpp"
 #include "md_fitting/lammps/empty_working_folder.hpp"
 #include "md_fitting/plan/plan.hpp"
 #include "md_fitting/protocols/budget.hpp"
@@ -35,6 +36,7 @@ struct Options {
   std::string store;
   bool retry_failed = false;
   bool describe = false;
+  bool of_material = false;
   bool quiet = false;
   bool verbose = false;
 };
@@ -80,8 +82,11 @@ void report_estimate(const Plan& plan, const std::vector<Task>& tasks, const Pot
 /// Tells before the work what a fit of GRAY will not find in the store, and where it will come from.
 void report_what_a_fit_lacks(const Plan& plan) {
   const bool melts = !plan.coexistences.empty();
+  const bool boils =
+      plan.liquid_vapour && plan.liquid_vapour->temperature.size() >= elements::least_saturations;
   const elements::ElementDefaults table = elements::element_defaults(plan.element);
-  const std::vector<std::string> missing = elements::missing_for_gray(table, melts);
+  const std::vector<std::string> missing =
+      elements::missing_constants(elements::FitModel::gray, table, {.melting = melts, .vapour = boils});
   if (!missing.empty()) {
     log::warning(
         "a fit of GRAY will lack {} of {}: neither these points nor the program know them; give them to it "
@@ -93,7 +98,10 @@ void report_what_a_fit_lacks(const Plan& plan) {
   }
   std::vector<std::string> defaults = {"heat of the electrons"};
   if (!melts) defaults.emplace_back("melting temperature (no [[coexistence]])");
-  if (!plan.liquid_vapour) defaults.emplace_back("vapour (no [liquid_vapour])");
+  if (!boils) {
+    defaults.push_back(
+        fmt::format("vapour (no [liquid_vapour] of {} temperatures)", elements::least_saturations));
+  }
   log::info("whipple fit will take from the table of {} what these points do not determine: {}", plan.element,
             fmt::join(defaults, ", "));
 }
@@ -201,7 +209,7 @@ int run_plan(const Options& options) {
   }
   if (rank == 0) {
     of_plan([&] {
-      report_what_a_fit_lacks(plan);
+      if (!options.of_material) report_what_a_fit_lacks(plan);
       report_estimate(plan, tasks, potential, store);
     });
   }
@@ -231,6 +239,8 @@ int body(int argc, char** argv) {
   app.add_flag("--retry-failed", options.retry_failed, "Compute points again that failed in an earlier call");
   app.add_flag("--describe", options.describe,
                "Print every key of a plan with unit, range, default and meaning");
+  // Of md_fitting/simulated_crystal: its points are for a material of the model md, and no fit.
+  app.add_flag("--of-material", options.of_material, "Say nothing of a fit")->group("");
   app.add_flag("--quiet", options.quiet, "Warnings and errors only");
   app.add_flag("--verbose", options.verbose, "More detail");
   app.footer("Example:\n  mpirun -n 2 whipple-md cases/md/copper_mishin_short.toml -o copper.md.h5");

@@ -46,7 +46,7 @@ def figure(history: History) -> Figure | None:
         ax.set_ylabel(label)
         low, high = ax.get_ylim()
         if high - low < least:
-            middle = (low + high) / 2 if quantity == "temperature" else 0.0
+            middle = (low + high) / 2 if max(abs(low), abs(high)) >= least / 2 else 0.0
             ax.set_ylim(middle - least / 2, middle + least / 2)
         ax.ticklabel_format(axis="y", useOffset=False)
     if len(gauges) <= FEW:

@@ -58,8 +58,9 @@ MAY_USE = {
     "md_fitting/plan": ["src/core/base", "src/core/input"],
     "md_fitting/lammps": ["src/core/base", "md_fitting/data_set"],
     "md_fitting/protocols": ["src/core/base", "eos", "md_fitting/data_set", "md_fitting/plan", "md_fitting/lammps"],
-    "md_fitting/fit": ["src/core/base", "src/core/input", "src/core/process", "eos", "md_fitting/data_set", "md_fitting/elements",
-                       "md_fitting/plan"],
+    # Copies strength and failure from materials of the library.
+    "md_fitting/fit": ["src/core/base", "src/core/input", "src/core/process", "eos", "src/material", "md_fitting/data_set",
+                       "md_fitting/elements", "md_fitting/plan"],
     # The program whipple-md.
     "md_fitting": ["src/core/base", "md_fitting/elements", "md_fitting/data_set", "md_fitting/plan", "md_fitting/lammps", "md_fitting/protocols"],
     # The program whipple: it starts the other two, so of their side it knows the plan's keys and the source that asks

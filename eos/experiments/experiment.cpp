@@ -246,9 +246,9 @@ void set_points(Experiment& experiment, const MeasuredTable& table, const Measur
     experiment.temperatures.push_back(stated(temperatures, i, nan));
   }
   if (order.empty()) throw InputError(fmt::format("{}: no compressed state in it", experiment.file.string()));
-  for (const std::string& heading : table.unknown_errors()) {
+  for (const std::string& heading : table.unused_errors()) {
     experiment.remarks.push_back(
-        fmt::format("column \"{}\" is not used: it is the error of no quantity known here", heading));
+        fmt::format("column \"{}\" is not used: it is the error of no column that is", heading));
   }
 }
 

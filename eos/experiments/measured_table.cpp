@@ -195,6 +195,7 @@ MeasuredTable MeasuredTable::read(const std::filesystem::path& file) {
     table.lines_.push_back(number);
   }
   if (table.cells_.empty()) throw InputError(fmt::format("{}: no rows of data", file.string()));
+  table.assign_errors();
   return table;
 }
 
@@ -221,8 +222,17 @@ MeasuredTable::Column MeasuredTable::understand(const std::string& heading, int 
   const auto fits_column = [](std::string_view unit, const Spelling& known, const Spelt& found) {
     return fits(unit, known.si_unit) || (found.is_error && unit == percent);
   };
-  const auto column = [&](const Spelling& known, const Spelt& found, std::optional<std::string> unit) {
-    return Column{heading, known.quantity, found.spelling, found.is_error, std::move(unit)};
+  const auto column = [&](const Spelling& known, const Spelt& found, std::string_view name,
+                          std::optional<std::string> unit) {
+    Column made{heading, known.quantity, found.spelling, found.is_error, std::move(unit)};
+    const std::string bare = plain(name);
+    made.word = found.is_error ? std::string(subject_of_error(bare)) : bare;
+    for (const Spelling& other : spellings) {
+      const auto same = spelt(name, other);
+      if (same && same->is_error == found.is_error && (!made.unit || fits_column(*made.unit, other, *same)))
+        made.could_be.push_back(other.quantity);
+    }
+    return made;
   };
   const Column unknown{heading, std::nullopt, 0, false, std::nullopt};
   const std::size_t bracket = heading.find_first_of("[(");
@@ -232,7 +242,7 @@ MeasuredTable::Column MeasuredTable::understand(const std::string& heading, int 
     for (const Spelling& known : spellings) {
       const auto found = spelt(name, known);
       if (!found) continue;
-      if (fits_column(unit, known, *found)) return column(known, *found, unit);
+      if (fits_column(unit, known, *found)) return column(known, *found, name, unit);
       if (plain(name).size() > 1 && !found->is_error) {
         throw InputError(fmt::format("{}:{}: column '{}': '{}' is no unit of the kind '{}'", file_.string(),
                                      line, heading, unit, known.si_unit));
@@ -243,7 +253,8 @@ MeasuredTable::Column MeasuredTable::understand(const std::string& heading, int 
   for (const Spelling& known : spellings) {
     const auto found = spelt(heading, known);
     if (found && found->spelling != other_scale)
-      return column(known, *found, known.si_unit.empty() ? std::optional<std::string>("") : std::nullopt);
+      return column(known, *found, heading,
+                    known.si_unit.empty() ? std::optional<std::string>("") : std::nullopt);
   }
   // "up_km_s": the shortest ending that is a unit, so that P_revised_ruby_GPa is a P_revised_ruby.
   for (const Spelling& known : spellings) {
@@ -252,10 +263,11 @@ MeasuredTable::Column MeasuredTable::understand(const std::string& heading, int 
       std::string unit = heading.substr(at + 1);
       std::ranges::replace(unit, '_', '/');
       unit = unit_text(unit);
-      const auto found = spelt(heading.substr(0, at), known);
+      const std::string name = heading.substr(0, at);
+      const auto found = spelt(name, known);
       const bool needs_one = !known.si_unit.empty() || (found && found->is_error);
       if (found && !unit.empty() && needs_one && fits_column(unit, known, *found))
-        return column(known, *found, unit);
+        return column(known, *found, name, unit);
     }
   }
   return unknown;
@@ -272,9 +284,13 @@ bool MeasuredTable::take_units(const std::vector<std::string>& cells) {
     if (read_number(unit, number) && unit != "-") return false;
     Column& column = with_units[i];
     if (!column.quantity) continue;
-    const Spelling& known = spelling_of(*column.quantity);
-    if (!fits(unit_text(unit), known.si_unit) && !(column.is_error && unit == percent)) return false;
     column.unit = unit_text(unit);
+    if (!column.is_error || unit != percent) {
+      std::erase_if(column.could_be,
+                    [&](Quantity quantity) { return !fits(*column.unit, spelling_of(quantity).si_unit); });
+      if (column.could_be.empty()) return false;
+      column.quantity = column.could_be.front();
+    }
     any = true;
   }
   columns_ = std::move(with_units);
@@ -342,28 +358,61 @@ std::vector<double> MeasuredTable::numbers(Quantity quantity) const {
   return column ? numbers(*column) : std::vector<double>();
 }
 
-std::vector<double> MeasuredTable::errors(Quantity quantity) const {
-  for (std::size_t i = 0; i < columns_.size(); ++i) {
-    if (columns_[i].quantity != quantity || !columns_[i].is_error) continue;
-    std::vector<double> values = numbers(i);
-    if (columns_[i].unit != percent) return values;
-    const std::vector<double> whole = numbers(quantity);
-    for (std::size_t row = 0; row < values.size(); ++row) {
-      values[row] *= whole.empty() ? std::numeric_limits<double>::quiet_NaN() : std::abs(whole[row]);
+void MeasuredTable::assign_errors() {
+  for (Column& error : columns_) {
+    if (!error.is_error) continue;
+    const auto has = [&](Quantity quantity, bool of_this_word) {
+      return std::ranges::any_of(columns_, [&](const Column& column) {
+        return column.quantity == quantity && !column.is_error &&
+               (!of_this_word || column.word == error.word);
+      });
+    };
+    for (const bool of_this_word : {true, false}) {
+      const auto present = std::ranges::find_if(
+          error.could_be, [&](Quantity quantity) { return has(quantity, of_this_word); });
+      if (present == error.could_be.end()) continue;
+      error.quantity = *present;
+      break;
     }
-    return values;
   }
-  return {};
 }
 
-std::vector<std::string> MeasuredTable::unknown_errors() const {
+std::optional<std::size_t> MeasuredTable::find_errors(Quantity quantity) const {
+  const auto whole = find(quantity);
+  if (!whole) return std::nullopt;
+  std::optional<std::size_t> of_no_other;
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    const Column& error = columns_[i];
+    if (error.quantity != quantity || !error.is_error) continue;
+    if (error.word == columns_[*whole].word) return i;
+    const bool of_another = std::ranges::any_of(columns_, [&](const Column& column) {
+      return column.quantity == quantity && !column.is_error && column.word == error.word;
+    });
+    if (!of_another && !of_no_other) of_no_other = i;
+  }
+  return of_no_other;
+}
+
+std::vector<double> MeasuredTable::errors(Quantity quantity) const {
+  const auto column = find_errors(quantity);
+  if (!column) return {};
+  std::vector<double> values = numbers(*column);
+  if (columns_[*column].unit != percent) return values;
+  const std::vector<double> whole = numbers(quantity);
+  for (std::size_t row = 0; row < values.size(); ++row) values[row] *= std::abs(whole[row]);
+  return values;
+}
+
+std::vector<std::string> MeasuredTable::unused_errors() const {
   std::vector<std::string> found;
-  for (const Column& column : columns_) {
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    const Column& column = columns_[i];
     const std::string bare = plain(column.heading);
-    const bool of_error =
+    const bool unknown =
+        !column.quantity &&
         std::ranges::any_of(std::array{"err", "sigma", "uncert", "\u00b1"},
                             [&](const char* word) { return bare.find(word) != std::string::npos; });
-    if (!column.quantity && of_error) found.push_back(column.heading);
+    if (unknown || (column.is_error && find_errors(*column.quantity) != i)) found.push_back(column.heading);
   }
   return found;
 }

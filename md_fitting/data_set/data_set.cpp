@@ -135,10 +135,10 @@ FileLock lock_store(const std::filesystem::path& path) {
   return {beside(path, ".lock"), fmt::format("the store {}", path.string()), FileLock::IfHeld::wait};
 }
 
-/// Gives a store the content of a file in memory. @throws InputError; then the old content stands
-void replace_store(const std::filesystem::path& path, hdf5::File& file) {
+/// Gives a store another content. @throws InputError; then the old content stands
+void replace_store(const std::filesystem::path& path, const std::string& bytes) {
   try {
-    replace_durably(path, beside(path, ".part"), file.close_as_bytes());
+    replace_durably(path, beside(path, ".part"), bytes);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}; the points stored so far are safe", error.what()));
   }
@@ -293,7 +293,9 @@ void normalise_store(const std::filesystem::path& path) {
     const hdf5::Group points = file.root.open_group("points");
     for (const PointRecord& point : records) write_point(points, point);
   }
-  replace_store(path, file);
+  const std::string bytes = file.close_as_bytes();
+  if (bytes != read_text(path))
+    replace_store(path, bytes);  // a call that had nothing to compute writes nothing
 }
 
 bool append_point(const std::filesystem::path& path, const PointRecord& point) {
@@ -316,7 +318,7 @@ bool append_point(const std::filesystem::path& path, const PointRecord& point) {
     }
     write_point(points, point);
   }
-  replace_store(path, file);
+  replace_store(path, file.close_as_bytes());
   return true;
 }
 

@@ -90,7 +90,7 @@ struct ElementWords {
             .optional("that of the program, or the symbol"),
         whipple::text("template", &ElementWords::template_name,
                       "material of the library with strength and failure")
-            .optional("the one named as the metal, if there is one")};
+            .optional("no strength and failure")};
     return table;
   }
 };
@@ -157,7 +157,9 @@ Contents read_contents(const std::filesystem::path& file) {
     ElementWords words;
     table.read(ElementWords::parameters(), words);
     contents.elements.push_back(
-        {words.symbol, words.metal, words.template_name, read_rows(table.list("constant"), sources)});
+        {words.symbol, words.metal,
+         words.template_name.empty() ? std::nullopt : std::optional(words.template_name),
+         read_rows(table.list("constant"), sources)});
   }
   document.finish();
   return contents;
@@ -181,8 +183,8 @@ void apply(ElementDefaults& table, const Contents& contents) {
   replace(table.constants, contents.common);
   for (const ElementDefaults& entry : contents.elements) {
     if (entry.element != table.element) continue;
-    if (!entry.metal.empty()) table.metal = table.template_name = entry.metal;
-    if (!entry.template_name.empty()) table.template_name = entry.template_name;
+    if (!entry.metal.empty()) table.metal = entry.metal;
+    if (entry.template_name) table.template_name = entry.template_name;
     replace(table.constants, entry.constants);
   }
 }
@@ -233,17 +235,6 @@ std::vector<std::string> known_elements() {
   std::vector<std::string> symbols;
   for (const ElementDefaults& entry : of_the_program().elements) symbols.push_back(entry.element);
   return symbols;
-}
-
-std::vector<std::string> missing_for_gray(const ElementDefaults& table, bool melting_is_simulated) {
-  std::vector<std::string> missing;
-  for (const char* parameter : {"electronic_heat_coefficient", "join_volume_ratio"}) {
-    if (table.find(parameter) == nullptr) missing.emplace_back(parameter);
-  }
-  if (!melting_is_simulated && table.find("melting_temperature") == nullptr)
-    missing.emplace_back("melting_temperature");
-  if (table.find(boiling) == nullptr && table.find(attraction) == nullptr) missing.emplace_back(boiling);
-  return missing;
 }
 
 std::string describe_elements() {

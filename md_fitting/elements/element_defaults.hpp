@@ -31,11 +31,10 @@ struct NamedDefault {
 };
 
 struct ElementDefaults {
-  std::string element;  ///< chemical symbol
-  std::string metal;    ///< English name
-  std::string
-      template_name{};  ///< material of the library with its strength and failure; empty: none is known
-  std::vector<NamedDefault> constants{};  ///< of several of one parameter the first is the default
+  std::string element;                         ///< chemical symbol
+  std::string metal;                           ///< English name
+  std::optional<std::string> template_name{};  ///< material of the library with its strength and failure
+  std::vector<NamedDefault> constants{};       ///< of several of one parameter the first is the default
 
   /// The default of a parameter, if there is one.
   [[nodiscard]] const NamedDefault* find(std::string_view parameter) const;
@@ -54,9 +53,6 @@ ElementDefaults element_defaults(std::string_view element,
 
 /// Symbols of the program's table.
 std::vector<std::string> known_elements();
-
-/// Parameters without which there is no fit of GRAY; the temperature of melting only if the store determines none.
-std::vector<std::string> missing_for_gray(const ElementDefaults& table, bool melting_is_simulated);
 
 /// Says which constants an element lacks, and the remedy.
 std::string missing_text(std::string_view element, const std::vector<std::string>& parameters);

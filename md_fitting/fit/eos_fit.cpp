@@ -272,6 +272,10 @@ void run(const Options& options) {
     } else {
       model = options.template_file;
     }
+    if (model && !has_strength(*model)) {
+      log::warning("{}: without strength, a fluid, as {}; --template FILE names another", files[i].string(),
+                   model->string());
+    }
     const auto found = spreads.find(fit.element);
     const std::optional<PotentialSpread> spread =
         found == spreads.end() ? std::nullopt : std::optional(found->second);

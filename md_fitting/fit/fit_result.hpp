@@ -2,8 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "md_fitting/elements/element_defaults.hpp"
+#include "md_fitting/elements/needs.hpp"
 #include "md_fitting/fit/bootstrap.hpp"
 #include "md_fitting/fit/cross_validation.hpp"
 #include "md_fitting/fit/fit_settings.hpp"
@@ -21,6 +20,8 @@ namespace whipple::fit {
 
 enum class Origin { fitted, given, by_default };
 using elements::Evidence;
+using elements::fit_models;
+using elements::FitModel;
 
 /// One numerical constant of the material.
 struct Constant {
@@ -81,16 +82,6 @@ struct ModelCheck {
   int points = 0;
   double rms = 0.0, mean = 0.0, maximum = 0.0;  ///< model less molecular dynamics
 };
-
-/// Equations of state that can be fitted, and their names in the catalogue.
-enum class FitModel { gray, mie_gruneisen, debye_gruneisen };
-constexpr std::array<std::pair<std::string_view, FitModel>, 3> fit_models = {
-    {{"gray", FitModel::gray},
-     {"mie_gruneisen", FitModel::mie_gruneisen},
-     {"debye_gruneisen", FitModel::debye_gruneisen}}};
-constexpr std::string_view name_of(FitModel model) {
-  return fit_models[static_cast<std::size_t>(model)].first;
-}
 
 struct Fit {
   FitModel model = FitModel::gray;

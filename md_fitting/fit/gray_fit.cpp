@@ -26,45 +26,57 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using eos::GrayConstants;
 
-constexpr std::size_t least_saturations = 2;
-
 /// V_J/V0 is a choice for each element. Where the fitted constants have no complete material with it, or no
 /// melt at the simulated melting point, one near it is taken: these steps from it, in this order.
 constexpr std::array join_steps = {0.0, -0.05, 0.05, -0.1, 0.1};
 
+bool has_vapour(const Observations& data) { return data.saturation.size() >= elements::least_saturations; }
+
+/// Takes what is not fitted of the vapour from the table: it boils there, or attracts, or is left to saturated densities.
+void fix_vapour(GrayConstants& constants, const ElementDefaults& table, Sources& sources) {
+  const bool boils = table.find("vapour_attraction") == nullptr;
+  const char* const parameter = boils ? "boiling_temperature" : "vapour_attraction";
+  const NamedDefault* entry = table.find(parameter);
+  if (entry == nullptr) return;
+  constants.vapour = boils ? eos::VapourCondition::boiling : eos::VapourCondition::attraction;
+  number_of(constants, parameter) = entry->value;
+  sources.by_default(*entry);
+}
+
 /// Everything that is not fitted.
 /// @param join_step  from the table's V_J/V0
-SolidConstants fixed_constants(const Observations& data, const FitSettings& settings, double join_step,
-                               Sources& sources) {
-  const ElementDefaults table = elements::element_defaults(data.element, settings.defaults);
-  const auto missing = elements::missing_for_gray(table, !data.melting.empty());
+SolidStart fixed_constants(const Observations& data, const ElementDefaults& table,
+                           const FitSettings& settings, double join_step, Sources& sources) {
+  const auto missing = elements::missing_constants(FitModel::gray, table,
+                                                   {.melting = !data.melting.empty(),
+                                                    .vapour = has_vapour(data),
+                                                    .electrons = !settings.electrons.empty()});
   if (!missing.empty()) throw InputError(elements::missing_text(table.element, missing));
-  SolidConstants solid = fixed_solid(data);
-  GrayConstants& constants = solid.gray;
+  SolidStart start{fixed_solid(data), {}};
+  GrayConstants& constants = start.constants.gray;
   sources.given("molar_mass", "the store");
   sources.given("reference_temperature",
                 "temperature of the fitted volume and ahead of the simulated shocks");
   sources.entries["reference_energy"] = {Origin::by_default,
                                          "\"zero\": energies count from the reference state"};
   constants.melting = settings.melting;
-  const bool boils = table.find("vapour_attraction") == nullptr;
-  constants.vapour = boils ? eos::VapourCondition::boiling : eos::VapourCondition::attraction;
   for (const char* parameter :
        {"hugoniot_quadratic", "hugoniot_cubic", "electronic_gruneisen", "melting_entropy",
-        "liquid_heat_coefficient", "hot_liquid_ratio", "covolume_ratio", "join_shape", "join_volume_ratio",
-        boils ? "boiling_temperature" : "vapour_attraction"}) {
+        "liquid_heat_coefficient", "hot_liquid_ratio", "covolume_ratio", "join_shape", "join_volume_ratio"}) {
     const NamedDefault& entry = table.at(parameter);
     number_of(constants, parameter) = entry.value;
     sources.by_default(entry);
   }
+  fix_vapour(constants, table, sources);
   constants.join_volume_ratio += join_step;
   constants.electronic_heat_coefficient = electronic_coefficient(table, settings.electrons, sources);
   const NamedDefault* melting = table.find("melting_temperature");
   if (melting == nullptr && !data.melting.empty()) melting = table.find("melting_point");
-  if (melting == nullptr) melting = &table.at("melting_temperature");
-  constants.melting_temperature = melting->value;
-  sources.by_default(*melting);
-  return solid;
+  if (melting != nullptr) {
+    start.melting_temperature = melting->value;
+    sources.by_default(*melting);
+  }
+  return start;
 }
 
 SolidModel gray_model(const Observations& data) {
@@ -109,7 +121,7 @@ void append(GrayFit& fit, const VapourFit& vapour) {
 
 void add_vapour(GrayFit& fit, const Observations& data) {
   if (data.saturation.empty()) return;
-  if (data.saturation.size() < least_saturations) {
+  if (!has_vapour(data)) {
     fit.remarks.emplace_back(
         "saturated densities at one temperature only: a_y and V_J stay at their defaults");
     return;
@@ -138,7 +150,7 @@ BootstrapResult bootstrap_gray(std::span<const md::PointRecord> points, const So
                                const FitSettings& settings, const std::string& store_name) {
   const auto constants = [&](std::span<const md::PointRecord> drawn) {
     Observations data = observe(drawn, settings, {}, store_name);
-    remove_superheated(data, fit.constants.gray, store_name);
+    remove_superheated(data, fit.constants.gray, fit.superheating, store_name);
     const SolidConstants found = refit_solid(data, fit);
     Eigen::VectorXd values(static_cast<Index>(fit.model.free.size()));
     for (std::size_t k = 0; k < fit.model.free.size(); ++k)
@@ -177,7 +189,8 @@ GrayFit fit_with_join(std::span<const md::PointRecord> points, const FitSettings
                       const std::string& store_name, double join_step) {
   Observations data = observe(points, settings, {}, store_name);
   Sources sources;
-  const SolidConstants fixed = fixed_constants(data, settings, join_step, sources);
+  const ElementDefaults table = elements::element_defaults(data.element, settings.defaults);
+  const SolidStart fixed = fixed_constants(data, table, settings, join_step, sources);
   const SolidModel model = gray_model(data);
   GrayFit fit;
   fit.solid = fit_solid(std::move(data), model, fixed, settings, store_name);
@@ -190,6 +203,10 @@ GrayFit fit_with_join(std::span<const md::PointRecord> points, const FitSettings
   fit.statistical_covariance = solid.statistical_covariance;
   add_structure_remark(fit, points, solid.data);
   add_vapour(fit, solid.data);
+  if (fit.gray.vapour == eos::VapourCondition::attraction && !std::isfinite(fit.gray.vapour_attraction)) {
+    throw InputError(fmt::format("{}: {}; {}", store_name, fit.remarks.back(),
+                                 elements::missing_text(table.element, {"boiling_temperature"})));
+  }
   try {
     fit.checks = check_gray(fit.gray, solid.data, points);
   } catch (const InputError& error) {

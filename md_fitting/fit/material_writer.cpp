@@ -21,6 +21,8 @@
 #include "src/core/base/hash.hpp"
 #include "src/core/base/text.hpp"
 #include "src/core/base/units.hpp"
+#include "src/core/input/document.hpp"
+#include "src/material/material_file.hpp"
 
 namespace whipple::fit {
 namespace {
@@ -274,7 +276,7 @@ StoreOrigin store_origin(const std::filesystem::path& store, std::span<const md:
 }
 
 std::string strength_and_failure(const std::filesystem::path& material) {
-  std::istringstream lines(read_text(material));
+  std::istringstream lines(whipple::material_text(material));
   std::string text;
   std::string pending;  // comments and blank lines: they belong to what follows
   bool copying = false;
@@ -293,21 +295,27 @@ std::string strength_and_failure(const std::filesystem::path& material) {
   return begin == std::string::npos ? std::string() : text.substr(begin);
 }
 
+bool has_strength(const std::filesystem::path& material) {
+  struct Strength {
+    std::string model;
+  };
+  input::Document document = input::Document::from_text(whipple::material_text(material), material.string());
+  std::optional<input::Table> table = document.root().optional_table("strength");
+  Strength strength;
+  return table &&
+         table->read(ParameterTable<Strength>{text("model", &Strength::model, "law of strength")},
+                     strength) &&
+         strength.model != "none";
+}
+
 std::optional<std::filesystem::path> default_template(const elements::ElementDefaults& table) {
-  if (table.template_name.empty()) return std::nullopt;
-  const std::string file = table.template_name + ".toml";
-  std::vector<std::filesystem::path> folders;
-  if (const char* variable = std::getenv("WHIPPLE_MATERIALS")) folders.emplace_back(variable);
-  folders.push_back(std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() /
-                    "share/whipple/materials");
-  folders.emplace_back(WHIPPLE_MATERIALS_FOLDER);
-  for (const std::filesystem::path& folder : folders) {
-    if (std::filesystem::exists(folder / file)) return folder / file;
-  }
-  if (table.template_name == table.metal)
-    return std::nullopt;  // a name for people, no material of the library
+  if (!table.template_name) return std::nullopt;
+  const std::string file = *table.template_name + ".toml";
   std::vector<std::string> names;
-  for (const std::filesystem::path& folder : folders) names.push_back(folder.string());
+  for (const std::filesystem::path& folder : library_folders()) {
+    if (std::filesystem::exists(folder / file)) return folder / file;
+    names.push_back(folder.string());
+  }
   throw InputError(
       fmt::format("no material '{}' to take strength and failure from (searched: {}); name one with "
                   "--template",

@@ -23,12 +23,17 @@ struct StoreOrigin {
 };
 StoreOrigin store_origin(const std::filesystem::path& store, std::span<const md::PointRecord> points);
 
-/// The tables [strength] and [[failure]] of a material file, as they stand there, comments included.
-/// @throws InputError if the file cannot be read
+/// The tables [strength] and [[failure]] of a material file, as they stand there, comments included; those of its base,
+/// without comments, where it has one.
+/// @throws InputError if the file, or its base, cannot be read
 std::string strength_and_failure(const std::filesystem::path& material);
 
-/// The material file that strength and failure of an element are taken from by default: that of its table, in
-/// $WHIPPLE_MATERIALS, the installation or the source tree. Elements without one have materials without strength.
+/// Returns whether a material file, with its base, has a model of strength.
+/// @throws InputError as `strength_and_failure`
+bool has_strength(const std::filesystem::path& material);
+
+/// The material file that strength and failure of an element are taken from by default: that of its table, in the
+/// folders of the library. Elements whose table names none have materials without strength.
 /// @throws InputError if the file that the table names is missing
 std::optional<std::filesystem::path> default_template(const elements::ElementDefaults& table);
 

@@ -202,9 +202,12 @@ SolidConstants fixed_solid(const Observations& data) {
   return constants;
 }
 
-int remove_superheated(Observations& data, const GrayConstants& constants, const std::string& store_name) {
+int remove_superheated(Observations& data, GrayConstants constants, std::optional<double> melting,
+                       const std::string& store_name) {
   int removed = 0;
   for (Isochore& isochore : data.isochores) {
+    if (!melting) break;
+    constants.melting_temperature = *melting;
     const double limit = melting_temperature(constants, isochore.volume);
     removed += static_cast<int>(
         std::erase_if(isochore.states, [&](const ThermalState& state) { return state.temperature > limit; }));
@@ -219,24 +222,28 @@ int remove_superheated(Observations& data, const GrayConstants& constants, const
   return removed;
 }
 
-SolidFit fit_solid(Observations data, const SolidModel& model, const SolidConstants& fixed,
+SolidFit fit_solid(Observations data, const SolidModel& model, const SolidStart& known,
                    const FitSettings& settings, const std::string& store_name) {
   SolidFit fit;
   fit.model = model;
-  SolidConstants start = fixed;
+  SolidConstants start = known.constants;
   start.gray.reference_specific_volume = data.reference_volume.value;
   if (model.hugoniot) guess_hugoniot(data, settings, start.gray);
   if (model.isotherm) guess_isotherm(data, start);
   guess_gruneisen(data, start.gray);
+  const std::optional<double> melting =
+      known.melting_temperature ? known.melting_temperature : isochoric_melting_temperature(data, start.gray);
+  if (melting) start.gray.melting_temperature = *melting;
 
   start = converged(data, model, independent_errors(settings), start);
-  // A model without melting of its own leaves superheated states out all the same.
-  GrayConstants limit = start.gray;
-  if (!model.fits(Place::melting)) {
-    limit.melting_temperature =
-        isochoric_melting_temperature(data, limit).value_or(limit.melting_temperature);
+  const bool melts = model.fits(Place::melting);
+  if (melts) {
+    fit.superheating = start.gray.melting_temperature;
+  } else {  // a model without melting of its own leaves superheated states out all the same
+    fit.superheating = isochoric_melting_temperature(data, start.gray);
+    if (!fit.superheating) fit.superheating = known.melting_temperature;
   }
-  fit.report.superheated_states = remove_superheated(data, limit, store_name);
+  fit.report.superheated_states = remove_superheated(data, start.gray, fit.superheating, store_name);
   Fit& report = fit.report;
   report.settings = settings;
   ScaledFit own, result;
@@ -265,6 +272,7 @@ SolidFit fit_solid(Observations data, const SolidModel& model, const SolidConsta
   const LeastSquaresSolution solution = solve(weights);
   const Index count = problem.constants();
   fit.constants = result.constants;
+  if (melts) fit.superheating = fit.constants.gray.melting_temperature;
   fit.scale = own.scale;
   fit.covariance = result.covariance;
   fit.statistical_covariance = result.statistical_covariance;

@@ -56,7 +56,7 @@ BootstrapResult replicates(std::span<const md::PointRecord> points, const SolidF
                            const Renamed& map, const FitSettings& settings, const std::string& store_name) {
   const auto constants = [&](std::span<const md::PointRecord> drawn) {
     Observations data = observe(drawn, settings, needs, store_name);
-    remove_superheated(data, solid.constants.gray, store_name);
+    remove_superheated(data, solid.constants.gray, solid.superheating, store_name);
     SolidFit moved = solid;
     moved.constants = refit_solid(data, solid);
     return VectorXd(map.jacobian * (free_values(moved) - free_values(solid)));
@@ -82,12 +82,12 @@ void replace_density(Fit& fit, double& density, Sources& sources) {
   fit.fitted_names.erase(place);
 }
 
-/// Melting temperature on the isochore V0 above which simulated solids are left out as superheated; where none is
-/// known, no solid is.
-double superheating_limit(const ElementDefaults& table) {
-  constexpr double unlimited = 1e6;  // K
-  const NamedDefault* melting = table.find("melting_temperature");
-  return melting == nullptr ? unlimited : melting->value;
+/// Where the fit of an element begins, with its melting temperature if the table has one.
+SolidStart start_of(const Observations& data, const ElementDefaults& table) {
+  SolidStart start{fixed_solid(data), {}};
+  if (const NamedDefault* melting = table.find("melting_temperature"))
+    start.melting_temperature = melting->value;
+  return start;
 }
 
 }  // namespace
@@ -97,8 +97,7 @@ Fit fit_mie_gruneisen(std::span<const md::PointRecord> points, const FitSettings
   Observations data = observe(points, settings, {}, store_name);
   const std::string element = data.element;
   const ElementDefaults table = elements::element_defaults(element, settings.defaults);
-  SolidConstants start = fixed_solid(data);
-  start.gray.melting_temperature = superheating_limit(table);
+  const SolidStart start = start_of(data, table);
   SolidModel model;
   model.free = {Place::volume,    Place::intercept,       Place::slope,
                 Place::gruneisen, Place::gruneisen_slope, Place::heat_capacity};
@@ -141,7 +140,7 @@ Fit fit_mie_gruneisen(std::span<const md::PointRecord> points, const FitSettings
   list_constants(fit, whipple::bind(eos::MieGruneisenCurve::parameters(), constants), sources);
   fit.remarks.emplace_back(
       "the model has one heat capacity for nuclei and electrons: the fitted one is that of classical nuclei");
-  if (table.find("melting_temperature") == nullptr) {
+  if (!solid.superheating) {
     fit.remarks.push_back(
         fmt::format("no melting temperature of {} is known: superheated states count as solid (--defaults "
                     "FILE names one)",
@@ -166,13 +165,18 @@ Fit fit_debye_gruneisen(std::span<const md::PointRecord> points, const FitSettin
   const Needs needs{.hugoniot = false, .isotherm = true};
   Observations data = observe(points, settings, needs, store_name);
   const ElementDefaults table = elements::element_defaults(data.element, settings.defaults);
-  SolidConstants start = fixed_solid(data);
-  start.gray.melting_temperature = table.at("melting_temperature").value;
+  const bool melts = !data.melting.empty();
+  const auto missing =
+      elements::missing_constants(FitModel::debye_gruneisen, table,
+                                  {.melting = melts,
+                                   .vibrations = data.nuclei.contained || !data.elastic.empty(),
+                                   .electrons = !settings.electrons.empty()});
+  if (!missing.empty()) throw InputError(elements::missing_text(table.element, missing));
+  const SolidStart start = start_of(data, table);
   SolidModel model;
   model.free = {Place::volume, Place::bulk_modulus, Place::bulk_modulus_slope, Place::gruneisen,
                 Place::gruneisen_slope};
   model.isotherm = true;
-  const bool melts = !data.melting.empty();
   if (melts) model.free.push_back(Place::melting);  // Lindemann's law itself: the model has no liquid
   const SolidFit solid = fit_solid(std::move(data), model, start, settings, store_name);
 

@@ -73,7 +73,7 @@ void WorkerSource::compute(std::span<const double> volume_ratios) const {
   const std::filesystem::path plan =
       store_.parent_path() / fmt::format(".{}.{}.toml", store_.filename().string(), getpid());
   write_text_atomically(plan, plan_of(volume_ratios));
-  std::vector<std::string> program = {"whipple-md", plan.string(), "-o", store_.string()};
+  std::vector<std::string> program = {"whipple-md", plan.string(), "-o", store_.string(), "--of-material"};
   if (log::level() != log::Level::verbose) program.emplace_back("--quiet");
   const int code = process::run_alone(program, {{"OMP_NUM_THREADS", "1"}});
   std::filesystem::remove(plan, ignored);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "eos/audit.hpp"
 #include "eos/curves/queries.hpp"
 #include "eos/files/table_file.hpp"
@@ -32,6 +34,29 @@ struct Evaluation {
     return {&pressure, &temperature, &sound_speed, &melted_fraction, &vaporised_fraction};
   }
 };
+
+py::tuple packed(const Evaluation& evaluation) {
+  Evaluation copy = evaluation;  // its columns are those of the same arrays
+  py::list columns;
+  for (const Numbers* column : copy.columns()) columns.append(*column);
+  return py::make_tuple(py::tuple(py::cast(evaluation.shape)), columns);
+}
+
+Evaluation unpacked(const py::tuple& pack) {
+  const auto refuse = [] { throw InputError("a pickle of an evaluation of another version"); };
+  if (pack.size() != 2) refuse();
+  Evaluation result(pack[0].cast<Shape>());
+  const auto columns = pack[1].cast<std::vector<Numbers>>();
+  if (columns.size() != result.columns().size()) refuse();
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    if (!std::ranges::equal(std::span(columns[k].shape(), static_cast<std::size_t>(columns[k].ndim())),
+                            result.shape)) {
+      refuse();
+    }
+    *result.columns()[k] = columns[k];
+  }
+  return result;
+}
 
 /// A copy with arrays of its own.
 Evaluation copy_of(const Evaluation& evaluation) {
@@ -121,10 +146,8 @@ void add_sources(py::dict& sources, const std::string& name, const py::handle& i
 }
 
 py::dict sources(const Material& material) {
-  const py::object text =
-      py::module_::import("pathlib").attr("Path")(material.file).attr("read_text")("utf-8");
   py::dict result;
-  add_sources(result, "", py::module_::import("tomllib").attr("loads")(text));
+  add_sources(result, "", py::module_::import("tomllib").attr("loads")(material_text(material.file)));
   return result;
 }
 
@@ -197,11 +220,11 @@ void pass_messages_to_python() {
 void raise(const InputError& error, const py::handle& kind) {
   py::list faults;
   for (const InputFault& fault : error.faults()) {
-    faults.append(py::dict(py::arg("file") = fault.file, py::arg("line") = fault.line,
+    faults.append(py::dict(py::arg("file") = with_paths(fault.file), py::arg("line") = fault.line,
                            py::arg("column") = fault.column, py::arg("key") = fault.key,
-                           py::arg("text") = fault.text));
+                           py::arg("text") = with_paths(fault.text)));
   }
-  py::object raised = kind(error.what());
+  py::object raised = kind(with_paths(error.what()));
   raised.attr("faults") = faults;
   PyErr_SetObject(kind.ptr(), raised.ptr());
 }
@@ -285,22 +308,12 @@ void add_material(py::module_& module, py::class_<Material>& material) {
           "Number of points along the first axis.")
       .def("__copy__", [](const Evaluation& e) { return copy_of(e); })
       .def("__deepcopy__", [](const Evaluation& e, const py::dict&) { return copy_of(e); })
-      .def(py::pickle(
-          [](const Evaluation& e) {
-            py::list columns;
-            for (Numbers* column : Evaluation(e).columns()) columns.append(*column);
-            return py::make_tuple(py::tuple(py::cast(e.shape)), columns);
-          },
-          [](const py::tuple& pack) {
-            Evaluation result(pack[0].cast<Shape>());
-            const auto columns = pack[1].cast<std::vector<Numbers>>();
-            for (std::size_t k = 0; k < columns.size(); ++k) *result.columns()[k] = columns[k];
-            return result;
-          }));
+      .def(py::pickle([](const Evaluation& e) { return packed(e); }, &unpacked));
 
   material.def_readonly("name", &Material::name, "Name of the material.")
       .def_property_readonly(
-          "file", [](const Material& m) { return m.file.string(); }, "The file that it was read from.")
+          "file", [](const Material& m) { return with_paths(m.file.string()); },
+          "The file that it was read from.")
       .def_readonly("source", &Material::source, "Where its constants come from.")
       .def_property_readonly(
           "sources", &sources,
@@ -310,8 +323,9 @@ void add_material(py::module_& module, py::class_<Material>& material) {
       .def_property_readonly(
           "model", [](const Material& m) { return std::string(m.eos->model()); },
           "Name of its equation of state.")
-      .def_property_readonly("constants", &Material::constants,
-                             "The material as a material file (TOML), every default written out, with units.")
+      .def_property_readonly(
+          "constants", [](const Material& m) { return with_paths(m.constants()); },
+          "The material as a material file (TOML), every default written out, with units.")
       .def_property_readonly(
           "measured_melting_point", [](const Material& m) { return m.measured.melting_point; },
           "Measured melting point (of an alloy: solidus) at 1 atm, K; NaN: not known.")
@@ -376,11 +390,11 @@ void add_material(py::module_& module, py::class_<Material>& material) {
 void add_library(py::module_& module) {
   py::class_<LibraryMaterial>(module, "LibraryMaterial", "A material of the library.")
       .def_property_readonly(
-          "key", [](const LibraryMaterial& m) { return m.file.stem().string(); },
+          "key", [](const LibraryMaterial& m) { return with_paths(m.file.stem().string()); },
           "The name that `material` takes.")
       .def_readonly("name", &LibraryMaterial::name, "Name of the material.")
       .def_property_readonly(
-          "file", [](const LibraryMaterial& m) { return m.file.string(); }, "Its file.")
+          "file", [](const LibraryMaterial& m) { return with_paths(m.file.string()); }, "Its file.")
       .def_readonly("note", &LibraryMaterial::note, "Purpose or limits in one line.")
       .def_readonly("group", &LibraryMaterial::group, "\"metals\", \"explosives\", \"polymers\", ...")
       .def("__repr__",

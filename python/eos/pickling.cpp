@@ -34,6 +34,13 @@ py::object restored_material(const std::filesystem::path& file,
 
 }  // namespace
 
+py::str with_paths(const std::string& text) {
+  PyObject* decoded =
+      PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "surrogateescape");
+  if (decoded == nullptr) throw py::error_already_set();
+  return py::reinterpret_steal<py::str>(decoded);
+}
+
 py::object with_recipe(Material material, const py::object& function, const py::tuple& arguments) {
   py::object object = py::cast(std::move(material));
   py::setattr(object, recipe, py::make_tuple(function, arguments));
@@ -44,8 +51,8 @@ py::object material_of_file(Material material,
                             const std::vector<std::pair<std::string, std::string>>& changes) {
   py::dict keys;
   for (const auto& [key, value] : changes) keys[py::str(key)] = value;
-  const std::string file = std::filesystem::absolute(material.file).string(),
-                    constants = material.constants();
+  const std::filesystem::path file = std::filesystem::absolute(material.file);
+  const py::bytes constants(material.constants());  // a comment of theirs is the path
   // A function of Python: those of extension modules cannot be pickled.
   const py::object function = py::module_::import("whipple").attr("_restored_material");
   return with_recipe(std::move(material), function, py::make_tuple(file, keys, constants));

@@ -15,6 +15,9 @@
 /// Copies and pickles of what the module returns, for multiprocessing and for files.
 namespace whipple::python {
 
+/// A text as Python has paths: bytes that are not UTF-8 as lone surrogates, as os.fsdecode.
+py::str with_paths(const std::string& text);
+
 /// Wraps a material with what its pickle holds: the function that makes it again, and its arguments.
 py::object with_recipe(Material material, const py::object& function, const py::tuple& arguments);
 

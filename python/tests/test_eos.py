@@ -38,6 +38,9 @@ class Library(unittest.TestCase):
         self.assertIn("Liu, Wang and Zhang", COPPER.source)
         self.assertIn("Johnson and Cook", COPPER.sources["strength"])
         self.assertEqual(set(COPPER.sources), {"file", "eos", "measured", "strength", "failure.0"})
+        of_base = eos.material("aluminium_6061_t6_fracture").sources
+        self.assertLessEqual({"file", "eos", "strength", "failure.0", "failure.1"}, set(of_base))
+        self.assertIn("damage", of_base["file"])
         constants = tomllib.loads(COPPER.constants)
         self.assertEqual(constants["eos"]["hugoniot_slope"], 1.489)
         self.assertEqual(COPPER.measured_melting_point, 1357.77)
@@ -395,6 +398,30 @@ class Copies(unittest.TestCase):
             with self.assertRaisesRegex(eos.InputError, "has changed since"):
                 pickle.loads(packed)
 
+    def test_paths_that_are_not_utf_8(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / os.fsdecode(b"caf\xe9.toml")
+            file.write_text(pathlib.Path(COPPER.file).read_text(encoding="utf-8"), encoding="utf-8")
+            material = eos.material(file)
+            self.assertEqual(pathlib.Path(material.file), file)
+            self.assertIn("[eos]", material.constants)
+            self.assertEqual(pickle.loads(pickle.dumps(material)).constants, material.constants)
+            with self.assertRaises(eos.InputError) as caught:
+                eos.material(file.with_stem(file.stem + "2"))
+            self.assertIn(file.stem + "2", str(caught.exception))
+
+    def test_evaluations(self):
+        result = self.material.evaluate([[9000.0, 9500.0, 3000.0]], [[2e5], [4e6]])
+        again = pickle.loads(pickle.dumps(result))
+        self.assertEqual(again.shape, (2, 3))
+        for name in ("pressure", "temperature", "sound_speed", "melted_fraction", "vaporised_fraction"):
+            np.testing.assert_array_equal(getattr(again, name), getattr(result, name))
+        shape, columns = result.__getstate__()
+        for pack in ((shape, columns + columns[:1]), (shape, columns[:4]), ((3,), columns), (shape,),
+                     (shape, [column[:1] for column in columns])):
+            with self.assertRaisesRegex(eos.InputError, "another version"):
+                eos.Evaluation.__new__(eos.Evaluation).__setstate__(pack)
+
     def test_states(self):
         states = self.material.states(pressure=np.linspace(1e9, 4e11, 6).reshape(2, 3), temperature=2000.0)
         shocks = self.material.hugoniot(particle_velocity=[500.0, 3000.0])
@@ -448,13 +475,16 @@ class Package(unittest.TestCase):
             target = pathlib.Path(folder) / "whipple"
             target.mkdir()
             (target / "__init__.py").write_text(package.read_text(encoding="utf-8"), encoding="utf-8")
-            call = [sys.executable, "-c", "from whipple import eos"]
             environment = {**os.environ, "PYTHONPATH": folder}
-            found = subprocess.run(call, env=environment, capture_output=True, text=True, check=False)
-            self.assertIn("cmake --build --preset release --target whipple_python_eos", found.stderr)
+            def told(code):
+                return subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True,
+                                      check=False).stderr
+            for code in ("from whipple import eos", "import whipple.eos", "import whipple; whipple.eos"):
+                self.assertIn("cmake --build --preset release --target whipple_python_eos", told(code))
+            self.assertEqual(told("import whipple; assert not hasattr(whipple, 'eos')"), "")
+            self.assertIn("No module named 'whipple.eso'", told("import whipple.eso"))
             (target / "eos.cpython-399-x86_64-linux-gnu.so").write_text("")
-            found = subprocess.run(call, env=environment, capture_output=True, text=True, check=False)
-            self.assertIn("another Python", found.stderr)
+            self.assertIn("another Python", told("import whipple.eos"))
 
 
 if __name__ == "__main__":

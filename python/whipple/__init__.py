@@ -2,6 +2,7 @@
 """Equations of state of whipple for Python: `from whipple import eos` (docs/manual/python.md)."""
 import os
 import pathlib
+import sys
 
 # An installed module finds the material library of its own installation, as the installed program does.
 _above = pathlib.Path(__file__).resolve().parents  # PREFIX/lib/python3/dist-packages/whipple/__init__.py
@@ -16,23 +17,34 @@ def _restored_material(file, changes, constants):
     return eos._restored_material(file, changes, constants)
 
 
+class _Remedy:
+    """Say what to do where the compiled module is missing: the last finder of imports, asked when no other has found it."""
+
+    @staticmethod
+    def find_spec(name, path=None, target=None):
+        """Raise ImportError for the compiled module, and leave all others alone."""
+        if name != f"{__name__}.eos":
+            return None
+        folder = pathlib.Path(__file__).resolve().parent
+        built = sorted(path.name for path in folder.glob("eos.*.so"))
+        if built:
+            remedy = (f"it was built for another Python ({', '.join(built)}), this one is {sys.version.split()[0]} of "
+                      f"{sys.executable}: use /usr/bin/python3")
+        else:
+            remedy = ("it is built by `cmake --build --preset release --target whipple_python_eos` in the source folder "
+                      "(scripts/run.sh leaves it out) into build/release/python, which PYTHONPATH names")
+        raise ImportError(f"whipple.eos is not in {folder}: {remedy} (docs/manual/python.md)", name=name)
+
+
+sys.meta_path.append(_Remedy)
+
+
 def __getattr__(name):
-    """Import the compiled module on its first use, and say what to do where it is missing."""
+    """Import the compiled module on its first use."""
     if name != "eos":
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     import importlib
-    import sys
     try:
         return importlib.import_module(f"{__name__}.eos")
-    except ModuleNotFoundError as missing:
-        if missing.name != f"{__name__}.eos":
-            raise
-    folder = pathlib.Path(__file__).resolve().parent
-    built = sorted(path.name for path in folder.glob("eos.*.so"))
-    if built:
-        remedy = (f"it was built for another Python ({', '.join(built)}), this one is {sys.version.split()[0]} of "
-                  f"{sys.executable}: use /usr/bin/python3")
-    else:
-        remedy = ("it is built by `cmake --build --preset release --target whipple_python_eos` in the source folder "
-                  "(scripts/run.sh leaves it out) into build/release/python, which PYTHONPATH names")
-    raise ImportError(f"whipple.eos is not in {folder}: {remedy} (docs/manual/python.md)", name=f"{__name__}.eos")
+    except ImportError as missing:  # hasattr() is to say no
+        raise AttributeError(str(missing)) from missing

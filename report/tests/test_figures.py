@@ -145,6 +145,17 @@ class Gauges(unittest.TestCase):
                 low, high = ax.get_ylim()
                 self.assertGreaterEqual(high - low, 0.99 * least)
 
+    def test_steady_values_are_within_their_panels(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "gauges.csv"
+            columns = ["time [s]", "air.pressure [Pa]", *(f"air.velocity_{axis} [m/s]" for axis in "xyz"), "air.temperature [K]"]
+            rows = [[k * 1e-6, 1e5 + 1e-6 * k, 1e3, 0, 0, 293.0] for k in range(5)]
+            file.write_text(",".join(columns) + "\n" + "".join(",".join(map(str, row)) + "\n" for row in rows))
+            for ax, value, least in zip(gauges.figure(History(file)).axes, (1e-4, 1.0, 293.0), (1e-4, 1e-5, 0.1)):
+                low, high = ax.get_ylim()
+                self.assertTrue(low < value < high, f"{value} outside {low} to {high}")
+                self.assertGreaterEqual(high - low, 0.99 * least)
+
 
 class Locks(unittest.TestCase):
     def test_a_run_that_is_being_written_goes_on(self):

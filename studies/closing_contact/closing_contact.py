@@ -79,8 +79,9 @@ def critical_angle(speed, c, s):
 
 
 def bound(speed, radius, time):
-    """V cot(phi/2) (km/s) at a time (us) after contact of a sphere of a radius (mm)."""
-    return speed / math.tan(0.5 * math.acos(1.0 - speed * time / radius))
+    """V cot(phi/2) (km/s) at a time (us) after contact of a sphere of a radius (mm); once the equator has passed no contact
+    closes, and phi stays 90 degrees."""
+    return speed / math.tan(0.5 * math.acos(max(0.0, 1.0 - speed * time / radius)))
 
 
 def jet_of(folder, speed):

@@ -43,6 +43,8 @@ class CriticalAngle(unittest.TestCase):
 class Bound(unittest.TestCase):
     def test_at_the_equator_the_sphere_passes_the_plate(self):
         self.assertAlmostEqual(study.bound(6.0, 3.0, 0.5), 6.0)
+        for late in (0.7, 1.5):
+            self.assertAlmostEqual(study.bound(6.0, 3.0, late), 6.0)
 
     def test_falls_with_time(self):
         self.assertAlmostEqual(study.bound(6.0, 3.0, 0.25), 6.0 / math.tan(math.pi / 6.0))

@@ -167,5 +167,31 @@ TEST(EosExperiments, ErrorColumnsAreThoseOfTheirQuantity) {
   EXPECT_NE(none.remarks[0].find("error of all"), std::string::npos);
 }
 
+// A word may name several quantities, and a quantity may have several columns: errors are those of the column that is
+// taken, wherever they stand; others are named.
+TEST(EosExperiments, ErrorColumnsBelongToTheColumnThatIsTaken) {
+  for (const char* headings :
+       {"P_GPa,V [A3],V_err [%]", "P_GPa,V,V_err\nGPa,A3,%", "P_GPa,V [A3],V_err [A3]"}) {
+    const bool percent = std::string(headings).find('%') != std::string::npos;
+    const Experiment atoms = experiment_of(fmt::format("# isotherm, 298 K\n{}\n0,10,{}\n5,8,{}\n", headings,
+                                                       percent ? 1 : 0.1, percent ? 2 : 0.16));
+    ASSERT_TRUE(atoms.states_errors) << headings;
+    EXPECT_NEAR(atoms.abscissa_error[0], 0.02 * 0.8, 1e-9) << headings;  // of V/V0
+    EXPECT_TRUE(atoms.remarks.empty()) << headings;
+  }
+  const std::string revised =
+      "# isotherm, 298 K\nP_old_err_GPa,P_old_GPa,P_revised_GPa,P_revised_err_GPa,V/V0\n";
+  const Experiment scales = experiment_of(revised + "9,4,5,0.5,0.9\n");
+  EXPECT_NEAR(scales.ordinate[0], 5e9, 1.0);
+  EXPECT_NEAR(scales.ordinate_error[0], 5e8, 1.0);
+  ASSERT_EQ(scales.remarks.size(), 1U);
+  EXPECT_NE(scales.remarks[0].find("P_old_err_GPa"), std::string::npos);
+  const Experiment other_word = experiment_of("shock velocity [km/s],up [km/s],us_err [km/s]\n6,1,0.1\n");
+  EXPECT_NEAR(other_word.ordinate_error[0], 100.0, 1e-9);
+  const Experiment absent = experiment_of("us_km_s,up_km_s,rho_err [%]\n6,1,3\n");
+  EXPECT_FALSE(absent.states_errors);
+  ASSERT_EQ(absent.remarks.size(), 1U);
+}
+
 }  // namespace
 }  // namespace whipple::eos::experiments

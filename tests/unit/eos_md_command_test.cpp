@@ -44,12 +44,12 @@ steps = 400
 )",
                                                                  potential);
   }
-  [[nodiscard]] int run() const {
+  [[nodiscard]] int run(const std::string& options = "") const {
     const int status = std::system(
         fmt::format(
             "cd '{0}' && XDG_CACHE_HOME='{0}/cache' '{1}' eos hugoniot crystal.toml --from '400 m/s' --to "
-            "'401 m/s' --points 2 --csv points.csv --force > output.txt 2>&1",
-            folder.path().string(), WHIPPLE_EXECUTABLE)
+            "'401 m/s' --points 2 --csv points.csv --force {2} > output.txt 2>&1",
+            folder.path().string(), WHIPPLE_EXECUTABLE, options)
             .c_str());
     return WEXITSTATUS(status);
   }
@@ -64,8 +64,10 @@ TEST_F(SimulatedMaterial, SimulatesOnceAndAnswersTheSame) {
   EXPECT_THAT(output(), HasSubstr("simulating"));
   const std::string first = content_of(folder.path() / "points.csv");
   EXPECT_THAT(first, HasSubstr("400"));
-  ASSERT_EQ(run(), 0) << output();
+  ASSERT_EQ(run("--verbose"), 0) << output();
   EXPECT_THAT(output(), Not(HasSubstr("simulating")));
+  EXPECT_THAT(output(), HasSubstr("nothing to compute"));  // of whipple-md
+  EXPECT_THAT(output(), Not(HasSubstr("whipple fit")));    // nobody asked for one
   EXPECT_EQ(content_of(folder.path() / "points.csv"), first);
 }
 

@@ -322,7 +322,7 @@ TEST_F(FitMaterial, MetalsHaveTheirConstantsFromTheProgramOrAFile) {
   for (const char* metal :
        {"Ag", "Al", "Au", "Cr", "Cu", "Fe", "Ir", "Mo", "Nb", "Ni", "Pb", "Pd", "Pt", "Rh", "Ta", "V", "W"}) {
     const ElementDefaults table = elements::element_defaults(metal);
-    EXPECT_TRUE(elements::missing_for_gray(table, false).empty()) << metal;
+    EXPECT_TRUE(missing_constants(FitModel::gray, table, {}).empty()) << metal;
     for (const NamedDefault& entry : table.constants)
       EXPECT_GT(entry.source.size(), 10U) << metal << entry.parameter;
     const double melting = table.at("melting_point").value;
@@ -339,9 +339,9 @@ TEST_F(FitMaterial, MetalsHaveTheirConstantsFromTheProgramOrAFile) {
          "source = \"1.3 times the melting point\"\n"
          "[[element.constant]]\nparameter = \"electronic_heat_coefficient\"\n"
          "value = \"3.6 mJ/(mol K^2)\"\nclass = \"measured\"\nsource = \"crc\"\n";
-  EXPECT_EQ(elements::missing_for_gray(elements::element_defaults("Sr"), false).size(), 4U);
+  EXPECT_EQ(missing_constants(FitModel::gray, elements::element_defaults("Sr"), {}).size(), 4U);
   const ElementDefaults given = elements::element_defaults("Sr", strontium);
-  EXPECT_EQ(elements::missing_for_gray(given, false),
+  EXPECT_EQ(missing_constants(FitModel::gray, given, {}),
             (std::vector<std::string>{"join_volume_ratio", "boiling_temperature"}));
   EXPECT_EQ(given.metal, "strontium");
   EXPECT_NEAR(given.at("electronic_heat_coefficient").value, 3.6e-3, 1e-12);

@@ -11,7 +11,7 @@ export const VIEWS = {
   top: [0, STEEPEST],
 };
 
-/** Where the views begin: with the eye on the side from which something flies, [turn, sign of the tilt].
+/** Where the views begin: with the eye on the side from which something flies, [turn, sign of the oblique view's tilt].
  * @param flight  direction in which it flies; null: none */
 export function sideOf(flight, up) {
   if (!flight) return [0, 1];
@@ -32,7 +32,7 @@ export function makeCamera(centre, radius, up = 1, side = [0, 1]) {
 export function setView(camera, name) {
   const [turn, tilt] = VIEWS[name];
   camera.turn = turn + camera.side[0];
-  camera.tilt = tilt * camera.side[1];
+  camera.tilt = name === 'oblique' ? tilt * camera.side[1] : tilt;  // "top" stays above
 }
 
 export function turnCamera(camera, turn, tilt) {

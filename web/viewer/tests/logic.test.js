@@ -168,6 +168,8 @@ test('the eye is on the side from which something flies', () => {
         const camera = makeCamera([0, 0, 0], 1, up, sideOf(flight, up)), [, upright, backward] = directions(camera);
         assert.ok(backward[axis] * sign < -0.3, `${up} ${axis} ${sign}: ${backward}`);
         assert.ok(upright[up] > 0.9);
+        setView(camera, 'top');
+        assert.ok(directions(camera)[2][up] > 0.9, `${up} ${axis} ${sign}: from below`);
       }
     }
   }
