@@ -4,7 +4,7 @@ import csv
 import math
 
 from report.expectations import BadExpectation
-from report import detonation
+from report import detonation, tension
 from report.wall_speed import wall_speed
 
 
@@ -92,6 +92,8 @@ class Measures:
         if kind == "history_error":
             from report import measured_history  # takes numpy and matplotlib
             return measured_history.measure(self.folder / "gauges.csv", of, expectation.table)
+        if kind in tension.KINDS:
+            return tension.measure(kind, self.folder, of, expectation.place)
         if kind == "piece_exponent":
             from report import pieces  # takes numpy
             return pieces.exponent_of_run(self.folder, of, self.report)

@@ -45,7 +45,7 @@ MAY_USE = {
     "src/run": ["src/core/base", "src/core/input", "src/core/parallel", "eos", "src/particles", "src/grid", "src/material", "src/fem",
                 "src/io", "src/case", "src/solver"],
     # Times the solver.
-    "src/bench": ["src/core/base", "src/core/parallel", "src/core/process", "src/particles", "src/grid", "src/transfer", "src/io", "src/case", "src/solver"],
+    "src/bench": ["src/core/base", "src/core/parallel", "src/core/process", "src/particles", "src/grid", "src/material", "src/transfer", "src/io", "src/case", "src/solver"],
     # Reads what runs wrote, with the keys of a case; knows no solver.
     "src/analysis": ["src/core/base", "src/core/parallel", "src/core/hdf5", "src/grid", "src/material", "src/case"],
     # Packs what runs wrote for the browser.

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "src/app/build_info.hpp"
+#include "src/bench/laws.hpp"
 #include "src/bench/machine.hpp"
 #include "src/bench/measurement.hpp"
 #include "src/core/base/error.hpp"
@@ -36,6 +37,7 @@ struct BenchOptions {
   bool quick = false;
   bool whole = false;
   bool force = false;
+  bool laws = false;
   std::string json;
   std::string compare;
   std::string worker;  // the file that one measurement goes to
@@ -173,8 +175,19 @@ nlohmann::json to_json(const std::vector<Measurement>& all, const BenchOptions& 
           {"measurements", measurements}};
 }
 
+/// Laws of strength and failure in multiples of Johnson-Cook, as a table of the manual.
+void print_laws(bool quick) {
+  fmt::print("| law | kind | ns per point and step | multiple of johnson_cook (half of the rounds) |\n");
+  fmt::print("| --- | --- | --- | --- |\n");
+  for (const bench::LawMeasurement& law : bench::measure_laws(quick ? 5 : 41)) {
+    fmt::print("| `{}` | {} | {:.1f} | {:.2f} ({:.2f} to {:.2f}) |\n", law.name, law.kind, law.nanoseconds,
+               law.multiple, law.low, law.high);
+  }
+}
+
 void run_bench(BenchOptions options) {
   if (!options.worker.empty()) return run_worker(options);
+  if (options.laws) return print_laws(options.quick);
   require_new_file(options.json, options.force);
   std::vector<Measurement> before;
   if (!options.compare.empty()) before = read_measurements(options.compare);
@@ -223,6 +236,10 @@ void add_bench_command(CLI::App& app) {
   command
       ->add_flag("--whole", options->whole, "The cases from beginning to end instead of some steps of them")
       ->excludes(quick);
+  command->add_flag(
+      "--laws", options->laws,
+      "Instead of problems: the update of the material by law of strength and failure, in multiples "
+      "of Johnson-Cook");
   command->add_option("--json", options->json, "Also write the figures to a file")->type_name("FILE.json");
   command->add_option("--compare", options->compare, "Print ratios to the figures of an earlier call")
       ->type_name("OLD.json");

@@ -27,6 +27,9 @@ ParameterTable<Body> Body::parameters() {
       vector("expansion_rate", &Body::expansion_rate, "1/s", range::any(),
              "initial velocity along each axis per distance from that centre, as of a ring that coasts")
           .optional(),
+      boolean("driven", &Body::driven,
+              "an external force keeps the mean velocity of the body: a grip, a punch, a die")
+          .optional(),
       text("contact_group", &Body::contact_group,
            "bodies of one group share a velocity field and are bonded where they meet, those of different "
            "groups are not; empty: according to contact.method")
@@ -96,6 +99,13 @@ void Body::check(const Case& setup, const Faults& faults) const {
   if (has_own_shape()) {
     const std::string fault = shape == nullptr ? "is missing" : fault_of(*shape);
     if (!fault.empty()) faults.add("shape", "'shape' " + fault);
+  }
+  if (driven && (discretization.has_elements() || discretization.is_bars())) {
+    faults.add("driven", "only bodies of particles are 'driven'; nodes of elements have a node_condition");
+  }
+  if (driven && !(angular_velocity.isZero(0.0) && expansion_rate.isZero(0.0))) {
+    faults.add("driven",
+               "a 'driven' body moves with one velocity, without angular_velocity and expansion_rate");
   }
   if (!discretization.has_elements()) {
     for (std::size_t i = 0; i < node_conditions.size(); ++i) {

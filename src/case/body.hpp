@@ -39,6 +39,7 @@ struct Body {
   Vector3 velocity = Vector3::Zero();          ///< m/s
   Vector3 angular_velocity = Vector3::Zero();  ///< rad/s
   Vector3 expansion_rate = Vector3::Zero();    ///< 1/s, along the axes
+  bool driven = false;
   std::string contact_group;
   Ignition ignition = Ignition::detonators;
   double detonation_velocity = std::numeric_limits<double>::infinity();  ///< m/s; infinite: not given

@@ -218,10 +218,16 @@ void remark_on_plane(const Case& setup, const Body& body, std::size_t face,
   const Shape::Bounds bounds = body.shape->bounds();
   const bool cut = lower ? bounds.lower[a] < g.lower[a] - 0.05 * g.cell_size
                          : bounds.upper[a] > g.upper(a) + 0.05 * g.cell_size;
-  const double normal = body.velocity[a];
+  double normal = body.velocity[a];
+  const bool expands = body.expansion_rate[a] != 0.0;
+  if (expands) {
+    const double plane = lower ? g.lower[a] : g.upper(a);
+    normal += body.expansion_rate[a] * (plane - 0.5 * (bounds.lower[a] + bounds.upper[a]));
+  }
   const bool away = lower ? normal > 0.0 : normal < 0.0;
   constexpr double none = 1e-9;
-  if (std::abs(normal) > none * body.velocity.norm() && (cut || away)) {
+  const double least = expands ? 1e-3 : none;  // a rate of few digits leaves a rest
+  if (std::abs(normal) > least * body.velocity.norm() && (cut || away)) {
     remarks.push_back(fmt::format(
         "'{}' {} the symmetry plane {} and moves along its normal, at {:.6g} m/s {}: its mirror image "
         "moves the other way; set {} of its velocity to 0, or take the whole body",

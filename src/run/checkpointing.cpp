@@ -52,6 +52,11 @@ io::CheckpointValues to_checkpoint(const solver::RunState& state) {
   for (const solver::BodyOutflow& out : state.outflow_of_body) {
     outflow.insert(outflow.end(), {out.mass, out.momentum[0], out.momentum[1], out.momentum[2], out.energy});
   }
+  std::vector<double>& driven = values.arrays["driven_bodies"];
+  for (const solver::DrivenBody& body : state.driven) {
+    const Vector3 &v = body.velocity, &a = body.acceleration;
+    driven.insert(driven.end(), {v[0], v[1], v[2], a[0], a[1], a[2], body.time_step});
+  }
   for_each_real(state, [&](const std::string& name, double value) { values.reals[name] = value; });
   return values;
 }
@@ -64,6 +69,10 @@ solver::RunState from_checkpoint(const io::CheckpointValues& values) {
   const std::vector<double>& outflow = values.array("outflow_of_body");
   for (auto n = outflow.begin(); n + 5 <= outflow.end(); n += 5) {
     state.outflow_of_body.push_back({n[0], {n[1], n[2], n[3]}, n[4]});
+  }
+  const std::vector<double>& driven = values.array("driven_bodies");
+  for (auto n = driven.begin(); n + 7 <= driven.end(); n += 7) {
+    state.driven.push_back({{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, n[6]});
   }
   for_each_real(state, [&](const std::string& name, double& value) { value = values.real(name); });
   return state;

@@ -46,7 +46,11 @@ constexpr auto quantities = std::to_array<Quantity>({
      [](const P& a, std::size_t p) { return a.deviatoric_stress[p].yy - a.pressure[p]; }},
     {"stress_zz", "Pa", true,
      [](const P& a, std::size_t p) { return a.deviatoric_stress[p].zz - a.pressure[p]; }},
+    {"stress_xy", "Pa", true, [](const P& a, std::size_t p) { return a.deviatoric_stress[p].xy; }},
+    {"stress_yz", "Pa", true, [](const P& a, std::size_t p) { return a.deviatoric_stress[p].yz; }},
+    {"stress_zx", "Pa", true, [](const P& a, std::size_t p) { return a.deviatoric_stress[p].zx; }},
     {"plastic_strain", "1", false, [](const P& a, std::size_t p) { return a.plastic_strain[p]; }},
+    {"failed_fraction", "1", false, [](const P& a, std::size_t p) { return a.failed[p] != 0 ? 1.0 : 0.0; }},
     {"melted_fraction", "1", false, [](const P& a, std::size_t p) { return a.melted_fraction[p]; }},
     {"vaporised_fraction", "1", false, [](const P& a, std::size_t p) { return a.vaporised_fraction[p]; }},
 });

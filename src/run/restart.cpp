@@ -19,6 +19,7 @@
 #include "src/core/base/log.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/material/failure/catalogue.hpp"
+#include "src/material/material_file.hpp"
 #include "src/run/checkpointing.hpp"
 
 namespace whipple::run {
@@ -29,12 +30,13 @@ namespace fs = std::filesystem;
 /// Tables whose keys determine the particles and elements.
 constexpr std::array<std::string_view, 4> fixed_tables = {"domain", "body", "gauge", "tracers"};
 
-/// Computes digests of the material and mesh files of every body: the material files of a run are copies.
+/// Computes digests of the material and mesh files of every body: the material files of a run are copies, which hold what
+/// they take of a base.
 std::map<std::string, std::string> digests(const cases::Case& setup) {
   std::map<std::string, std::string> found;
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     const Material& material = *setup.materials[b];
-    std::string all = sha256_of_file(material.file);
+    std::string all = sha256(material_text(material.file));
     for (const fs::path& companion : material.companions)
       all += sha256_of_file(material.file.parent_path() / companion);
     found[fmt::format("material of body \"{}\"", setup.bodies[b].name)] = sha256(all);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/solver/stages.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace whipple::solver {
@@ -26,6 +27,9 @@ Stages::Stages(const cases::Case& setup, MPI_Comm communicator, const RunState& 
     if (!carrier->empty()) carriers.push_back(carrier);
   }
   if (!setup.gravity.acceleration.isZero(0.0)) loads.add(gravity(setup.gravity));
+  // The force on driven bodies is found with all others (Drive): as a load it keeps material from being at rest.
+  if (std::ranges::any_of(setup.bodies, &cases::Body::driven))
+    loads.add(uniform_load("drive", [](double) { return Vector3(Vector3::Zero()); }));
 }
 
 }  // namespace whipple::solver

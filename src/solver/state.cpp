@@ -20,6 +20,7 @@ State::State(const cases::Case& of_run, MPI_Comm of_ranks, const RunState& of_st
       run(of_start),
       booked_outflow(of_run.bodies.size()) {
   run.outflow_of_body.resize(bodies.size());
+  run.driven.resize(bodies.size());
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     initial_density.push_back(setup.bodies[b].initial.of(*setup.materials[b]).density);
   }

@@ -51,6 +51,13 @@ constexpr std::array<Word<TimeStepBound>, 10> words(TimeStepBound) {
 }
 
 /// Holds the state of a run that changes with time, apart from what the carriers hold; what a checkpoint must hold.
+/// What the next step needs to know of the force that keeps the velocity of a driven body.
+struct DrivenBody {
+  Vector3 velocity = Vector3::Zero();      ///< m/s, mean of the body at the beginning of the last step
+  Vector3 acceleration = Vector3::Zero();  ///< m/s^2, by the force in that step
+  double time_step = 0.0;                  ///< s, of that step; 0: there was none
+};
+
 struct RunState {
   double time = 0.0;                  ///< s
   double time_step = 0.0;             ///< s, of the last step; 0 before the first
@@ -68,6 +75,7 @@ struct RunState {
   std::int64_t particles_at_rest = 0;  ///< of all ranks, left as they were by the last step
   Ledger ledger;
   std::vector<BodyOutflow> outflow_of_body;  ///< of each body, of all ranks
+  std::vector<DrivenBody> driven;            ///< of each body
 };
 
 /// Holds what several stages of a step read and write, on one rank. Every stage keeps what it alone needs.

@@ -37,7 +37,7 @@ transfer::Relaxation relaxation(const cases::TransferControl& control) {
 }  // namespace
 
 Transfers::Transfers(State& state, const Loads& loads, const Activity& activity)
-    : state_(state), loads_(loads), activity_(activity) {
+    : state_(state), loads_(loads), activity_(activity), drive_(state.setup) {
   const cases::Dissipation& control = state_.setup.dissipation;
   for (std::size_t b = 0; b < state_.setup.bodies.size(); ++b) {
     const cases::ArtificialViscosity& viscosity = state_.setup.viscosity_of(b);
@@ -56,6 +56,7 @@ Transfers::Transfers(State& state, const Loads& loads, const Activity& activity)
 void Transfers::evaluate_loads() {
   const Particles& particles = state_.particles;
   loads_.evaluate({particles.id, particles.position, particles.velocity}, state_.run.time, acceleration_);
+  drive_.add(state_, acceleration_);
   for (std::size_t p = 0; p < acceleration_.size(); ++p) {
     state_.booked.external_impulse += particles.mass[p] * state_.run.time_step * acceleration_[p];
   }

@@ -6,6 +6,7 @@
 
 #include "src/solver/loads.hpp"
 #include "src/solver/stages/activity.hpp"
+#include "src/solver/stages/drive.hpp"
 #include "src/solver/state.hpp"
 #include "src/transfer/conduction.hpp"
 #include "src/transfer/full_mass_matrix.hpp"
@@ -67,6 +68,7 @@ class Transfers {
   State& state_;
   const Loads& loads_;
   const Activity& activity_;
+  Drive drive_;
   transfer::GridUpdate grid_update_;
   transfer::FullMassMatrix full_mass_matrix_;
   transfer::Losses losses_;

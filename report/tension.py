@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Measures of a test of fracture, as the laboratory takes them: of a bar that is pulled from its plane of symmetry, x = 0.
+
+Force: of the plane on the bar (history.csv). Section: moving tracers from the axis to the surface, in the plane (gauges.csv).
+The bar is torn when the force over the section that is left has fallen to half of its greatest value: in a deep neck the
+force alone falls as far without a crack.
+"""
+import csv
+import math
+
+AVERAGE = 4e-6  # s over which the force is a mean: a few passages of sound over a bar of centimetres
+
+
+def columns(path, wanted=lambda name: True):
+    """Columns of a table by their names without units, of those that are wanted."""
+    if not path.is_file():
+        return {}
+    with path.open(newline="") as stream:
+        rows = csv.reader(stream)
+        places = [(i, name) for i, name in enumerate(head.split(" [")[0] for head in next(rows, [])) if wanted(name)]
+        table = {name: [] for _, name in places}
+        for row in rows:
+            for i, name in places:
+                table[name].append(float(row[i] or math.nan))
+    return table
+
+
+def at(time, times, values):
+    """Value at a time, linear between the rows, that of the first or last beyond them."""
+    if time <= times[0]:
+        return values[0]
+    for t0, t1, v0, v1 in zip(times, times[1:], values, values[1:]):
+        if time <= t1:
+            return v0 + (v1 - v0) * (time - t0) / (t1 - t0) if t1 > t0 else v1
+    return values[-1]
+
+
+def forces(folder):
+    """Times (s) and pull of the plane x = 0 on the bar (N), means over `AVERAGE`."""
+    history = columns(folder / "history.csv", lambda name: name in ("time", "wall_impulse_x"))
+    times, impulses = history.get("time", []), history.get("wall_impulse_x", [])
+    if not times or not impulses:
+        return [], []
+    edges = [AVERAGE * i for i in range(int(times[-1] / AVERAGE) + 1)]
+    reached, row = [], 0
+    for edge in edges:
+        while row + 1 < len(times) and times[row + 1] < edge:
+            row += 1
+        reached.append(at(edge, times[row:row + 2], impulses[row:row + 2]))
+    return ([0.5 * (a + b) for a, b in zip(edges, edges[1:])],
+            [-(b - a) / AVERAGE for a, b in zip(reached, reached[1:])])
+
+
+def section_of(folder, tracers):
+    """Columns of gauges.csv, and the names of the tracers from the axis outwards."""
+    table = columns(folder / "gauges.csv")
+    names = [head[:-2] for head in table if head.startswith(f"{tracers}_") and head.endswith(".y")]
+    return table, sorted(names, key=lambda name: int(name.rpartition("_")[2]))
+
+
+def time_of_rupture(folder, tracers):
+    """When the pull over the section of the tracers has fallen to half of its greatest value; NaN if it never does."""
+    table, names = section_of(folder, tracers)
+    times, pulls = forces(folder)
+    if not names or not pulls:
+        return math.nan
+    radii = table[f"{names[-1]}.y"]
+    stresses = [pull / at(time, table["time"], radii) ** 2 for time, pull in zip(times, pulls)]
+    greatest = stresses.index(max(stresses))
+    return next((t for t, s in zip(times[greatest:], stresses[greatest:]) if s < 0.5 * stresses[greatest]), math.nan)
+
+
+def neck_strain(folder, tracers):
+    """ln(A0/A) of the section when the bar is torn."""
+    table, names = section_of(folder, tracers)
+    torn = time_of_rupture(folder, tracers)
+    if not math.isfinite(torn):
+        return math.nan
+    radii = table[f"{names[-1]}.y"]
+    return 2 * math.log(radii[0] / at(torn, table["time"], radii))
+
+
+def elongation(folder, tracers, mark):
+    """Relative elongation between the plane and a moving gauge when the bar is torn."""
+    table, _ = section_of(folder, tracers)
+    torn = time_of_rupture(folder, tracers)
+    places = table.get(f"{mark}.x", [])
+    return at(torn, table["time"], places) / places[0] - 1 if places and math.isfinite(torn) else math.nan
+
+
+def first_failure(table, names):
+    """Row and name of the tracer that fails first; None if none does."""
+    found = [(next((i for i, f in enumerate(table[f"{name}.failed_fraction"]) if f > 0.5), None), name) for name in names]
+    return min((f for f in found if f[0] is not None), default=None)
+
+
+def failure_strain(folder, tracers):
+    """Equivalent plastic strain of the point of the section that fails first, at its failure."""
+    table, names = section_of(folder, tracers)
+    found = first_failure(table, names)
+    return table[f"{found[1]}.plastic_strain"][found[0]] if found else math.nan
+
+
+def failure_triaxiality(folder, tracers):
+    """Mean over equivalent stress of that point, averaged over its plastic strain."""
+    table, names = section_of(folder, tracers)
+    found = first_failure(table, names)
+    if not found:
+        return math.nan
+    row, name = found
+    xx, yy, zz, xy = (table[f"{name}.stress_{c}"] for c in ("xx", "yy", "zz", "xy"))
+    strain, total = table[f"{name}.plastic_strain"], 0.0
+    for i in range(1, row):
+        mean = (xx[i] + yy[i] + zz[i]) / 3
+        equivalent = math.sqrt(1.5 * ((xx[i] - mean) ** 2 + (yy[i] - mean) ** 2 + (zz[i] - mean) ** 2 + 2 * xy[i] ** 2))
+        total += (strain[i] - strain[i - 1]) * (mean / equivalent if equivalent > 0 else 0.0)
+    reached = strain[max(row - 1, 0)]
+    return total / reached if reached > 0 else math.nan
+
+
+def peak_stress(folder, radius):
+    """Greatest pull over the area that the section has at first (Pa)."""
+    _, pulls = forces(folder)
+    return max(pulls, default=math.nan) / (math.pi * radius**2)
+
+
+def measure(kind, folder, of, place):
+    """The measure `kind` of the tracers, or of tracers and a gauge, that `of` names."""
+    if kind == "peak_stress":
+        return peak_stress(folder, place)
+    if kind == "elongation":
+        return elongation(folder, *of.split("."))
+    return {"neck_strain": neck_strain, "failure_strain": failure_strain,
+            "failure_triaxiality": failure_triaxiality}[kind](folder, of)
+
+
+KINDS = ("peak_stress", "elongation", "neck_strain", "failure_strain", "failure_triaxiality")

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A driven grip that stretches an elastic bar: Hooke's law, the velocity of the grip, work and impulse in the balances.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "src/core/base/error.hpp"
+#include "tests/verification/solver_problems.hpp"
+
+namespace whipple::verification {
+namespace {
+
+constexpr double speed = 10.0, radius = 2e-3, end = 8e-6;  // m/s, m, s
+// m: of the bar, and a third of the grip, which gives way under a force on all of it alike by s l/(3 E) in the mean.
+constexpr double length = 8e-3 + 2e-3 / 3.0;
+
+std::string bar_and_grip(const std::string& of_grip) {
+  return fmt::format(R"toml(
+[domain]
+dimension = "axisymmetric"
+lower = ["0 mm", "0 mm"]
+upper = ["12 mm", "3 mm"]
+cell_size = "0.5 mm"
+boundary = {{ x_lower = "symmetry" }}
+[time]
+end = "8 us"
+[[body]]
+name = "bar"
+material = "{0}"
+contact_group = "one"
+velocity = ["5 m/s", "0 m/s"]
+expansion_rate = ["1250 1/s", "0 1/s"]
+shape = {{ cylinder = {{ center = ["4 mm", "0 mm", "0 mm"], axis = "x", radius = "2 mm", height = "8 mm" }} }}
+[[body]]
+name = "grip"
+material = "{0}"
+contact_group = "one"
+velocity = ["10 m/s", "0 m/s"]
+{1}
+shape = {{ cylinder = {{ center = ["9 mm", "0 mm", "0 mm"], axis = "x", radius = "2 mm", height = "2 mm" }} }}
+)toml",
+                     elastic_aluminium(), of_grip);
+}
+
+TEST(Driven, GripStretchesABarByHookesLawAndTheBalancesKnowItsWork) {
+  const cases::Case setup = cases::read_case_text(bar_and_grip("driven = true"), "driven.toml");
+  solver::Simulation simulation(setup, parallel::world());
+  run_to(simulation, end);
+  double mass = 0.0, momentum = 0.0;
+  const Particles& p = simulation.particles();
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (p.body[i] != 1) continue;
+    mass += p.mass[i];
+    momentum += p.mass[i] * p.velocity[i][0];
+  }
+  EXPECT_NEAR(momentum / mass, speed, 0.02 * speed);  // what other forces change from one step to the next
+
+  constexpr double bulk = 2785.0 * 5328.0 * 5328.0, shear = 27.6e9;
+  constexpr double young = 9.0 * bulk * shear / (3.0 * bulk + shear);
+  const double force = young * speed * end / length * std::numbers::pi * radius * radius;
+  const solver::Ledger& ledger = simulation.state().ledger;
+  EXPECT_NEAR(-ledger.wall_impulse[0], 0.5 * force * end, 0.03 * 0.5 * force * end);
+  EXPECT_NEAR(ledger.external_impulse[0], 0.5 * force * end, 0.03 * 0.5 * force * end);
+  EXPECT_NEAR(ledger.external_work, 0.5 * force * speed * end, 0.03 * 0.5 * force * speed * end);
+  EXPECT_LT(std::abs(ledger.energy_error(simulation.totals())), 1e-12);
+  EXPECT_LT(std::abs(ledger.momentum_error(simulation.totals())), 1e-12);
+}
+
+TEST(Driven, KeysThatContradictItAreNamed) {
+  const auto refused = [](const std::string& keys, const std::string& reason) {
+    try {
+      cases::read_case_text(bar_and_grip(keys), "driven.toml");
+      ADD_FAILURE() << keys << " passed";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
+    }
+  };
+  refused("driven = true\nexpansion_rate = [\"1 1/s\", \"0 1/s\"]", "one velocity");
+  refused("driven = true\nangular_velocity = [\"0 rad/s\", \"0 rad/s\", \"1 rad/s\"]", "one velocity");
+}
+
+}  // namespace
+}  // namespace whipple::verification
