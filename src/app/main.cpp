@@ -36,7 +36,6 @@
 #include "src/app/version_command.hpp"
 #include "src/app/view_command.hpp"
 #include "src/core/base/error.hpp"
-#include "src/core/base/surroundings.hpp"
 
 namespace {
 
@@ -112,7 +111,6 @@ std::vector<char*> arguments_of(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  whipple::repair_surroundings();
   if (argc > 1 && has_threads(argv[1])) wait_passively(argv);
   std::signal(SIGXFSZ,
               SIG_IGN);  // the greatest size of a file is met as an error of writing, as a full disk is

@@ -30,6 +30,7 @@
 #include "src/decks/import.hpp"
 #include "src/run/restart.hpp"
 #include "src/run/run.hpp"
+#include "src/run/signal_control.hpp"
 #include "src/view/page.hpp"
 
 namespace whipple::app {
@@ -113,7 +114,9 @@ int run_on_ranks(const Arguments& arguments) {
   if (arguments.force) program.emplace_back("--force");
   if (log::level() == log::Level::quiet) program.emplace_back("--quiet");
   if (log::level() == log::Level::verbose) program.emplace_back("--verbose");
-  return process::mpirun(arguments.ranks, program);
+  // Ranks that wait for one another end themselves; the launcher gives them time to do so.
+  constexpr double margin = 60.0;  // s
+  return process::mpirun(arguments.ranks, program, {}, run::SignalControl::longest_end + margin);
 }
 
 /// Runs the case on the ranks that this process belongs to.

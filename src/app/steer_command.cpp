@@ -9,10 +9,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "src/core/base/error.hpp"
-#include "src/core/base/files.hpp"
 #include "src/core/base/text.hpp"
 #include "src/core/base/text_table.hpp"
 #include "src/run/directory_control.hpp"
@@ -24,15 +24,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The status files of runs as one list, each with its folder.
+/// Prints the states of runs as one list, each with its folder; names of folders and messages may be no UTF-8.
 void print_status_as_json(const std::vector<fs::path>& runs) {
-  nlohmann::json list = nlohmann::json::array();
+  using nlohmann::json;
+  json list = json::array();
   for (const fs::path& path : runs) {
-    nlohmann::json entry = nlohmann::json::parse(read_text(path / "status.json"));
+    json entry = run::status_json(run::read_status(path));
     entry["run"] = path.string();
     list.push_back(std::move(entry));
   }
-  fmt::print("{}\n", list.dump(1));
+  fmt::print("{}\n", list.dump(1, ' ', false, json::error_handler_t::replace));
 }
 
 void print_status(const fs::path& folder, bool json) {

@@ -81,6 +81,8 @@ std::map<std::string, fs::path> library_files() {
 /// What a material does not take from its base: they are of that one.
 constexpr std::array<std::string_view, 8> not_inherited = {
     "name", "source", "note", "provenance", "covariance", "defaults", "default_errors", "potential_spread"};
+/// What tells of the constants of a table.
+constexpr std::array<std::string_view, 2> of_constants = {"source", "note"};
 constexpr int most_bases = 8;
 
 /// Takes over the tables of the material that a document is based on, and those of that one's base.
@@ -100,7 +102,7 @@ void inherit_from_base(input::Document& document, int depth = 0) {
   if (depth == most_bases) refuse("goes on to more than 8 further materials: is one of them its own?");
   input::Document inherited = input::Document::from_file(base);
   inherit_from_base(inherited, depth + 1);
-  document.inherit(std::move(inherited), "base", not_inherited);
+  document.inherit(std::move(inherited), "base", not_inherited, of_constants);
 }
 
 /// A material file whose tables are read and checked, but whose parts are not built yet.

@@ -13,6 +13,7 @@
 #include "src/core/base/normal_samples.hpp"
 #include "src/core/input/document.hpp"
 #include "src/material/material_file.hpp"
+#include "src/material/material_schema.hpp"
 
 namespace whipple {
 namespace {
@@ -145,10 +146,7 @@ Errors read_errors(const std::filesystem::path& file, ErrorTier tier) {
     }
   }
   // All else is for the reader of the material, or for people.
-  for (const char* other : {"name", "source", "note", "group", "eos", "reaction", "strength", "failure",
-                            "constitutive", "thermal", "measured", "provenance", "defaults"}) {
-    root.accept(other);
-  }
+  for (const std::string& other : material_keys()) root.accept(other);
   for (const char* other :
        {"matrix", "statistical", "correlation", "statistical_error", "bootstrap_replicates",
         "bootstrap_error", "chi_squared", "degrees_of_freedom", "fisher_eigenvalues"}) {

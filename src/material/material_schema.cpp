@@ -55,9 +55,10 @@ Schema keys_of() {
   return table;
 }
 
-/// Returns a schema without the keys that must be there: what a base does not leave to say.
+/// Returns a schema without the keys that must be there: what a base does not leave to say. Entries of lists are whole.
 Schema partial(Schema schema) {
   if (schema.is_object()) {
+    if (schema.contains("items")) return schema;
     schema.erase("required");
     if (schema.contains("oneOf")) {  // several variants may fit
       schema["anyOf"] = schema["oneOf"];
@@ -68,6 +69,27 @@ Schema partial(Schema schema) {
     for (Schema& entry : schema) entry = partial(std::move(entry));
   }
   return schema;
+}
+
+/// The root of a material file.
+/// @param unreacted  of [eos.unreacted], @param modifiers  of [[eos.modifier]]
+Schema root_of(const Schema& unreacted, const Schema& modifiers) {
+  using namespace material_tables;
+  Schema more, table, free;
+  more["unreacted"] = unreacted;
+  more["modifier"] = modifiers;
+  input::add_keys(table, Head::parameters());
+  input::add_keys(table, Base::parameters());
+  input::add_key(table, "eos", one_of(eos::all_models(), more), true);
+  input::add_key(table, "reaction", one_of(reaction::catalogue()));
+  input::add_key(table, "strength", one_of(strength::catalogue()));
+  input::add_key(table, "failure", list_of(one_of(failure::catalogue())));
+  input::add_key(table, "constitutive", one_of(material::catalogue()));
+  input::add_key(table, "thermal", keys_of<ThermalTable>());
+  input::add_key(table, "measured", keys_of<MeasuredTable>());
+  free["description"] = "written by programs";
+  for (const char* key : free_keys) input::add_key(table, key, free);
+  return table;
 }
 
 }  // namespace
@@ -89,30 +111,27 @@ std::string describe_material() {
 }
 
 std::string material_schema() {
-  using namespace material_tables;
-  const auto models = eos::all_models();
-  Schema more, table, free, all;
-  all["$defs"]["unreacted"] = one_of(models);
+  Schema all;
+  const Schema unreacted = one_of(eos::all_models());
+  all["$defs"]["unreacted"] = unreacted;
+  all["$defs"]["part_of_unreacted"] = partial(unreacted);
   all["$defs"]["modifiers"] = list_of(one_of(eos::modifier_catalogue()));
-  more["unreacted"] = input::reference_to("unreacted");
-  more["modifier"] = input::reference_to("modifiers");
-  input::add_keys(table, Head::parameters());
-  input::add_keys(table, Base::parameters());
-  input::add_key(table, "eos", one_of(models, more), true);
-  input::add_key(table, "reaction", one_of(reaction::catalogue()));
-  input::add_key(table, "strength", one_of(strength::catalogue()));
-  input::add_key(table, "failure", list_of(one_of(failure::catalogue())));
-  input::add_key(table, "constitutive", one_of(material::catalogue()));
-  input::add_key(table, "thermal", keys_of<ThermalTable>());
-  input::add_key(table, "measured", keys_of<MeasuredTable>());
-  free["description"] = "written by programs";
-  for (const char* key : free_keys) input::add_key(table, key, free);
+  const Schema modifiers = input::reference_to("modifiers");
   all["if"]["required"] = {"base"};
-  all["then"] = partial(table);
+  all["then"] = partial(root_of(input::reference_to("part_of_unreacted"), modifiers));
   all["then"]["required"] = {"name", "source", "base"};
-  all["else"] = table;
+  for (const char* table : {"thermal", "measured"})  // the source is not that of the base
+    all["then"]["properties"][table]["required"] = {"source"};
+  all["else"] = root_of(input::reference_to("unreacted"), modifiers);
   return input::schema_text(all, "Material of whipple",
                             "Material file of whipple. Quantities are texts with a unit, \"8.93 g/cm^3\".");
+}
+
+std::vector<std::string> material_keys() {
+  std::vector<std::string> keys;
+  const Schema root = root_of({}, {});
+  for (const auto& [key, value] : root.at("properties").items()) keys.push_back(key);
+  return keys;
 }
 
 }  // namespace whipple

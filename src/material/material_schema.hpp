@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace whipple {
 
@@ -12,5 +13,8 @@ std::string describe_material();
 /// Returns the JSON schema of material files, for editors (src/core/input/schema.hpp): the constants of every
 /// model of the catalogues.
 std::string material_schema();
+
+/// Returns the keys that the root of a material file may have.
+std::vector<std::string> material_keys();
 
 }  // namespace whipple

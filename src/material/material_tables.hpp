@@ -32,7 +32,8 @@ struct Base {
     return {text("base", &Base::base,
                  "material beside this file, or of the library, that holds where this file does not say "
                  "otherwise: "
-                 "its tables, key by key where their model is the same; lists as a whole")
+                 "its tables, key by key where their model is the same, without 'source' and 'note' beside "
+                 "values of this file; lists as a whole")
                 .optional()};
   }
 };

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <system_error>
@@ -22,19 +23,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
-
-json status_json(const run::RunStatus& status) {
-  return {{"state", word_of(status.state)},
-          {"goes_on", run::goes_on(status.state)},
-          {"time", number(status.time)},
-          {"step", status.step},
-          {"time_step", number(status.time_step)},
-          {"end", number(status.end)},
-          {"wall_time", number(status.wall_time)},
-          {"time_left", status.time_left ? number(*status.time_left) : json(nullptr)},
-          {"message", status.message},
-          {"written", status.written}};
-}
 
 json acts_json() {
   json list = json::array();
@@ -83,30 +71,33 @@ json answers_json(const fs::path& file) {
   return list;
 }
 
-/// Whoever may write into a folder could make links in it to what only the user of the monitor may read.
-/// @throws InputError if something in a run directory lies elsewhere
-void require_no_links_out(const fs::path& run) {
-  std::error_code gone;  // a file that is removed meanwhile
-  const std::string inside = fs::canonical(run, gone).string() + "/";
-  constexpr auto passing = fs::directory_options::skip_permission_denied;
-  for (fs::recursive_directory_iterator entry(run, passing, gone), last; entry != last && !gone;
-       entry.increment(gone)) {
-    if (!entry->is_symlink(gone)) continue;
-    if (fs::weakly_canonical(entry->path(), gone).string().starts_with(inside)) continue;
-    throw InputError(fmt::format("{}: is a link out of the folder of the run, of which nothing is shown",
-                                 entry->path().string()));
-  }
+/// Tells whether a path lies in a folder when all links are followed; what cannot be found out does not.
+bool lies_in(const fs::path& path, const fs::path& folder) {
+  std::error_code unknown;
+  const fs::path inside = fs::canonical(folder, unknown);
+  if (unknown) return false;
+  const fs::path place = fs::weakly_canonical(path, unknown);
+  if (unknown) return false;
+  return std::mismatch(inside.begin(), inside.end(), place.begin(), place.end()).first == inside.end();
 }
+
+/// Whoever may write into a folder could make links in it to what only the user of the monitor may read. Checked is what
+/// is read next, as a run has many files.
+/// @throws InputError if the file of a run, which need not exist, lies elsewhere
+void require_no_link_out(const fs::path& run, const fs::path& file) {
+  if (lies_in(file, run)) return;
+  throw InputError(
+      fmt::format("{}: is a link out of the folder of the run, of which nothing is shown", file.string()));
+}
+
+/// What is read of a run and written to it, but for its snapshots.
+constexpr std::array files_of_run = {"status.json", "run.toml",     "history.csv", "gauges.csv",
+                                     "log.txt",     "steering.csv", "control"};
 
 /// The run directories below a folder that lie in it themselves.
 std::vector<fs::path> own_runs(const fs::path& folder) {
   std::vector<fs::path> runs = run::find_runs(folder);
-  std::error_code gone;
-  const std::string inside = fs::canonical(folder, gone).string();
-  std::erase_if(runs, [&](const fs::path& run) {
-    const std::string place = fs::canonical(run, gone).string();
-    return place != inside && !place.starts_with(inside + "/");
-  });
+  std::erase_if(runs, [&](const fs::path& run) { return !lies_in(run, folder); });
   return runs;
 }
 
@@ -115,7 +106,7 @@ std::vector<fs::path> own_runs(const fs::path& folder) {
 fs::path Folder::run(const std::string& name) const {
   for (const fs::path& path : own_runs(path_)) {
     if (path.lexically_relative(path_).generic_string() != name) continue;
-    require_no_links_out(path);
+    for (const char* file : files_of_run) require_no_link_out(path, path / file);
     return path;
   }
   throw InputError(fmt::format("no run \"{}\" in {}", name, path_.string()));
@@ -131,8 +122,8 @@ json Folder::runs() const {
   for (const fs::path& path : own_runs(path_)) {
     json entry = {{"name", path.lexically_relative(path_).generic_string()}};
     try {
-      require_no_links_out(path);
-      entry.update(status_json(run::read_status(path)));
+      require_no_link_out(path, path / "status.json");
+      entry.update(run::status_json(run::read_status(path)));
     } catch (const InputError& error) {  // half written, or damaged: the others are shown
       entry.update({{"state", "unknown"}, {"goes_on", false}, {"message", error.what()}});
     }
@@ -149,7 +140,9 @@ const analysis::Run& Folder::snapshots_of(const std::string& name) {
   std::error_code missing;
   fs::file_time_type written = fs::file_time_type::min();
   for (fs::directory_iterator file(folder, missing), last; file != last; file.increment(missing)) {
-    if (file->path().extension() == ".series") written = std::max(written, file->last_write_time(missing));
+    if (file->path().extension() != ".series") continue;
+    require_no_link_out(folder, file->path());
+    written = std::max(written, file->last_write_time(missing));
   }
   if (!entry.run || written != entry.index_written) {
     entry.run = std::make_unique<analysis::Run>(analysis::read_run(folder));
@@ -166,7 +159,7 @@ json Folder::describe(const std::string& name) {
   json answer = {{"name", name},
                  {"folder", fs::absolute(path).string()},
                  {"title", ""},
-                 {"status", status_json(run::read_status(path))},
+                 {"status", run::status_json(run::read_status(path))},
                  {"acts", acts_json()},
                  {"tables", {{"history", entry.history.heads()}, {"gauges", entry.gauges.heads()}}},
                  {"rows", entry.history.rows()},
@@ -214,7 +207,11 @@ std::string Folder::cloud(const std::string& name, std::size_t index, std::size_
   const analysis::Run& run = snapshots_of(name);
   if (index >= run.snapshots.size())
     throw InputError(fmt::format("{} has {} snapshots", name, run.snapshots.size()));
-  const analysis::Snapshot snapshot = analysis::read_snapshot(run.snapshots[index]);
+  const analysis::SnapshotEntry& entry = run.snapshots[index];
+  require_no_link_out(run.folder, entry.file);
+  if (const fs::path elements = analysis::elements_file(entry); !elements.empty())
+    require_no_link_out(run.folder, elements);
+  const analysis::Snapshot snapshot = analysis::read_snapshot(entry);
   const std::size_t one_of =
       std::max<std::size_t>((snapshot.size() + most - 1) / std::max<std::size_t>(most, 1), 1);
   return view::gzipped(view::pack_cloud(run, snapshot, {.fields = {}, .one_of = one_of}));

@@ -45,13 +45,14 @@ std::string random_token() {
 
 struct Server::Connections {
   class Session;
+  /// Open connections, the longest without a question with the key first: those that have never had one, and the
+  /// others. Of too many the first ones give way, so that nobody is kept out by connections that say nothing. They
+  /// stand before `io`, whose end ends the sessions that wait, and each leaves its list.
+  std::list<Session*> strangers, known;
   asio::io_context io{1};
   tcp::acceptor acceptor{io};
   asio::steady_timer timer{io};
   asio::signal_set signals{io};
-  /// Open connections, the longest without a question with the key first: those that have never had one, and the
-  /// others. Of too many the first ones give way, so that nobody is kept out by connections that say nothing.
-  std::list<Session*> strangers, known;
   Clock::time_point asked = Clock::now();
   Desk* desk = nullptr;
 

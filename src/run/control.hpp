@@ -28,6 +28,11 @@ class RunControl {
   /// `steering`, and only where it is still empty.
   virtual void ask(const Moment& moment, Requests& requests) = 0;
 
+  /// Is told that all ranks have come to the border, where they write files, which may take long.
+  virtual void writing_begins() {}
+  /// Is told that what was to be written is, and that a step begins.
+  virtual void step_begins() {}
+
   /// Is told that the run has ended: nothing is asked for any more.
   virtual void end(const Moment&) {}
 };

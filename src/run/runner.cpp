@@ -67,6 +67,8 @@ int Runner::run(std::span<RunControl* const> controls) {
     throw StateError(failed({Outcome::Kind::left_range, static_cast<int>(ExitCode::state), error.what()}));
   } catch (const InputError& error) {  // the input was read: a file that cannot be written
     throw out_of_resources(error.what());
+  } catch (const ResourceError& error) {
+    throw out_of_resources(error.what());
   } catch (const std::filesystem::filesystem_error& error) {
     throw out_of_resources(error.what());
   } catch (const std::bad_alloc&) {
@@ -91,9 +93,12 @@ void Runner::steps() {
 
 void Runner::at_border() {
   requests_ = agree(simulation_.communicator(), asked());
+  for (RunControl* control : controls_) control->writing_begins();
   follow(requests_.steering);
   for (const auto& observer : observers_) observer->after_step(now());
   if (requests_.checkpoint) last_checkpoint_ = Clock::now();
+  if (has_ended()) return;
+  for (RunControl* control : controls_) control->step_begins();
 }
 
 /// Collects the requests of the controls and of the clock of this rank.
@@ -151,6 +156,7 @@ Outcome Runner::outcome() const {
 
 /// Tells the observers of a failure. @returns what the user is told
 std::string Runner::failed(Outcome outcome) {
+  for (RunControl* control : controls_) control->writing_begins();
   if (outcome.kind == Outcome::Kind::out_of_resources) {
     outcome.message += fmt::format("\n  stopped at step {}, t = {:.6g} s", now().step(), now().time());
   }

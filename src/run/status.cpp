@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
@@ -58,10 +59,29 @@ RunStatus read_status(const std::filesystem::path& run) {
   return status;
 }
 
+nlohmann::json status_json(const RunStatus& status) {
+  using nlohmann::json;
+  const auto number = [](double value) { return std::isfinite(value) ? json(value) : json(nullptr); };
+  return {{"state", word_of(status.state)},
+          {"goes_on", goes_on(status.state)},
+          {"time", number(status.time)},
+          {"step", status.step},
+          {"time_step", number(status.time_step)},
+          {"end", number(status.end)},
+          {"wall_time", number(status.wall_time)},
+          {"time_left", status.time_left ? number(*status.time_left) : json(nullptr)},
+          {"revision", status.revision},
+          {"message", status.message},
+          {"written", status.written}};
+}
+
 std::vector<std::filesystem::path> find_runs(const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
   require_folder(folder);
-  const auto is_run = [](const fs::path& path) { return fs::exists(path / "status.json"); };
+  const auto is_run = [](const fs::path& path) {
+    std::error_code hidden;  // what cannot be looked into is passed
+    return fs::exists(path / "status.json", hidden);
+  };
   if (is_run(folder)) return {folder};
   std::vector<fs::path> runs;
   std::error_code changed;  // a folder that is removed meanwhile

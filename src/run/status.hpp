@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,6 +46,9 @@ void write_status(const std::filesystem::path& file, const RunStatus& status);
 /// Reads the file of a run directory. A run that says it goes on, but is held by no process, is lost.
 /// @throws InputError if there is no such file or it is damaged
 RunStatus read_status(const std::filesystem::path& run);
+
+/// Returns a status as programs get it, from `whipple status --json` and from the monitor: what is not finite is null.
+nlohmann::json status_json(const RunStatus& status);
 
 /// Returns the folder itself, if it is a run directory, or those in it at any depth, by name. Run directories are not
 /// searched, links not followed. @throws InputError if there is no such folder

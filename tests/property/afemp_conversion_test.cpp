@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <random>
 #include <set>
@@ -12,6 +13,14 @@
 #include "src/afemp/transition.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/fem/structured.hpp"
+
+// As GoogleTest shows the parameters.
+namespace whipple {
+static void PrintTo(Arrangement arrangement, std::ostream* out) { *out << word_of(arrangement); }
+}  // namespace whipple
+namespace whipple::fem {
+static void PrintTo(Quadrature quadrature, std::ostream* out) { *out << word_of(quadrature); }
+}  // namespace whipple::fem
 
 namespace whipple::afemp {
 namespace {
@@ -76,6 +85,9 @@ Sums sums(const fem::Mesh& mesh, const Particles& q) {
 }
 
 enum class Field { strain, rotation, shock, random };
+void PrintTo(Field field, std::ostream* out) {
+  *out << std::array{"strain", "rotation", "shock", "random"}.at(static_cast<std::size_t>(field));
+}
 
 class Conserves : public testing::TestWithParam<std::tuple<fem::Quadrature, Field, double, Arrangement>> {};
 

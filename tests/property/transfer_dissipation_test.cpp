@@ -14,6 +14,10 @@
 #include "tests/property/transfer_support.hpp"
 
 namespace whipple::transfer {
+
+/// As GoogleTest shows the parameter.
+static void PrintTo(ShapeFunction shape, std::ostream* out) { *out << word_of(shape); }
+
 namespace {
 
 constexpr double dt = 0.02;

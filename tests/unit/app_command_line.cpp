@@ -364,12 +364,24 @@ TEST_F(CommandLine, TablesAndStatesOfRunsAreWrittenForPrograms) {
   const auto table = nlohmann::json::parse(state.out);
   EXPECT_NEAR(table["materials"][0]["rows"][0]["rho_kg_m3"].get<double>(), 9000.0, 1e-6);
   EXPECT_EQ(table["materials"][0]["rows"][0]["phase"], "solid");
-  std::filesystem::create_directories(folder_ / "run");
-  write("run/status.json", R"({"state": "finished", "step": 7, "time": 1e-6, "end": 1e-6})");
-  write("run/run.toml", "");
-  const Result status = whipple("status run --json");
-  EXPECT_EQ(status.code, 0) << status.err;
-  EXPECT_EQ(nlohmann::json::parse(status.out)[0]["step"], 7);
+  // A run that was killed says that it goes on; names of folders are bytes.
+  const char* const name = "runs/killed \xff";
+  std::filesystem::create_directories(folder_ / name);
+  write(name + std::string("/status.json"),
+        R"({"state": "running", "step": 7, "time": 1e-6, "time_step": 1e-9,
+"end": 2e-6, "wall_time": 3.0, "time_left": null, "revision": "r", "message": "m", "written": "w"})");
+  const Result status = whipple("status runs --json");
+  ASSERT_EQ(status.code, 0) << status.err;
+  const auto entry = nlohmann::json::parse(status.out).at(0);
+  EXPECT_EQ(entry["step"], 7);
+  EXPECT_EQ(entry["state"], "lost");
+  EXPECT_EQ(entry["goes_on"], false);
+  EXPECT_EQ(entry["run"], "runs/killed \xEF\xBF\xBD");
+  EXPECT_THAT(whipple("status runs").out, HasSubstr("lost"));
+  write(name + std::string("/status.json"), R"({"state": "running", )");
+  const Result damaged = whipple("status runs --json");
+  EXPECT_EQ(damaged.code, 2);
+  EXPECT_THAT(damaged.err, HasSubstr("is no status of a run"));
 }
 
 // `whipple edit` writes what passes the checks, and nothing else into the file.

@@ -140,7 +140,7 @@ def every_accepted_file(checkers):
              *SOURCE.glob("tests/**/*.toml")]
     for file in files:
         document = tomllib.loads(file.read_text())
-        topic = ("case" if {"domain", "body"} <= set(document) else "material" if {"eos", "name"} <= set(document) else
+        topic = ("case" if {"domain", "body"} <= set(document) else "material" if "name" in document and {"eos", "base"} & set(document) else
                  "md" if {"element", "potential"} <= set(document) else None)
         if topic is None:
             continue
@@ -189,6 +189,14 @@ def planted_in_materials(checker):
     for key, value in (("eos.model", "grey"), ("eos.density", 3), ("strength.yield_strength", "90 MPa"), ("group", "cheese"),
                        ("failure", {"model": "tensile_pressure"}), ("thermal.taylor_quinney", 1.5), ("name", 3), ("eos", {})):
         require(checker.faults(with_value(copper, key, value)), f"material, {key} = {value}: not refused")
+    child = {"base": "pbx_9502", "name": "n", "source": "s"}
+    for table, right in (({"eos": {"unreacted": {"heat_capacity": "1.2 kJ/(kg K)"}}}, True), ({"thermal": {"taylor_quinney": 0.9}}, False),
+                         ({"thermal": {"taylor_quinney": 0.9, "source": "s"}}, True),
+                         ({"failure": [{"model": "plastic_strain", "failure_strain": 0.3}]}, True),
+                         ({"failure": [{"model": "plastic_strain"}]}, False), ({"failure": [{"failure_strain": 0.3}]}, False),
+                         ({"eos": {"modifier": [{"value": 1}]}}, False)):
+        faults = checker.faults(child | table)
+        require((not faults) == right, f"a material with a base and {table}: {faults}")
     without = {key: value for key, value in copper.items() if key != "source"}
     require(checker.faults(without), "a material without its source")
 

@@ -140,6 +140,15 @@ def check_many(monitor):
             raise SystemExit(f"FAILED: the monitor answers on {address}")
 
 
+def check_end(folder):
+    """The monitor ends with code 0 while connections are open, with a question and without one."""
+    with contextlib.ExitStack() as open_ones:
+        with Monitor(folder) as monitor:
+            for question in (b"", b"GET /runs HTTP/1.1\r\nHost: ", f"GET / HTTP/1.1\r\nHost: {monitor.host}\r\n\r\n".encode()):
+                open_ones.enter_context(socket.create_connection(("127.0.0.1", monitor.port))).sendall(question)
+            require(monitor.ask("/")[0] == 200, "a page: the others are accepted by now")
+
+
 def check_run(monitor, folder):
     """A run is started, watched, paused, changed, killed, continued."""
     status, body = monitor.post("/start", {"case": "small_impact", "run": "ball", "set": ["domain.cell_size='0.3 mm'", "time.end='2 us'"]})
@@ -197,6 +206,20 @@ def check_links(folder):
     """What lies elsewhere is not shown through a link in a run folder."""
     secret = FOLDER / "secret"
     secret.write_text("secret\n")
+    (folder / "ball" / "notes").mkdir()
+    (folder / "ball" / "notes" / "link").symlink_to(secret)
+    with Monitor(folder) as monitor:
+        require(monitor.ask("/run?run=ball")[0] == 200, "a link beside the files of a run, of which none is read")
+        snapshot = min((folder / "ball").glob("*.particles.*.hdf"))
+        kept = snapshot.rename(snapshot.with_suffix(".kept"))
+        snapshot.symlink_to(kept)
+        require(monitor.ask("/cloud?run=ball&index=0&particles=9")[0] == 200, "a link inside of the folder of the run")
+        snapshot.unlink()
+        snapshot.symlink_to(shutil.copy(kept, FOLDER / "snapshot.hdf"))
+        status, body = monitor.ask("/cloud?run=ball&index=0&particles=9")
+        require(status == 400 and b"is a link" in body, f"a snapshot that lies elsewhere: {status} {body[:200]}")
+        snapshot.unlink()
+        kept.rename(snapshot)
     (folder / "ball" / "log.txt").unlink()
     (folder / "ball" / "log.txt").symlink_to(secret)
     with Monitor(folder, "--cases", str(FOLDER / "cases")) as monitor:
@@ -224,6 +247,7 @@ def main():
         check_access(monitor)
         check_many(monitor)
         check_run(monitor, runs)
+    check_end(runs)
     with Monitor(runs / "ball", "--read-only") as monitor:
         require([run["name"] for run in monitor.get("/runs")["runs"]] == ["."], "a run directory itself")
         require(monitor.get("/run?run=.")["rows"] > 1, "its history")

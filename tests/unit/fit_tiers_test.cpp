@@ -106,6 +106,10 @@ TEST_F(FitTiers, MaterialFilesHoldTheTiers) {
   EXPECT_EQ(potentials.names, spread->names);
   const MaterialSamples noise = sample_material(file(true), 3, 1, ErrorTier::noise);
   EXPECT_EQ(noise.names, first.fitted_names);
+  // A file may take its other tables from a base.
+  const std::filesystem::path child = folder.path() / "child.toml";
+  write_file(child, "base = \"template\"\n" + text(false), true);
+  EXPECT_EQ(sample_material(child, 3, 1, ErrorTier::noise).changes, noise.changes);
   // The same draw as that of the fit itself, from the digits of the file.
   const FitSamples own = sample_fit(first, 3, 1, ErrorTier::noise);
   EXPECT_NEAR(noise.materials[1].eos->reference_density() * own.fits[1].value("reference_specific_volume"),

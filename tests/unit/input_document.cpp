@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "src/core/base/error.hpp"
@@ -17,6 +18,7 @@
 namespace whipple::input {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -372,6 +374,26 @@ TEST(Document, NumbersOfFilesNeedTheirUnits) {
               HasSubstr("(--set): error: 'cell_size' is 2"));
   EXPECT_EQ(read_file("[domain]\ncell_size = \"1 mm\"" + rest, "2 mm"), "");
   std::filesystem::remove(path);
+}
+
+// A table that replaces constants does not keep the source of those it replaces.
+TEST(Document, InheritsRemarksWithAllTheConstantsOrNot) {
+  const auto inherited = [](const std::string& own) {
+    constexpr std::array<std::string_view, 2> remarks = {"source", "note"};
+    Document document = Document::from_text(own, "own.toml");
+    document.inherit(Document::from_text("[eos]\nmodel = 'a'\nsource = 'book'\ndensity = 1\nheat = 2\n"
+                                         "[eos.part]\nmodel = 'b'\nsource = 'paper'\nslope = 3\nnote = 'n'\n",
+                                         "base.toml"),
+                     "base", {}, remarks);
+    return document.text();
+  };
+  const std::string replaced = inherited("[eos]\ndensity = 4\n");
+  EXPECT_THAT(replaced, AllOf(HasSubstr("density = 4"), HasSubstr("heat = 2"), Not(HasSubstr("book"))));
+  EXPECT_THAT(replaced, AllOf(HasSubstr("'paper'"), HasSubstr("'n'"))) << "a table without values of its own";
+  const std::string part = inherited("[eos]\nmodel = 'a'\n[eos.part]\nslope = 5\nsource = 'own'\n");
+  EXPECT_THAT(part, AllOf(HasSubstr("'book'"), HasSubstr("'own'"), HasSubstr("slope = 5")));
+  EXPECT_THAT(part, AllOf(Not(HasSubstr("'paper'")), Not(HasSubstr("'n'"))));
+  EXPECT_THAT(inherited("[eos]\nnote = 'mine'\n"), AllOf(HasSubstr("'book'"), HasSubstr("'mine'")));
 }
 
 TEST(Document, FileErrorsNameTheFile) {

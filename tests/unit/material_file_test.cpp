@@ -147,6 +147,12 @@ TEST_F(MaterialFile, TakesWhatItDoesNotSayFromItsBase) {
                 "base = \"metal\"\nname = \"fluid\"\nsource = \"test\"\n[strength]\nmodel = \"none\"\n"))
           .strength->model(),
       "none");
+  // A base is no source of what replaces its own.
+  write("warm.toml", strong + "[thermal]\nsource = \"test\"\nconductivity = \"400 W/(m K)\"\n");
+  EXPECT_THAT(message(write("hot.toml",
+                            "base = \"warm\"\nname = \"hot\"\nsource = \"test\"\n"
+                            "[thermal]\ntaylor_quinney = 0.9\n")),
+              HasSubstr("missing key 'source' in [thermal]"));
   // Its text needs neither base.
   const fs::path alone = folder_ / "run";
   fs::create_directories(alone);

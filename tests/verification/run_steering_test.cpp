@@ -32,6 +32,7 @@
 #include "src/run/replay_control.hpp"
 #include "src/run/runner.hpp"
 #include "src/run/status.hpp"
+#include "tests/unit/folder_test.hpp"
 #include "tests/unit/temporary_folder.hpp"
 
 namespace whipple::run {
@@ -427,11 +428,12 @@ TEST_F(Steering, WithoutARunNothingCanBeAsked) {
   EXPECT_EQ(words.value, "3 us");
 }
 
-/// Fails in its second step as the physics would.
+/// Fails in the second step.
+template <class Error>
 class Fails : public RunObserver {
  public:
   void after_step(const Moment& moment) override {
-    if (moment.step() == 2) throw StateError("out of range");
+    if (moment.step() == 2) throw Error("out of range");
   }
 };
 
@@ -447,22 +449,24 @@ class Ends : public RunObserver {
   std::optional<Outcome>& outcome_;
 };
 
-TEST_F(Steering, ObserversSeeTheFailureOfARun) {
+template <class Error>
+std::string message_of_failure(Outcome::Kind expected) {
   solver::Simulation simulation(ball_on_plate(), parallel::world());
   std::optional<Outcome> seen;
   Observers observers;
-  observers.push_back(std::make_unique<Fails>());
+  observers.push_back(std::make_unique<Fails<Error>>());
   observers.push_back(std::make_unique<Ends>(seen));
   Runner runner(simulation, std::move(observers));
   runner.begin();
-  try {
-    runner.run({});
-    FAIL() << "expected a StateError";
-  } catch (const StateError& error) {
-    EXPECT_STREQ(error.what(), "out of range; noted");
-  }
-  ASSERT_TRUE(seen.has_value());
-  EXPECT_EQ(seen->kind, Outcome::Kind::left_range);
+  const std::string message = message_of<Error>([&] { runner.run({}); });
+  EXPECT_TRUE(seen.has_value() && seen->kind == expected);
+  return message;
+}
+
+TEST_F(Steering, ObserversSeeTheFailureOfARun) {
+  EXPECT_EQ(message_of_failure<StateError>(Outcome::Kind::left_range), "out of range; noted");
+  EXPECT_THAT(message_of_failure<ResourceError>(Outcome::Kind::out_of_resources),
+              testing::StartsWith("out of range\n  stopped at step 2,"));
 }
 
 TEST(HistoryColumns, StandInTheManual) {

@@ -21,6 +21,11 @@ struct Model {
   std::string label = {};
 };
 
+/// As GoogleTest shows the parameter.
+void PrintTo(const Model& model, std::ostream* out) {
+  *out << model.name << model.label << ' ' << model.scatter;
+}
+
 class SpallByModel : public testing::TestWithParam<Model> {};
 
 std::string material(const Model& model) {

@@ -4,7 +4,7 @@
 namespace whipple {
 
 /// Opens standard streams that are closed, on /dev/null: the next file would take the place of one, and what is printed
-/// would go into it. Sets the search path of programs where there is none. Called first of all.
+/// would go into it. Sets the search path of programs where there is none. `run_guarded` calls it first of all.
 void repair_surroundings();
 
 /// Checks that MPI can start: it ends a process in ways of its own where it finds no room. Raises the limit of open files

@@ -233,19 +233,31 @@ void report_unknown(Document::State& state, const toml::table& table, const std:
   }
 }
 
-/// Moves the entries of `base` that `table` lacks. Two tables become one, unless they are of different models.
-void fill(toml::table& table, toml::table& base, std::span<const std::string_view> own) {
+/// Returns whether a table has values of its own: others than remarks, its model and tables within it.
+bool has_values(const toml::table& table, std::span<const std::string_view> remarks) {
+  for (const auto& [key, node] : table) {
+    const bool is_remark = key.str() == "model" || std::ranges::find(remarks, key.str()) != remarks.end();
+    if (!is_remark && !node.is_table() && !node.is_array_of_tables()) return true;
+  }
+  return false;
+}
+
+/// Moves the entries of `base` that `table` lacks, but for those kept. Two tables become one, unless they are of different
+/// models.
+void fill(toml::table& table, toml::table& base, std::span<const std::string_view> kept,
+          std::span<const std::string_view> remarks) {
   for (auto&& [key, node] : base) {
-    if (std::ranges::find(own, key.str()) != own.end()) continue;
-    if (const toml::node* present = table.get(key.str())) {
-      toml::table* const mine = table.get(key.str())->as_table();
-      toml::table* const theirs = node.as_table();
-      if (mine == nullptr || theirs == nullptr || present == nullptr) continue;
-      const auto model = (*mine)["model"].value<std::string>();
-      if (!model || model == (*theirs)["model"].value<std::string>()) fill(*mine, *theirs, {});
-    } else {
+    if (std::ranges::find(kept, key.str()) != kept.end()) continue;
+    toml::node* const present = table.get(key.str());
+    if (present == nullptr) {
       node.visit([&](auto& concrete) { table.insert(key, std::move(concrete)); });
+      continue;
     }
+    toml::table *const mine = present->as_table(), *const theirs = node.as_table();
+    if (mine == nullptr || theirs == nullptr) continue;
+    const auto model = (*mine)["model"].value<std::string>();
+    if (model && model != (*theirs)["model"].value<std::string>()) continue;
+    fill(*mine, *theirs, has_values(*mine, remarks) ? remarks : std::span<const std::string_view>(), remarks);
   }
 }
 
@@ -282,9 +294,10 @@ void Document::set(std::string_view key, std::string_view value) {
   }
 }
 
-void Document::inherit(Document base, std::string_view link, std::span<const std::string_view> own) {
+void Document::inherit(Document base, std::string_view link, std::span<const std::string_view> own,
+                       std::span<const std::string_view> remarks) {
   state_->root.erase(link);
-  fill(state_->root, base.state_->root, own);
+  fill(state_->root, base.state_->root, own, remarks);
 }
 
 std::string Document::text() const {

@@ -38,7 +38,10 @@ class Document {
   /// file. A table whose key `model` differs, and every list, is taken whole or not at all.
   /// @param link  key of the root that names the other document: it is taken away
   /// @param own   keys of the root that are not taken
-  void inherit(Document base, std::string_view link, std::span<const std::string_view> own);
+  /// @param remarks  keys that tell of the values beside them, as their source: a table with values of its own does not
+  /// take them
+  void inherit(Document base, std::string_view link, std::span<const std::string_view> own,
+               std::span<const std::string_view> remarks = {});
   /// Returns the document as TOML, without comments.
   [[nodiscard]] std::string text() const;
 

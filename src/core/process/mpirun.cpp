@@ -32,7 +32,8 @@ void append(std::vector<std::string>& list, const std::vector<std::string>& more
 
 }  // namespace
 
-int mpirun(int ranks, const std::vector<std::string>& program, const Environment& environment) {
+int mpirun(int ranks, const std::vector<std::string>& program, const Environment& environment,
+           double patience_with_end) {
   // Thousands of processes bring a machine to a standstill before any of them has begun.
   constexpr int always_allowed = 16;
   const int processors = usable_processors(), most = std::max(always_allowed, 4 * processors);
@@ -63,10 +64,11 @@ int mpirun(int ranks, const std::vector<std::string>& program, const Environment
     all.emplace_back("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
   }
   log::detail("{}", fmt::join(arguments, " "));
-  // Ranks that wait for one another end themselves 120 s after the signal.
-  const int code = run_process(
-      arguments, all,
-      {.end_signal = SIGUSR2, .may_be_killed = true, .patience = 10.0, .patience_with_end = 300.0});
+  const int code = run_process(arguments, all,
+                               {.end_signal = SIGUSR2,
+                                .may_be_killed = true,
+                                .patience = 10.0,
+                                .patience_with_end = patience_with_end});
   if (const int signal = last_signal(); code > 128 && (signal == SIGINT || signal == SIGTERM))
     return 128 + signal;
   // A rank that was killed cannot say so, and mpirun --quiet does not.
