@@ -62,9 +62,9 @@ double electronic_coefficient(const ElementDefaults& table, const std::optional<
     // Reported below, with the names.
   }
   throw InputError(
-      fmt::format("electronic heat coefficient '{}': expected {} or a quantity >= 0 such as "
+      fmt::format("electronic heat coefficient '{}': expected {}a quantity >= 0 such as "
                   "\"0.69 mJ/(mol K^2)\"",
-                  *choice, fmt::join(names, ", ")));
+                  *choice, names.empty() ? "" : fmt::format("{} or ", fmt::join(names, ", "))));
 }
 
 void list_constants(Fit& fit, const std::vector<BoundParameter>& table, const Sources& sources) {

@@ -50,7 +50,7 @@ SolidStart fixed_constants(const Observations& data, const ElementDefaults& tabl
   const auto missing = elements::missing_constants(FitModel::gray, table,
                                                    {.melting = !data.melting.empty(),
                                                     .vapour = has_vapour(data),
-                                                    .electrons = !settings.electrons.empty()});
+                                                    .electrons = settings.electrons.has_value()});
   if (!missing.empty()) throw InputError(elements::missing_text(table.element, missing));
   SolidStart start{fixed_solid(data), {}};
   GrayConstants& constants = start.constants.gray;

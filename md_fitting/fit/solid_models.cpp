@@ -170,7 +170,7 @@ Fit fit_debye_gruneisen(std::span<const md::PointRecord> points, const FitSettin
       elements::missing_constants(FitModel::debye_gruneisen, table,
                                   {.melting = melts,
                                    .vibrations = data.nuclei.contained || !data.elastic.empty(),
-                                   .electrons = !settings.electrons.empty()});
+                                   .electrons = settings.electrons.has_value()});
   if (!missing.empty()) throw InputError(elements::missing_text(table.element, missing));
   const SolidStart start = start_of(data, table);
   SolidModel model;
