@@ -341,7 +341,9 @@ TEST_F(SolverRanks, GaugesAgreeWithOneRankAndFollowTheSameParticles) {
     if (std::isnan(b[i].value)) {
       EXPECT_TRUE(std::isnan(a[i].value)) << a[i].name;
     } else {
-      EXPECT_NEAR(a[i].value, b[i].value, 1e-9 * std::max(std::abs(b[i].value), 1.0)) << a[i].name;
+      // Shear stresses that symmetry makes zero are what is left of stresses of 1e10 Pa.
+      const double least = b[i].name.find("stress") != std::string::npos ? 1e3 : 1.0;
+      EXPECT_NEAR(a[i].value, b[i].value, 1e-9 * std::max(std::abs(b[i].value), least)) << a[i].name;
     }
   }
   EXPECT_TRUE(std::isnan(value["empty.pressure"]));
