@@ -112,7 +112,8 @@ void Body::check(const Case& setup, const Faults& faults) const {
       faults.in("node_condition").in(i).add("", "a body of particles has no nodes");
     }
   }
-  if (failure.cracks == CrackMotion::fields && !discretization.has_particles() && !discretization.converts()) {
+  if (failure.cracks == CrackMotion::fields && !discretization.has_particles() &&
+      !discretization.converts()) {
     faults.in("failure").add("cracks", "fields at cracks part particles, this body has none");
   }
   if (failure.cracks == CrackMotion::fields && setup.time.scheme != Scheme::symplectic) {

@@ -4,16 +4,17 @@
 #include <cstdint>
 #include <limits>
 
-#include "src/core/base/tensor.hpp"
 #include "src/core/base/parameter_table.hpp"
+#include "src/core/base/tensor.hpp"
 
 namespace whipple::cases {
 
 /// `failure_grains` of a body: polyhedra of a size between whose faces it fails (docs/theory/cracks.md, 3). A seed lies at
 /// random in each cube (square in two dimensions) of that edge; a grain is what is nearer to its seed than to others.
 struct FailureGrains {
-  double size = std::numeric_limits<double>::infinity();  ///< m, edge of a cube of the mean volume; infinite: none
-  double strength = 10.0;  ///< factor of the thresholds within a grain
+  double size =
+      std::numeric_limits<double>::infinity();  ///< m, edge of a cube of the mean volume; infinite: none
+  double strength = 10.0;                       ///< factor of the thresholds within a grain
   std::int64_t seed = 0;
   static ParameterTable<FailureGrains> parameters();
 

@@ -169,8 +169,8 @@ void Cracks::find(transfer::ShapeFunction shape, const Particles& particles, con
   for (std::size_t n = 0; n < of_body_.size(); ++n) {
     of_body_[n].nodes.clear();
     if (failed[fields_.cracked()[n]] == 0.0) continue;
-    transfer::with_shape(shape,
-                         [&]<class Shape>(Shape) { find_in<Shape>(n, particles, nodes, grid, body_of, field); });
+    transfer::with_shape(
+        shape, [&]<class Shape>(Shape) { find_in<Shape>(n, particles, nodes, grid, body_of, field); });
   }
 }
 

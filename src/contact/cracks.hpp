@@ -57,8 +57,8 @@ class Cracks {
   [[nodiscard]] const SectorFields& fields() const { return fields_; }
   /// Nodes of elements that move with the grid, which belong to the field of their body as a whole.
   struct ElementNodes {
-    std::span<const Vector3> position;    ///< m
-    std::span<const double> mass;         ///< kg
+    std::span<const Vector3> position;   ///< m
+    std::span<const double> mass;        ///< kg
     std::span<const std::uint8_t> body;  ///< field of the body
   };
   /// Finds the cracks, and gives particles beside them the fields of their sectors in place of those of their bodies.
@@ -93,7 +93,8 @@ class Cracks {
 
   template <class Shape>
   void find_in(std::size_t number, const Particles& particles, const ElementNodes& nodes,
-               grid::BlockGrid& grid, std::span<const std::uint8_t> body_of, std::vector<std::uint8_t>& field);
+               grid::BlockGrid& grid, std::span<const std::uint8_t> body_of,
+               std::vector<std::uint8_t>& field);
 
   SectorFields fields_;
   std::vector<OfBody> of_body_;  // of each field that divides

@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Do the pieces of a debris cloud have a size of their own, or that of the cells?
 
-usage: debris_grains.py [--cells 0.2 0.1 0.05] [--dimension axisymmetric|3d] [--size 0.48] [--folder run/studies/debris_grains]
+usage: debris_grains.py [--cells 0.2 0.1 0.05] [--dimension axisymmetric|3d] [--size 0.48] [--end 3] [--folder run/studies/debris_grains]
                         [--threads N] [--whipple EXE]
 
 A sphere of 2017-T4 of 3.175 mm strikes a sheet of 6061-T6 of 0.787 mm at 6.7 km/s (the first half of Ryan's shield); of the
-sphere, 3 us later: failed and loose shares, fragments, the largest one, and their size (cube root of the volume, in sections
+sphere, `--end` us later: failed and loose shares, fragments, the largest one, and their size (cube root of the volume, in sections
 square root of the area) at half of the mass in fragments. Without grains, with `failure_grains`, and with fields at cracks as
 well. Runs that are there are not repeated.
 """
@@ -25,10 +25,10 @@ DENSITY = 2780.0  # kg/m^3
 RADIUS = 1.5875  # mm
 
 
-def case_of(space, cell, keys):
-    """Text of the case. space: three dimensions, a quarter; else a section."""
-    side = cell * round(8 / cell)
-    lower, upper = -cell * round(6 / cell), cell * round(26 / cell)
+def case_of(space, cell, keys, end):
+    """Text of the case. space: three dimensions, a quarter; else a section. end: us."""
+    side = cell * round(max(8, 2.5 * end) / cell)
+    lower, upper = -cell * round(max(6, 2.5 * end) / cell), cell * round((5 + 7 * end) / cell)
     vector = (lambda x, *rest: "[" + ", ".join(f'"{value:.12g} {{unit}}"' for value in (x, *rest)) + "]")
     mm = (lambda x, r: vector(x, *([r] * (2 if space else 1))).format(unit="mm"))
     at_rest = ', "0 m/s"' * (2 if space else 1)
@@ -40,7 +40,7 @@ upper = {mm(upper, side)}
 cell_size = "{cell} mm"
 {'boundary = { y_lower = "symmetry", z_lower = "symmetry" }' if space else ''}
 [time]
-end = "3 us"
+end = "{end:g} us"
 [[body]]
 name = "sphere"
 material = "aluminium_2017_t4_mie_gruneisen.toml"
@@ -84,6 +84,7 @@ def main():
     parser.add_argument("--cells", type=float, nargs="+", default=[0.2, 0.1, 0.05], help="mm")
     parser.add_argument("--dimension", choices=["axisymmetric", "3d"], default="axisymmetric")
     parser.add_argument("--size", type=float, default=0.48, help="of the grains, mm")
+    parser.add_argument("--end", type=float, default=3.0, help="us")
     parser.add_argument("--folder", type=pathlib.Path, default=ROOT / "run/studies/debris_grains")
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--whipple", default=ROOT / "build/release/bin/whipple")
@@ -97,10 +98,10 @@ def main():
     print("| --- " * 7 + "|")
     for cell in arguments.cells:
         for name, keys in variants.items():
-            run = folder / f"{arguments.dimension}_{name.replace(', ', '_')}_{arguments.size}_{cell:g}"
+            run = folder / f"{arguments.dimension}_{name.replace(', ', '_')}_{arguments.size}_{cell:g}_{arguments.end:g}"
             if not (run / "report/fragments.csv").is_file():
                 case = folder / f"{run.name}.toml"
-                case.write_text(case_of(space, cell, keys), encoding="utf-8")
+                case.write_text(case_of(space, cell, keys, arguments.end), encoding="utf-8")
                 call([arguments.whipple, "run", case, "--output", run, "--force", "--quiet", "--threads", arguments.threads])
                 call([arguments.whipple, "analyse", run])
             print(line(run, name, cell, space), flush=True)

@@ -44,7 +44,8 @@ TEST(FailureGrains, HaveFacesOfTheAreaOfVoronoiCells) {
   for (int n = 0; n < 2000; ++n) {
     const Vector3 x(along(random), along(random), along(random));
     EXPECT_LE(grains.factor(x, size / 10.0, false), grains.factor(x, size / 20.0, false));
-    EXPECT_EQ(grains.factor(x, size / 10.0, true), grains.factor(x + Vector3(0.0, 0.0, 1.0), size / 10.0, true));
+    EXPECT_EQ(grains.factor(x, size / 10.0, true),
+              grains.factor(x + Vector3(0.0, 0.0, 1.0), size / 10.0, true));
   }
 }
 
@@ -71,7 +72,8 @@ TEST(FailureGrains, AreTheSameForAnyNumberOfRanksAndAreReadAndWritten) {
   EXPECT_EQ(again.bodies[0].failure_grains.strength, 5.0);
   EXPECT_EQ(again.bodies[0].failure_grains.seed, 3);
   expect_error(domain + sphere + "failure_grains = { seed = 5 }\n", {"missing key 'size'"});
-  expect_error(domain + sphere + "failure_grains = { size = \"1 mm\", strength = 0.5 }\n", {"'strength'", "1"});
+  expect_error(domain + sphere + "failure_grains = { size = \"1 mm\", strength = 0.5 }\n",
+               {"'strength'", "1"});
 }
 
 TEST(RandomBits, DependOnBothNumbers) {

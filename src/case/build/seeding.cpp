@@ -114,8 +114,8 @@ Seeding seed(const Case& setup, int rank, int ranks) {
       particles.extent[p] = site.extent;
       particles.generation[p] = 0;
       if (body.varies_failure()) {
-        threshold_factor.push_back(body.failure_factor(
-            particles.id[p], planar ? area * depth : volume, particles.position[p], setup.geometry));
+        threshold_factor.push_back(body.failure_factor(particles.id[p], planar ? area * depth : volume,
+                                                       particles.position[p], setup.geometry));
       }
     });
     initialise(material, particles, summary.first, end, state);

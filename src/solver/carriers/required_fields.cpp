@@ -15,8 +15,7 @@ void ParticleCarrier::require_fields(bool extent) const {
   Particles needed;
   needed.mass.resize(state_.particles.size());
   for (const auto& material : state_.setup.materials) use_fields(*material, needed);
-  if (std::ranges::any_of(state_.setup.bodies,
-                          [](const auto& body) { return body.varies_failure(); })) {
+  if (std::ranges::any_of(state_.setup.bodies, [](const auto& body) { return body.varies_failure(); })) {
     needed.failure_threshold_factor.resize(state_.particles.size());
   }
   if (state_.affine_inertia() > 0.0) needed.affine_velocity.resize(state_.particles.size());

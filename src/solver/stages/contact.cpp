@@ -78,7 +78,8 @@ void ContactStage::separate_fields() {
   if (cracks_) {
     state_.profile.time("cracks", [&] {
       cracks_->find(state_.shape, state_.particles,
-                    {state_.transition.position, state_.transition.mass, field_of_node_}, state_.grid, field_);
+                    {state_.transition.position, state_.transition.mass, field_of_node_}, state_.grid,
+                    field_);
     });
   }
   state_.grid.separate_fields(transfer::stencil(state_.shape), {state_.particles.position, field_},
