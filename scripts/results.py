@@ -98,7 +98,7 @@ def listed(chosen, arguments):
 
 def queued(chosen, arguments):
     """Works the queue off, or lists it; returns the exit code."""
-    jobs = queue.plan(page.load(), chosen)
+    jobs = queue.plan(page.load(), chosen, provenance.source_of(arguments.whipple))
     if arguments.list:
         for job in jobs:
             print(f"{job.cost:7.0f} s  {job.name}")

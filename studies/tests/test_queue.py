@@ -25,8 +25,7 @@ class Queue(unittest.TestCase):
                                   (comparison, "extra_grids", lambda run: []),
                                   (execution, "state_of", lambda *_: (None, provenance.MISSING)),
                                   (execution, "folder_of", lambda *_: None),
-                                  (provenance, "inputs_of", lambda run: "inputs"),
-                                  (provenance, "digest_of_sources", lambda: "now")):
+                                  (provenance, "inputs_of", lambda run: "inputs")):
             patch = mock.patch.object(target, of, value)
             patch.start()
             self.addCleanup(patch.stop)
@@ -34,7 +33,7 @@ class Queue(unittest.TestCase):
     def planned(self, *entries):
         runs = [run for run, _ in entries]
         results = {"cases": {"case": {"runs": [entry for _, entry in entries if entry]}}}
-        return queue.plan(results, [(self.case, run) for run in runs])
+        return queue.plan(results, [(self.case, run) for run in runs], "now")
 
     def test_order_is_by_rank_then_by_cost_and_what_is_current_is_left_out(self):
         runs = {"sensitivity": run_of("sensitivity", sensitivity=True), "decided": run_of("decided", decided_by="cheap"),

@@ -30,17 +30,18 @@ def command_of(case, run, resolution, folder, more=()):
     return command
 
 
-def state_of(case, run, variant, folder, more=()):
-    """Record of a run and its state: current, older source, stale or missing."""
+def state_of(case, run, variant, folder, more=(), source=None):
+    """Record of a run and its state: current, older source, stale or missing. source: digest that a current one has, by default
+    that of the working tree."""
     record = provenance.read(folder)
     command = command_of(case, run, variant.resolution, folder, [*variant.assignments, *more])
-    return record, provenance.state(record, command, provenance.inputs_of(run), provenance.digest_of_sources())
+    return record, provenance.state(record, command, provenance.inputs_of(run), source or provenance.digest_of_sources())
 
 
 def execute(whipple, case, run, variant, threads, folder=None, more=(), any_source=False):
     """Runs the case unless a current run is there; returns whether it is there now."""
     folder = folder or folder_of(case, run, variant)
-    _, state = state_of(case, run, variant, folder, more)
+    _, state = state_of(case, run, variant, folder, more, provenance.source_of(whipple))
     if state == provenance.CURRENT or (any_source and state == provenance.OLDER_SOURCE):
         return True
     (folder / "finished.json").unlink(missing_ok=True)

@@ -9,6 +9,7 @@ import json
 import pathlib
 import platform
 import re
+import shutil
 import subprocess
 import tempfile
 import tomllib
@@ -56,6 +57,7 @@ def digest_of_sources(root=ROOT):
                        for part in (str(path.relative_to(root)), code_of(path.read_text(encoding="utf-8")))))
 
 
+@functools.cache
 def digest_of_revision(revision, root=ROOT):
     """Of the same C++ in a revision of the repository."""
     with tempfile.TemporaryDirectory() as folder:
@@ -140,19 +142,26 @@ def processor():
 def program(whipple):
     """Lines of `whipple version`, digest of the executable, and that of the sources it was built from if that is known.
 
-    The executable names its revision; where src/ and eos/ have changed since, it is not that of these sources.
+    The executable names its revision: with a "+" it is taken for that of the working tree, which was changed when it was built.
     """
     done = subprocess.run([whipple, "version"], capture_output=True, text=True)
     lines = [re.sub(r"\s+", " ", line) for line in done.stdout.splitlines()]
     match = re.search(r"revision ([0-9a-f]+)", lines[0] if lines else "")
-    code = [name if name.endswith(CODE) else f":(glob){name}/**/*{suffix}" for name in SOURCES for suffix in CODE]
-    code += [f":(exclude){name}" for name in NO_SOURCES]
-    same = bool(match) and subprocess.run(["git", "diff", "--quiet", match[1], "--", *code], cwd=ROOT,
-                                          stderr=subprocess.DEVNULL).returncode == 0
     dirty = bool(match) and "+" in lines[0]
+    known = bool(match) and subprocess.run(["git", "cat-file", "-e", f"{match[1]}^{{commit}}"], cwd=ROOT,
+                                           stderr=subprocess.DEVNULL).returncode == 0
+    if dirty:
+        source = digest_of_sources()
+    else:
+        source = digest_of_revision(match[1]) if known else f"built from {match[1] if match else 'unknown'}"
     return {"program": lines[0] if lines else "", "build": [line for line in lines[1:3]],
             "executable": digest_of_file(whipple),
-            "source": digest_of_sources() if same or dirty else f"built from {match[1] if match else 'unknown'}"}
+            "source": source}
+
+
+def source_of(whipple):
+    """Digest of the sources that an executable was built from; of the working tree where there is no executable."""
+    return program(whipple)["source"] if shutil.which(whipple) else digest_of_sources()
 
 
 def numerical_parameters(folder):

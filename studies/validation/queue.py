@@ -51,16 +51,16 @@ def is_stored(entry, run, variant, source):
             and record["cell_size"] == run.cell_size[variant.resolution])
 
 
-def plan(results, chosen):
+def plan(results, chosen, source):
     """What is left to compute, in order: what tables have, by rank, then the runs that take least, all variants of one
-    together; then the same of what was never computed."""
-    source, of_run, never = provenance.digest_of_sources(), [], []
+    together; then the same of what was never computed. source: digest of the program that will compute them."""
+    of_run, never = [], []
     for case, run in chosen:
         entry, jobs = stored_run(results, case, run), []
         records = entry["records"] if entry else {}
         known = [variant for variant in comparison.extra_grids(run) if variant.name in records]
         for variant in variants_of(run, band=True) + known:
-            _, state = execution.state_of(case, run, variant, execution.folder_of(case, run, variant))
+            _, state = execution.state_of(case, run, variant, execution.folder_of(case, run, variant), (), source)
             if state == provenance.CURRENT or is_stored(entry, run, variant, source):
                 continue
             record = records.get(variant.name)
