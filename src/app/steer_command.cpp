@@ -24,27 +24,50 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// What there is to know of a run: its status, or why that cannot be read.
+struct Found {
+  fs::path run;
+  std::optional<run::RunStatus> status;
+  std::string fault;
+};
+
+std::vector<Found> statuses_below(const fs::path& folder) {
+  std::vector<Found> found;
+  for (const fs::path& path : run::find_runs(folder)) {
+    Found& next = found.emplace_back(path);
+    try {
+      next.status = run::read_status(path);
+    } catch (const InputError& error) {
+      next.fault = error.what();
+    }
+  }
+  if (found.empty()) throw InputError(fmt::format("{}: contains no run with a status.json", folder.string()));
+  return found;
+}
+
 /// Prints the states of runs as one list, each with its folder; names of folders and messages may be no UTF-8.
-void print_status_as_json(const std::vector<fs::path>& runs) {
+void print_as_json(const std::vector<Found>& runs) {
   using nlohmann::json;
   json list = json::array();
-  for (const fs::path& path : runs) {
-    json entry = run::status_json(run::read_status(path));
-    entry["run"] = path.string();
+  for (const Found& found : runs) {
+    json entry = found.status ? run::status_json(*found.status)
+                              : json{{"state", "unknown"}, {"goes_on", false}, {"message", found.fault}};
+    entry["run"] = found.run.string();
     list.push_back(std::move(entry));
   }
   fmt::print("{}\n", list.dump(1, ' ', false, json::error_handler_t::replace));
 }
 
-void print_status(const fs::path& folder, bool json) {
+void print_as_table(const std::vector<Found>& runs) {
   std::vector<std::vector<std::string>> rows = {
       {"run", "state", "done", "step", "t [us]", "end [us]", "left", "message"}};
-  const std::vector<fs::path> runs = run::find_runs(folder);
-  if (runs.empty()) throw InputError(fmt::format("{}: contains no run with a status.json", folder.string()));
-  if (json) return print_status_as_json(runs);
-  for (const fs::path& path : runs) {
-    const run::RunStatus s = run::read_status(path);
-    rows.push_back({path.string(), std::string(word_of(s.state)),
+  for (const Found& found : runs) {
+    if (!found.status) {
+      rows.push_back({found.run.string(), "unknown", "", "", "", "", "", "its status cannot be read"});
+      continue;
+    }
+    const run::RunStatus& s = *found.status;
+    rows.push_back({found.run.string(), std::string(word_of(s.state)),
                     fmt::format("{:.1f} %", s.end > 0.0 ? 100.0 * s.time / s.end : 0.0),
                     fmt::format("{}", s.step), fmt::format("{:.4g}", 1e6 * s.time),
                     fmt::format("{:.4g}", 1e6 * s.end),
@@ -52,6 +75,17 @@ void print_status(const fs::path& folder, bool json) {
                     s.message.substr(0, s.message.find('\n'))});
   }
   fmt::print("{}", text_table(rows, "llrrrrrl"));
+}
+
+/// @throws InputError after all runs were printed, if the status of one cannot be read
+void print_status(const fs::path& folder, bool json) {
+  const std::vector<Found> runs = statuses_below(folder);
+  json ? print_as_json(runs) : print_as_table(runs);
+  std::string faults;
+  for (const Found& found : runs) {
+    if (!found.status) faults += (faults.empty() ? "" : "\n") + found.fault;
+  }
+  if (!faults.empty()) throw InputError(faults);
 }
 
 }  // namespace

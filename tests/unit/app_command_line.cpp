@@ -382,6 +382,7 @@ TEST_F(CommandLine, TablesAndStatesOfRunsAreWrittenForPrograms) {
   const Result damaged = whipple("status runs --json");
   EXPECT_EQ(damaged.code, 2);
   EXPECT_THAT(damaged.err, HasSubstr("is no status of a run"));
+  EXPECT_THAT(damaged.out, HasSubstr("\"unknown\""));
 }
 
 // `whipple edit` writes what passes the checks, and nothing else into the file.
