@@ -273,6 +273,8 @@ TEST(Set, FaultsNameTheOption) {
   Domain domain;
   EXPECT_EQ(set_and_read("body.2.name", "x", &domain),
             "--set body.2.name=x: the list has 2 entries, numbered from 0");
+  EXPECT_EQ(set_and_read("gauge.0.name", "x", &domain),
+            "--set gauge.0.name=x: there is no list 'gauge': [[gauge]] in the file makes one");
   EXPECT_EQ(set_and_read("domain..x", "1", &domain), "--set domain..x=1: expected table.key=value");
   EXPECT_EQ(set_and_read("", "1", &domain), "--set =1: expected table.key=value");
   EXPECT_EQ(set_and_read("domain.boundary.x", "1", &domain),

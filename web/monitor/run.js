@@ -11,7 +11,7 @@ const POINTS = 1600;
 /** Plots that are there from the beginning: title and the names of their columns. */
 const PLOTS = [
   ['Energies', ['kinetic_energy', 'internal_energy', 'unresolved_energy', 'outflow_energy', 'total_energy']],
-  ['Momentum', ['momentum_x', 'momentum_y', 'momentum_z']],
+  ['Momentum of the model', ['momentum_x', 'momentum_y', 'momentum_z']],
   ['Masses by phase', ['mass_solid', 'mass_melting', 'mass_liquid', 'mass_vapour', 'failed_mass']],
 ];
 const LEAST_SECONDS = 1;

@@ -68,11 +68,15 @@ std::vector<std::string> key_parts(std::string_view key, std::string_view value)
   return parts;
 }
 
+/// Whether a part of a key counts the entries of a list.
+bool is_number(std::string_view part) {
+  return std::ranges::all_of(part, [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
 const toml::node* child_of(const toml::node& node, std::string_view part) {
   if (const toml::table* table = node.as_table()) return table->get(part);
   const toml::array* array = node.as_array();
-  const bool number = std::ranges::all_of(part, [](unsigned char c) { return std::isdigit(c) != 0; });
-  if (array == nullptr || !number || part.empty() || part.size() > 8) return nullptr;
+  if (array == nullptr || !is_number(part) || part.empty() || part.size() > 8) return nullptr;
   return array->get(std::stoul(std::string(part)));
 }
 
@@ -93,6 +97,9 @@ void set_value(toml::table& root, std::string_view key, std::string_view value) 
   toml::node* node = &root;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
     if (toml::table* table = node->as_table(); table != nullptr && !table->contains(path[i])) {
+      if (is_number(path[i + 1])) {
+        throw fault_of(key, value, fmt::format("there is no list '{0}': [[{0}]] in the file makes one", path[i]));
+      }
       table->insert(path[i], toml::table{});
     }
     toml::node* next = child_of(*node, path[i]);
