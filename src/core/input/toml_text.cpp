@@ -98,7 +98,8 @@ void set_value(toml::table& root, std::string_view key, std::string_view value) 
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
     if (toml::table* table = node->as_table(); table != nullptr && !table->contains(path[i])) {
       if (is_number(path[i + 1])) {
-        throw fault_of(key, value, fmt::format("there is no list '{0}': [[{0}]] in the file makes one", path[i]));
+        throw fault_of(key, value,
+                       fmt::format("there is no list '{0}': [[{0}]] in the file makes one", path[i]));
       }
       table->insert(path[i], toml::table{});
     }
