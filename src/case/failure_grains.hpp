@@ -9,7 +9,7 @@
 
 namespace whipple::cases {
 
-/// `failure_grains` of a body: polyhedra of a size between whose faces it fails (docs/theory/cracks.md, 3). A seed lies at
+/// `failure_grains` of a body: polyhedra of a size along whose faces it fails (docs/theory/cracks.md, 3). A seed lies at
 /// random in each cube (square in two dimensions) of that edge; a grain is what is nearer to its seed than to others.
 struct FailureGrains {
   double size =
