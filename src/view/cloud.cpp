@@ -14,6 +14,7 @@
 #include <variant>
 
 #include "src/core/base/error.hpp"
+#include "src/core/base/random_bits.hpp"
 #include "src/core/base/text.hpp"
 #include "src/core/base/words.hpp"
 #include "src/io/output_fields.hpp"
@@ -92,18 +93,10 @@ std::vector<FieldOfCloud> chosen_fields(const analysis::Snapshot& snapshot,
   return fields;
 }
 
-/// Spreads the numbers of particles evenly over 64 bits (Steele, Lea and Flood, OOPSLA 2014: finaliser of SplitMix):
-/// neighbours in a lattice have consecutive numbers, and every k-th of them would show as stripes.
-std::uint64_t scattered(std::uint64_t number) {
-  number += 0x9e3779b97f4a7c15U;
-  number = (number ^ (number >> 30U)) * 0xbf58476d1ce4e5b9U;
-  number = (number ^ (number >> 27U)) * 0x94d049bb133111ebU;
-  return number ^ (number >> 31U);
-}
-
 std::vector<std::size_t> kept_particles(const analysis::Snapshot& snapshot, std::uint64_t one_of) {
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < snapshot.size(); ++i) {
+    // Neighbours in a lattice have consecutive numbers, and every k-th of them would show as stripes.
     if (scattered(snapshot.id[i]) % one_of == 0) kept.push_back(i);
   }
   if (kept.empty()) kept.push_back(0);

@@ -184,18 +184,23 @@ TEST(Surfaces, HoleInASectionOfRings) {
   EXPECT_NEAR(columns.least_left(rings, all, Vector3::Zero()), 1.0, 1e-12);
 }
 
-TEST(Bar, LengthAndDiametersOfAConeOnACylinder) {
-  // Against the wall z = 0, flying down: foot of 12 mm at the wall that narrows by 0.4 mm per mm to 8 mm.
+/// Measures of a bar of 20 mm that flies down to the wall z = 0, in cells of 0.5 mm.
+/// @param radius_at  m, at a height
+template <class Radius>
+Quantities measures_of_bar(Radius&& radius_at) {
   constexpr double cell = 0.5e-3;
   Maker maker(0.5 * cell);
-  const auto radius_at = [](double z) { return std::max(4e-3, 6e-3 - 0.2 * z); };
   maker.fill({0, 0, 0}, {8e-3, 8e-3, 20e-3},
              [&](const Vector3& p) { return std::hypot(p.x(), p.y()) < radius_at(p.z()); }, {0, 0, -200});
   Frame frame = quarter(200);
   frame.sign = -1.0;
   frame.wall = 0.0;
-  const Quantities row =
-      bar_measures(maker.snapshot, frame, 0, {"bar", {0, 0, -200}, 0.5 * cell}, cell, 5e-3, true);
+  return bar_measures(maker.snapshot, frame, 0, {"bar", {0, 0, -200}, 0.5 * cell}, cell, 5e-3, true);
+}
+
+TEST(Bar, LengthAndDiametersOfAConeOnACylinder) {
+  // Against the wall z = 0, flying down: foot of 12 mm at the wall that narrows by 0.4 mm per mm to 8 mm.
+  const Quantities row = measures_of_bar([](double z) { return std::max(4e-3, 6e-3 - 0.2 * z); });
   EXPECT_NEAR(value(row, "length.bar"), 20e-3, 1e-9);
   EXPECT_NEAR(value(row, "foot_diameter.bar"), 12e-3, 0.06e-3);
   EXPECT_NEAR(value(row, "diameter_at.bar"), 10e-3, 0.06e-3);
@@ -203,16 +208,7 @@ TEST(Bar, LengthAndDiametersOfAConeOnACylinder) {
 }
 
 TEST(Bar, ARimThatCurlsOffTheWallIsItsLargestDiameterAndNoContact) {
-  constexpr double cell = 0.5e-3;
-  Maker maker(0.5 * cell);
-  const auto radius_at = [](double z) { return z > 1e-3 && z < 1.5e-3 ? 6e-3 : 4e-3; };
-  maker.fill({0, 0, 0}, {8e-3, 8e-3, 20e-3},
-             [&](const Vector3& p) { return std::hypot(p.x(), p.y()) < radius_at(p.z()); }, {0, 0, -200});
-  Frame frame = quarter(200);
-  frame.sign = -1.0;
-  frame.wall = 0.0;
-  const Quantities row =
-      bar_measures(maker.snapshot, frame, 0, {"bar", {0, 0, -200}, 0.5 * cell}, cell, 5e-3, true);
+  const Quantities row = measures_of_bar([](double z) { return z > 1e-3 && z < 1.5e-3 ? 6e-3 : 4e-3; });
   EXPECT_NEAR(value(row, "contact_diameter.bar"), 8e-3, 0.06e-3);
   EXPECT_NEAR(value(row, "largest_diameter.bar"), 12e-3, 0.2e-3);
 }

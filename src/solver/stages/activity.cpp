@@ -8,6 +8,7 @@
 #include <iterator>
 #include <limits>
 
+#include "src/core/base/random_bits.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/parallel/threads.hpp"
 #include "src/solver/carriers/explosives.hpp"
@@ -24,17 +25,9 @@ double next_event(const Material& material, const cases::HeatControl& heat, doub
   return heat.conduction && material.conductivity > 0.0 ? time : std::numeric_limits<double>::infinity();
 }
 
-/// A number in [0, 1) that depends on its arguments only: the same on all ranks and after a restart
-/// (splitmix64: Steele, Lea & Flood, OOPSLA 2014).
+/// A number in [0, 1) that depends on its arguments only: the same on all ranks and after a restart.
 double random_number(std::uint64_t seed, std::uint64_t step, std::uint64_t axis) {
-  std::uint64_t z = (seed << 40U) + 4 * step + axis;
-  for (int round = 0; round < 2; ++round) {
-    z += 0x9e3779b97f4a7c15ULL;
-    z = (z ^ z >> 30U) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ z >> 27U) * 0x94d049bb133111ebULL;
-    z ^= z >> 31U;
-  }
-  return static_cast<double>(z >> 11U) * 0x1p-53;
+  return static_cast<double>(random_bits((seed << 40U) + 4 * step + axis, 0) >> 11U) * 0x1p-53;
 }
 
 }  // namespace
