@@ -15,7 +15,7 @@ from report.page import Page
 from report.run import Run
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
-STUDIES = ROOT / "docs" / "generated" / "results.json"
+STUDIES = ROOT / "docs" / "generated" / "results"
 AXES = "xyz"
 
 
@@ -118,10 +118,11 @@ def departures(case: Case, each: RunOfCase, run: Run) -> list[str]:
 
 
 def studies_of(case: Case, run: RunOfCase, store: pathlib.Path = STUDIES) -> dict[str, dict]:
-    """Returns what the grid studies found, by the names of quantities; empty without docs/generated/results.json."""
-    if not store.is_file():
+    """Returns what the grid studies found, by the names of quantities; empty without docs/generated/results/<case>.json."""
+    path = store / f"{case.name}.json"
+    if not path.is_file():
         return {}
-    runs = json.loads(store.read_text(encoding="utf-8"))["cases"].get(case.name, {}).get("runs", [])
+    runs = json.loads(path.read_text(encoding="utf-8"))["runs"]
     return {q["name"]: q for each in runs if each["name"] == run.name for q in each["quantities"]}
 
 
@@ -215,7 +216,7 @@ def add_to(page: Page, run: Run, add_figure) -> list[dict]:
                "its tolerance; arrows: bounds, and the side that is allowed.", figure_of(drawn))
     add_figure("histories.png", "Measured histories and those of this run, moved in time so that both reach half the largest measured "
                "value together.", measured_history.figure(run.folder / "gauges.csv", found.expectations))
-    page.note("The band is that of the case's own grid study (docs/generated/results.md: discretization, position of the "
+    page.note("The band is that of the case's own grid study (docs/generated/results: discretization, position of the "
               "lattice), where there is one; its value on the finest grid is next to it. A departure of a single run "
               "within the band says nothing." if studies else
               "No grid study of this case is at hand: the values have no band.")

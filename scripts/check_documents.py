@@ -18,9 +18,8 @@ import tempfile
 WIDTH = 120
 DOCUMENTS = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/**/*.md", "cases/**/README.md",
              "studies/**/README.md")
-WRITTEN_BY_PROGRAMS = re.compile(r"docs/generated/(?!results\.md)|docs/manual/input_reference\.md")
-PART_OF_A_PROGRAM = ("<!-- begin of the part", "<!-- end of that part")  # in pages that are written by hand otherwise
-TIMELESS = re.compile(r"((cases/.*/)?README\.md|CONTRIBUTING\.md|docs/(manual|theory)/.*|docs/generated/results\.md)$")
+WRITTEN_BY_PROGRAMS = re.compile(r"docs/generated/|docs/manual/input_reference\.md")
+TIMELESS = re.compile(r"((cases/.*/)?README\.md|CONTRIBUTING\.md|docs/(manual|theory)/.*)$")
 SOURCES = (".cpp", ".hpp", ".inl", ".py", ".sh", ".cmake", ".txt")
 MONTH = "January|February|March|April|May|June|July|August|September|October|November|December"
 DIARY = (
@@ -175,8 +174,6 @@ def faults_of(root, path):
     lines = path.read_text(encoding="utf-8").split("\n")
     by_program = bool(WRITTEN_BY_PROGRAMS.match(name))
     for kind, begin, end in blocks(lines):
-        if kind == "comment" and lines[begin].startswith(PART_OF_A_PROGRAM):
-            by_program = lines[begin].startswith(PART_OF_A_PROGRAM[0])
         if kind in ("code", "formula", "blank"):
             continue
         for i in range(begin, end):
@@ -240,12 +237,11 @@ def self_test():
         "docs/manual/bad.md": f"{long}\n\nOn 25 November, version 8616de7, at 12:30.\n\nThe same day.\n\n"
                               "[no](none.md) [none](good.md#nothing)\n",
         "docs/decisions/0001_record.md": "Revision 8616de7 of 25 November.\n",
-        "docs/generated/results.md": f"By hand on 3 May.\n\n{PART_OF_A_PROGRAM[0]} -->\n\n{long} on 4 May\n\n"
-                                     f"{PART_OF_A_PROGRAM[1]} -->\n\n{long}\n",
+        "docs/generated/results.md": f"{long} on 4 May\n",
         "src/a.cpp": "// docs/theory/none.md\n",
         "src/b.cpp": '// Bodies share nodes; it does not matter.\nint matter = 1;\nf("hot matter");  // a share of the mass\n',
     }
-    expected = ["date", "characters", "characters", "date", "time of day", "commit hash", "time of day", "no file",
+    expected = ["characters", "date", "time of day", "commit hash", "time of day", "no file",
                 "no heading", "does not exist", "'matter'", "'share of the'"]
     with tempfile.TemporaryDirectory() as name:
         root = pathlib.Path(name)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the cases, gives every number a band, compares with expected.toml, and writes the tables of docs/generated/results.md.
+"""Runs the cases, gives every number a band, compares with expected.toml, and writes docs/generated/results.
 
 usage: results.py [CASE[:RUN]]... [--resolution coarse|normal|fine | --band] [--run] [--any-source] [--threads N]
                   [--write] [--list] [--cost] [--check-fresh] [--queue MINUTES [--jobs N]]
@@ -8,10 +8,11 @@ usage: results.py [CASE[:RUN]]... [--resolution coarse|normal|fine | --band] [--
 Without --run, runs that are there are compared. A run lies in run/results/CASE/RUN.VARIANT; a variant is a resolution,
 a position of the lattice or a moving frame. --band takes all variants of a run: three grids and what [band] of
 expected.toml declares of a headline, two grids of others. A run is repeated if its command, case, a material or the C++
-that computes it (studies/validation/provenance.py) has changed since; --any-source lets the last pass. --write renews docs/generated/results.json with the runs that
-are there, and from it the page and report/grid_sensitivity.json; runs that are not here keep their tables, marked where
-they are out of date. --check-fresh runs nothing: exit code 1 if a table belongs to another case or material, or the page
-to other data.
+that computes it (studies/validation/provenance.py) has changed since; --any-source lets the last pass. --write renews
+docs/generated/results/<case>.json with the runs that are there, and from them the pages beside, the overview
+docs/generated/results.md and report/grid_sensitivity.json, each only where it changes; runs that are not here keep their
+tables, marked where they are out of date. --check-fresh runs nothing: exit code 1 if a table belongs to another case or
+material, or a page to other data.
 --queue computes what is left of all tables for so many minutes, by value, N runs at a time, and writes the results as they
 come; called again it goes on (studies/validation/queue.py). With --list it names what is left, in order, with its cost.
 Format of expected.toml: docs/manual/expected_results.md; bands and marks: docs/theory/uncertainty.md.
@@ -25,7 +26,7 @@ import sys
 
 # The modules of the project are imported from its root.
 sys.path[0] = str(pathlib.Path(__file__).resolve().parents[1])
-from studies.validation import comparison, execution, page, provenance, queue  # noqa: E402
+from studies.validation import comparison, execution, page, provenance, queue, store  # noqa: E402
 from studies.validation.cases import ROOT, BadExpectation, all_cases  # noqa: E402
 from studies.validation.variants import variants_of  # noqa: E402
 
@@ -45,17 +46,18 @@ def renewed(results, chosen):
 
 
 def write(chosen):
-    results = renewed(page.load(), chosen)
-    page.STORE.write_text(json.dumps(results, indent=1, ensure_ascii=False) + "\n")
+    results = renewed(store.load(), chosen)
+    paths = store.save(results)
     stale, _, _ = page.outdated(results, all_cases())
-    page.write(results, stale, provenance.digest_of_sources())
-    page.SENSITIVITIES.write_text(json.dumps(comparison.sensitivities(results), indent=1) + "\n")
-    print(f"wrote {page.STORE}, {page.PAGE}, {page.SENSITIVITIES}")
+    paths += page.write(results, stale, provenance.digest_of_sources())
+    sensitivities = json.dumps(comparison.sensitivities(results), indent=1) + "\n"
+    paths += [page.SENSITIVITIES] if store.write_if_changed(page.SENSITIVITIES, sensitivities) else []
+    print("wrote " + (", ".join(str(path.relative_to(ROOT)) for path in paths) or "nothing: all is as it was"))
 
 
 def check_fresh():
     """Prints what is out of date; returns the exit code."""
-    results = page.load()
+    results = store.load()
     stale, older, expectations = page.outdated(results, all_cases())
     for name, run in stale:
         print(f"stale: {name}:{run}: its case or a material has changed; repeat with --band --run --write")
@@ -63,14 +65,10 @@ def check_fresh():
         print(f"older source: {name}:{run}")
     for name in expectations:
         print(f"expectations changed: {name}; renew its marks with --write")
-    if not results["cases"]:
-        print(f"no records yet: {page.STORE.name} is written by --write")
-        return 0
-    unlike = [line for line in page.body(results, "", set()).split("\n")
-              if line.startswith("|") and line not in page.written()]
+    unlike = page.unlike(results)
     if unlike:
-        print(f"{page.PAGE.name} does not say what {page.STORE.name} holds: {len(unlike)} rows, "
-              f"the first:\n  {unlike[0]}")
+        path, row = unlike[0]
+        print(f"pages do not say what is stored: {len(unlike)} rows, the first, of {path.name}:\n  {row}")
     return 1 if stale or unlike else 0
 
 
@@ -98,7 +96,7 @@ def listed(chosen, arguments):
 
 def queued(chosen, arguments):
     """Works the queue off, or lists it; returns the exit code."""
-    jobs = queue.plan(page.load(), chosen, provenance.source_of(arguments.whipple))
+    jobs = queue.plan(store.load(), chosen, provenance.source_of(arguments.whipple))
     if arguments.list:
         for job in jobs:
             print(f"{job.cost:7.0f} s  {job.name}")
@@ -128,7 +126,7 @@ def main():
     parser.add_argument("--run", action="store_true", help="run what is missing or out of date")
     parser.add_argument("--any-source", action="store_true", help="keep runs of an older source")
     parser.add_argument("--threads", type=int, default=len(os.sched_getaffinity(0)))
-    parser.add_argument("--write", action="store_true", help="renew docs/generated/results.json and docs/generated/results.md")
+    parser.add_argument("--write", action="store_true", help="renew docs/generated/results and its overview")
     parser.add_argument("--list", action="store_true", help="list cases and runs")
     parser.add_argument("--cost", action="store_true", help="with --list: particles and steps by `whipple check`")
     parser.add_argument("--queue", type=float, metavar="MINUTES", help="compute what is left of all tables, by value")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""From measured runs to numbers with bands: what docs/generated/results.json holds of a run."""
+"""From measured runs to numbers with bands: what docs/generated/results holds of a run."""
 import math
 import re
 
@@ -70,7 +70,7 @@ def input_change(case, run, values, measured):
 
 
 class StoredMeasures:
-    """What docs/generated/results.json knows of a variant whose folder is not here."""
+    """What docs/generated/results knows of a variant whose folder is not here."""
 
     def __init__(self, entry, name):
         self.values = {(q["name"], q["measure"]): q["values"].get(name) for q in entry["quantities"]}
@@ -121,7 +121,7 @@ def can_be_renewed(stored, run, records):
 
 
 def run_study(case, run, collected, stored=None):
-    """Return the entry of a run in results.json; None if nothing was run. `collected`: by name of run, from collect();
+    """Return the stored entry of a run; None if nothing was run. `collected`: by name of run, from collect();
     `stored`: the entry as it is, whose marks are renewed if its variants are not here but all that is expected was measured.
     """
     measures, records = collected[run.name]
@@ -162,7 +162,7 @@ def reasons(band):
 
 
 def case_study(case, runs, stored=None):
-    """What docs/generated/results.json says of a case: the runs that are there. `stored`: by name of run, what it says now."""
+    """What docs/generated/results says of a case: the runs that are there. `stored`: by name of run, what it says now."""
     collected = {run.name: collect(case, run, (stored or {}).get(run.name)) for run in case.runs}
     studies = [run_study(case, run, collected, (stored or {}).get(run.name)) for run in runs]
     return {"title": case.title, "expected": provenance.digest_of_file(case.path), "overrides": case.overrides,

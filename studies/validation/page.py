@@ -1,24 +1,28 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""docs/generated/results.json as text and as the generated part of docs/generated/results.md: the page is a function of that file alone."""
+"""The stored results as text and as pages: docs/generated/results.md, an overview with one row per case, and
+docs/generated/results/<case>.md. The pages are functions of the stored results and of the digest of the sources alone."""
 import collections
-import json
 import math
 
 from studies.validation import bands, frozen_parameters
 from studies.validation.cases import ROOT, UNITS
 from studies.validation.provenance import digest_of_file, digest_of_sources, inputs_of, is_same_program
+from studies.validation.store import FOLDER, write_if_changed
 
-STORE = ROOT / "docs" / "generated" / "results.json"
-PAGE = ROOT / "docs" / "generated" / "results.md"
+OVERVIEW = ROOT / "docs" / "generated" / "results.md"
 SENSITIVITIES = ROOT / "report" / "grid_sensitivity.json"
-MARKERS = ("<!-- begin of the part that scripts/results.py writes -->", "<!-- end of that part -->")
-CLASSES_OF_PHYSICS = ("experiment", "exact", "other code")
+CLASSES_OF_PHYSICS = {"experiment": "Experiments", "exact": "Exact solutions", "other code": "Other codes"}
+INTRODUCTION = """# Results
+
+Cases compared with experiments, exact solutions and other codes. Every number has an uncertainty band
+([uncertainty](../theory/uncertainty.md)) and refers to the finest grid; "not converged" is not agreement, and a single
+grid is never converged. A run agrees if all of its quantities do; one that differs decides. All cases use one set of
+numerical parameters. What was found, with the known causes of differences: [findings](../manual/findings.md). Equations
+of state from atoms: [six metals](results_md.md). Written by `scripts/results.py --write`
+([how](../manual/expected_results.md)).
+"""
 CHECKED = (bands.AGREES, bands.DIFFERS, bands.NOT_CONVERGED, bands.NOT_FOUND)
 BOLD = (bands.DIFFERS, bands.NOT_FOUND, bands.BROKEN)
-
-
-def load(path=STORE):
-    return json.loads(path.read_text()) if path.is_file() else {"format": 1, "cases": {}}
 
 
 def shown(value, unit, digits=4):
@@ -54,34 +58,60 @@ def verdict(marks):
     return bands.RECORDED
 
 
-def summary(results):
-    """Tables over all cases: one line per experiment or problem; identities and convergence apart."""
-    lines = []
-    for origin, heading in zip(CLASSES_OF_PHYSICS, ("Experiments", "Exact solutions", "Other codes")):
-        rows, totals = [], []
-        for case in results["cases"].values():
-            for run in case["runs"]:
-                marks = [q["mark"] for q in run["quantities"] if q["class"] == origin]
-                if run["sensitivity"] or run["decided_by"] or not marks:
-                    continue
-                totals.append(verdict(marks))
-                grid = list(run["cells"].values())[-1]
-                rows.append(f"| {case['title']}{': ' + run['title'] if run['title'] else ''} | {grid_text(grid)} | "
-                            + " | ".join(str(marks.count(mark)) for mark in CHECKED[:3]) + f" | {marked(totals[-1])} |")
+def deciding(run):
+    """Whether the verdict of a run counts: no study of sensitivity, and no finer section decides."""
+    return not run["sensitivity"] and not run["decided_by"]
+
+
+def verdicts(case, origin):
+    """(run, verdict) of the runs of a case that are compared with this class of reference."""
+    of_run = ((run, [q["mark"] for q in run["quantities"] if q["class"] == origin]) for run in case["runs"] if deciding(run))
+    return [(run, verdict(marks)) for run, marks in of_run if marks]
+
+
+def counted(marks):
+    """3 agrees, 2 **differs**"""
+    return ", ".join(f"{marks.count(mark)} {marked(mark)}" for mark in CHECKED if mark in marks)
+
+
+def figure(case, origin):
+    """The quantity that shows best what a case says: compared with a value, of a headline, on most
+    grids; with its band and what is expected."""
+    found = [(q["kind"] == "within", run["headline"], len(run["cells"]), q) for run, _ in verdicts(case, origin) for q in run["quantities"]
+             if q["class"] == origin and q["kind"] != "record" and q["value"] is not None]
+    if not found:
+        return "–"
+    q = max(found, key=lambda entry: entry[:3])[3]
+    return f"{q['name']} {shown(q['value'], q['unit'])} ± {shown(q['u_num'], q['unit'], 2)}, expected {expected(q)}"
+
+
+def overview(results):
+    """The page over all cases: one row per case and class of reference; convergence and identities."""
+    lines = [INTRODUCTION]
+    for origin, heading in CLASSES_OF_PHYSICS.items():
+        rows, marks = [], []
+        for name, case in results["cases"].items():
+            of_case = [mark for _, mark in verdicts(case, origin)]
+            if of_case:
+                marks += of_case
+                rows.append(f"| [{case['title']}](results/{name}.md) | {counted(of_case)} | {figure(case, origin)} |")
         if rows:
-            counts = ", ".join(f"{totals.count(mark)} {mark}" for mark in CHECKED if totals.count(mark))
-            lines += [f"**{heading}**, one line each: {len(totals)}, of which {counts}.", "",
-                      "| what | finest cells | quantities that agree | differ | not converged | all together |",
-                      "| --- | --- | --- | --- | --- | --- |", *rows, ""]
+            lines += [f"## {heading}", "", f"{len(marks)} runs: {counted(marks)}.", "",
+                      "| case | runs | one of the quantities |", "| --- | --- | --- |", *rows, ""]
     runs = [run for case in results["cases"].values() for run in case["runs"]]
-    studies = [q for run in runs if not run["sensitivity"] and not run["decided_by"] for q in physics(run)]
+    studies = [q for run in runs if deciding(run) for q in physics(run)]
     converged = sum(q["grid"] in bands.CONVERGED for q in studies)
     three = sum(all(q["values"].get(name) is not None for name in ("coarse", "normal", "fine")) for q in studies)
     identities = [q["mark"] for run in runs for q in run["quantities"] if q["class"] == "identity"]
-    lines += [f"**Convergence**: of {len(studies)} quantities {three} have three grids; {converged} are converged.", "",
+    lines += ["## All of them", "",
+              f"**Convergence**: of {len(studies)} quantities {three} have three grids; {converged} are converged.", "",
               f"**Identities** (energy, momentum; true by construction of the scheme, no evidence of physics): "
-              f"{identities.count(bands.HOLDS)} of {len(identities)} hold.", ""]
-    return lines + parameter_sets(runs)
+              f"{identities.count(bands.HOLDS)} of {len(identities)} hold.", "", *parameter_sets(runs)]
+    others = [f"[{case['title']}](results/{name}.md)" for name, case in results["cases"].items()
+              if not any(verdicts(case, origin) for origin in CLASSES_OF_PHYSICS)]
+    if others:
+        lines += [f"**Recorded without a comparison**: {'; '.join(others)}.", ""]
+    return "\n".join(lines).strip("\n") + "\n"
 
 
 def parameter_sets(runs):
@@ -154,17 +184,31 @@ def notes(run):
     return lines
 
 
-def section(name, case, source, stale):
-    """The part of a case. `stale`: names of its runs whose case or material has changed since."""
-    lines = [f"### {case['title']}", "", f"[cases/{name}](../../cases/{name})", ""]
+def verdict_table(case):
+    """One row per run that is compared and class of reference."""
+    rows = []
+    for origin, heading in CLASSES_OF_PHYSICS.items():
+        for run, of_run in verdicts(case, origin):
+            marks = [q["mark"] for q in run["quantities"] if q["class"] == origin]
+            rows.append(f"| {run['title'] or run['name']} | {heading.lower()} | {grid_text(list(run['cells'].values())[-1])} | "
+                        + " | ".join(str(marks.count(mark)) for mark in CHECKED[:3]) + f" | {marked(of_run)} |")
+    heads = ["| run | compared with | finest cells | quantities that agree | differ | not converged | all together |",
+             "| --- | --- | --- | --- | --- | --- | --- |"]
+    return [*heads, *rows, ""] if rows else []
+
+
+def case_page(name, case, source, stale):
+    """The page of a case. `stale`: names of its runs whose case or material has changed since."""
+    lines = [f"# {case['title']}", "",
+             f"Case: [cases/{name}](../../../cases/{name}). All cases: [results](../results.md); what the columns mean: "
+             "[uncertainty](../../theory/uncertainty.md).", "", *verdict_table(case)]
     if case["overrides"]:
         lines += ["Departs from the one set of numerical parameters: "
                   + "; ".join(f"`{key}` ({reason})" for key, reason in case["overrides"].items()) + ".", ""]
     for reason in case["no_variants"]:
         lines += [reason, ""]
     for run in case["runs"]:
-        if run["title"] or len(case["runs"]) > 1:
-            lines += [f"**{run['title'] or run['name']}**" + (" (sensitivity)" if run["sensitivity"] else ""), ""]
+        lines += [f"## {run['title'] or run['name']}" + (" (sensitivity)" if run["sensitivity"] else ""), ""]
         for reason in run["no_variants"]:
             lines += [reason, ""]
         if run["decided_by"]:
@@ -173,15 +217,14 @@ def section(name, case, source, stale):
             lines += ["**Not current: the case or a material has changed since.**", ""]
         lines += [f"    scripts/results.py {name}:{run['name']} --band --run", "", *table(run), "", *notes(run), "",
                   *provenance(run, source), ""]
-    return lines
+    return "\n".join(lines).strip("\n") + "\n"
 
 
-def body(results, source, stale):
-    """All between the markers of the page."""
-    lines = summary(results)
-    for name, case in results["cases"].items():
-        lines += section(name, case, source, {run for of, run in stale if of == name})
-    return "\n".join(lines).strip("\n")
+def pages(results, source, stale):
+    """All pages by path."""
+    return {OVERVIEW: overview(results)} | {
+        FOLDER / f"{name}.md": case_page(name, case, source, {run for of, run in stale if of == name})
+        for name, case in results["cases"].items()}
 
 
 def as_text(results):
@@ -223,16 +266,14 @@ def outdated(results, cases):
 
 
 def write(results, stale, source):
-    """Renews the page between its markers."""
-    old = PAGE.read_text()
-    if not all(marker in old for marker in MARKERS):
-        raise ValueError(f"{PAGE}: the markers of the generated part are missing")
-    head, rest = old.split(MARKERS[0])
-    _, tail = rest.split(MARKERS[1])
-    PAGE.write_text(f"{head}{MARKERS[0]}\n\n{body(results, source, stale)}\n\n{MARKERS[1]}{tail}")
+    """Renew the pages that say something else than before; return their paths."""
+    return [path for path, text in pages(results, source, stale).items() if write_if_changed(path, text)]
 
 
-def written():
-    """What is between the markers now."""
-    text = PAGE.read_text()
-    return text.split(MARKERS[0])[-1].split(MARKERS[1])[0].strip("\n")
+def unlike(results):
+    """Return the rows of tables, with their page, that the stored results give and the pages do not have."""
+    missing = []
+    for path, text in pages(results, "", set()).items():
+        written = set(path.read_text(encoding="utf-8").split("\n")) if path.is_file() else set()
+        missing += [(path, line) for line in text.split("\n") if line.startswith("|") and line not in written]
+    return missing

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A queue of all computations behind the tables: resumable, in the order of their value, within a given time.
 
-Whatever is current, here or in docs/generated/results.json, is not computed again, so that a queue that was stopped goes on
+Whatever is current, here or in docs/generated/results, is not computed again, so that a queue that was stopped goes on
 where it was. A run is completed before the next one is begun: tables of one program are worth more than parts of many. What
 no table has yet comes last.
 """
@@ -45,7 +45,7 @@ def stored_run(results, case, run):
 
 
 def is_stored(entry, run, variant, source):
-    """Whether results.json holds this variant as this program computes it."""
+    """Whether the stored results hold this variant as this program computes it."""
     record = entry["records"].get(variant.name) if entry else None
     return (record is not None and provenance.is_same_program(record["source"], source) and entry["inputs"] == provenance.inputs_of(run)
             and record["cell_size"] == run.cell_size[variant.resolution])

@@ -17,7 +17,7 @@ sys.path[:0] = [str(ROOT), str(ROOT / "scripts")]
 
 import drift  # noqa: E402
 from checks import require  # noqa: E402
-from studies.validation import comparison, frozen_parameters, page, provenance  # noqa: E402
+from studies.validation import comparison, frozen_parameters, page, provenance, store  # noqa: E402
 from studies.validation.cases import Case, all_cases  # noqa: E402
 
 
@@ -172,7 +172,7 @@ def stored_variants_count_beside_new_ones():
     """A run of one grid in a fresh checkout does not lose the other grids that the tables know."""
     case = next(case for case in all_cases() if case.name == "two_spheres")
     run = next(run for run in case.runs if run.name == "multi_field")
-    entry = next(e for e in page.load()["cases"]["two_spheres"]["runs"] if e["name"] == run.name)
+    entry = next(e for e in store.load()["cases"]["two_spheres"]["runs"] if e["name"] == run.name)
     measures, records = comparison.stored_variants(run, entry)
     require(set(records) == set(entry["records"]) == set(measures), f"{sorted(records)} of {sorted(entry['records'])}")
     quantity = entry["quantities"][0]
@@ -191,7 +191,7 @@ def marks_of_stored_runs_follow_their_expectations():
     """What is not here keeps its values, and is compared with what is expected now."""
     case = next(case for case in all_cases() if case.name == "two_spheres")
     run = next(run for run in case.runs if run.name == "multi_field")
-    entry = next(e for e in page.load()["cases"]["two_spheres"]["runs"] if e["name"] == run.name)
+    entry = next(e for e in store.load()["cases"]["two_spheres"]["runs"] if e["name"] == run.name)
     collected = {run.name: comparison.stored_variants(run, entry)}
     require(comparison.run_study(case, run, collected) is None, "nothing was run, nothing is stored")
     same = comparison.run_study(case, run, collected, entry)
@@ -210,7 +210,7 @@ def the_repository_is_in_order():
     require(not wrong, "\n".join(wrong))
     done = subprocess.run([sys.executable, str(ROOT / "scripts" / "results.py"), "--check-fresh"], capture_output=True,
                           text=True)
-    require(done.returncode == 0, f"docs/generated/results.md:\n{done.stdout}{done.stderr}")
+    require(done.returncode == 0, f"docs/generated/results:\n{done.stdout}{done.stderr}")
 
 
 with tempfile.TemporaryDirectory() as name:
