@@ -48,8 +48,8 @@ def renewed(results, chosen):
 def write(chosen):
     results = renewed(store.load(), chosen)
     paths = store.save(results)
-    stale, _, _ = page.outdated(results, all_cases())
-    paths += page.write(results, stale, provenance.digest_of_sources())
+    stale, _, expectations = page.outdated(results, all_cases())
+    paths += page.write(results, stale + expectations, provenance.digest_of_sources())
     sensitivities = json.dumps(comparison.sensitivities(results), indent=1) + "\n"
     paths += [page.SENSITIVITIES] if store.write_if_changed(page.SENSITIVITIES, sensitivities) else []
     print("wrote " + (", ".join(str(path.relative_to(ROOT)) for path in paths) or "nothing: all is as it was"))
@@ -63,8 +63,8 @@ def check_fresh():
         print(f"stale: {name}:{run}: its case or a material has changed; repeat with --band --run --write")
     for name, run in older:
         print(f"older source: {name}:{run}")
-    for name in expectations:
-        print(f"expectations changed: {name}; renew its marks with --write")
+    for name, run in expectations:
+        print(f"expectations changed: {name}:{run}; renew its marks with --write, or measure it again with --run")
     unlike = page.unlike(results)
     if unlike:
         path, row = unlike[0]
@@ -143,6 +143,9 @@ def main():
         if arguments.list:
             listed(chosen, arguments)
             return 0
+        program = provenance.source_of(arguments.whipple)
+        if arguments.run and not provenance.is_same_program(program, provenance.digest_of_sources()):
+            print(f"{arguments.whipple}: built from other sources than these; its runs count as such", file=sys.stderr)
         failed = 0
         for case, run in chosen if arguments.run else ():
             for variant in variants(run, arguments):

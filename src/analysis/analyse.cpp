@@ -32,6 +32,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Finds the fragments of a snapshot. @throws InputError naming its file
+Fragments fragments_of(const SnapshotEntry& entry, const Snapshot& snapshot, const Run& run, const Frame& frame,
+                       double link) {
+  try {
+    return find_fragments(snapshot, run.bodies, frame, link);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", entry.file.string(), error.what()));
+  }
+}
+
 /// Holds what the first snapshot tells about the bodies.
 struct Start {
   Frame frame;
@@ -401,7 +411,7 @@ void analyse(const Run& run, const Options& options, const fs::path& folder) {
   for (const SnapshotEntry& entry : run.snapshots) {
     last = read_snapshot(entry);
     row = measure(run, start, options, outflow, last);
-    fragments = find_fragments(last, run.bodies, frame, link);
+    fragments = fragments_of(entry, last, run, frame, link);
     append(row, piece_measures(fragments, run.bodies));
     series.append(row);
     if (peaks) peaks->add(last);
@@ -417,11 +427,13 @@ void analyse(const Run& run, const Options& options, const fs::path& folder) {
     append(values, rod_measures(first, last, b, run.bodies[b], run.cell_size));
   }
   Quantities of_fragments = fragment_measures(fragments.list, start.projectile_mass, start.particle_mass);
-  if (frame.is_planar()) {
-    for (Quantity& value : of_fragments) {
-      value.value = nan;
-      value.reason = "in two dimensions a piece of the section is a ring or a bar: see piece_count";
-    }
+  const std::string none = frame.is_planar()
+                               ? "in two dimensions a piece of the section is a ring or a bar: see piece_count"
+                               : fragments.unknown;
+  for (Quantity& value : of_fragments) {
+    if (none.empty()) break;
+    value.value = nan;
+    value.reason = none;
   }
   append(values, std::move(of_fragments));
 

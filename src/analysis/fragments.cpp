@@ -17,6 +17,7 @@ namespace {
 /// The fields that fragments are made of; nullptr if not written.
 struct Written {
   const Snapshot& snapshot;
+  Links links;
   const std::vector<double>* phase = snapshot.scalar("phase");
   const std::vector<double>* failed = snapshot.scalar("failed");
   const std::vector<double>* temperature = snapshot.scalar("temperature");
@@ -24,7 +25,9 @@ struct Written {
   const std::vector<double>* energy = snapshot.scalar("internal_energy");
   std::vector<double> volume = snapshot.volumes();
 
-  [[nodiscard]] bool has_failed(std::uint32_t i) const { return failed != nullptr && (*failed)[i] > 0.0; }
+  [[nodiscard]] bool has_failed(std::uint32_t i) const {
+    return links == Links::intact && failed != nullptr && (*failed)[i] > 0.0;
+  }
 };
 
 /// Sums up a piece and completes it at the mirror planes that it lies on.
@@ -46,8 +49,8 @@ Fragment sum_up(std::span<const std::uint32_t> members, const Written& fields, c
     internal += fields.energy != nullptr ? m * (*fields.energy)[i] : nan;
     if (fields.has_failed(i)) continue;
     ++fragment.intact;
-    for (std::size_t p = 0; p < frame.planes.size(); ++p) {
-      const double distance = std::abs(snapshot.position[i][frame.planes[p].axis] - frame.planes[p].position);
+    for (std::size_t p = 0; p < frame.cuts.size(); ++p) {
+      const double distance = std::abs(snapshot.position[i][frame.cuts[p].axis] - frame.cuts[p].position);
       to_plane[p] = std::isnan(to_plane[p]) ? distance : std::min(to_plane[p], distance);
     }
   }
@@ -57,7 +60,7 @@ Fragment sum_up(std::span<const std::uint32_t> members, const Written& fields, c
   fragment.internal_energy = internal / fragment.mass;
   fragment.position /= fragment.mass;
   fragment.velocity /= fragment.mass;
-  for (std::size_t p = 0; p < frame.planes.size(); ++p) {
+  for (std::size_t p = 0; p < frame.cuts.size(); ++p) {
     // A fragment and its image within the linking length are one: half of it was in the model.
     if (2.0 * to_plane[p] >= link) {
       fragment.copies *= 2.0;
@@ -65,8 +68,8 @@ Fragment sum_up(std::span<const std::uint32_t> members, const Written& fields, c
     }
     fragment.mass *= 2.0;
     fragment.volume *= 2.0;
-    fragment.position[frame.planes[p].axis] = frame.planes[p].position;
-    fragment.velocity[frame.planes[p].axis] = 0.0;
+    fragment.position[frame.cuts[p].axis] = frame.cuts[p].position;
+    fragment.velocity[frame.cuts[p].axis] = 0.0;
   }
   fragment.debris = frame.axial(fragment.velocity) > frame.debris_speed();
   return fragment;
@@ -75,17 +78,21 @@ Fragment sum_up(std::span<const std::uint32_t> members, const Written& fields, c
 }  // namespace
 
 Fragments find_fragments(const Snapshot& snapshot, std::span<const BodyInput> bodies, const Frame& frame,
-                         double link) {
-  const Written fields{snapshot};
+                         double link, Links links) {
+  const Written fields{snapshot, links};
   Fragments found;
   found.of_body.resize(bodies.size());
   std::vector<std::vector<std::uint32_t>> condensed(bodies.size());
   for (std::uint32_t i = 0; i < snapshot.size(); ++i) {
     const std::uint16_t b = snapshot.body[i];
-    found.of_body[b].mass += frame.copies() * snapshot.mass[i];
+    found.of_body[b].mass += frame.images() * snapshot.mass[i];
     // A gas has no pieces, vapour neither.
     if (!bodies[b].condensed || (fields.phase != nullptr && (*fields.phase)[i] == 3.0)) continue;
     condensed[b].push_back(i);
+  }
+  if (links == Links::intact && fields.failed == nullptr) {
+    found.unknown = "the snapshots have no field \"failed\"";
+    return found;
   }
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const std::vector<std::uint32_t>& mine = condensed[b];
@@ -116,12 +123,12 @@ Fragments find_fragments(const Snapshot& snapshot, std::span<const BodyInput> bo
     });
     OfBody& of = found.of_body[b];
     for (std::uint32_t k = connected; k < members.size(); ++k) {
-      of.loose += frame.copies() * snapshot.mass[members[k]];
+      of.loose += frame.images() * snapshot.mass[members[k]];
     }
     for (const Fragment& fragment : all) {
       const double in_all = fragment.copies * fragment.mass;
       // What lies on a mirror plane has as many particles again beyond it.
-      if (static_cast<double>(fragment.intact) * frame.copies() / fragment.copies < least_particles) {
+      if (static_cast<double>(fragment.intact) * frame.images() / fragment.copies < least_particles) {
         of.loose += in_all;
         continue;
       }
@@ -138,8 +145,8 @@ Quantities piece_measures(const Fragments& fragments, std::span<const BodyInput>
   Quantities row;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const OfBody& of = fragments.of_body[b];
-    const bool there = bodies[b].condensed && of.mass > 0.0;
-    const std::string reason = bodies[b].condensed ? "" : "a gas has no fragments";
+    const bool there = bodies[b].condensed && of.mass > 0.0 && fragments.unknown.empty();
+    const std::string reason = bodies[b].condensed ? fragments.unknown : "a gas has no fragments";
     row.push_back(measured("piece_count", bodies[b].name, there ? of.pieces : nan, reason));
     row.push_back(measured("piece_mass", bodies[b].name, there ? of.connected / of.pieces : nan, reason));
     row.push_back(measured("loose_fraction", bodies[b].name, there ? of.loose / of.mass : nan, reason));
@@ -147,16 +154,15 @@ Quantities piece_measures(const Fragments& fragments, std::span<const BodyInput>
   return row;
 }
 
-Table pieces_by_distance(Snapshot snapshot, std::span<const BodyInput> bodies, const Frame& frame,
+Table pieces_by_distance(const Snapshot& snapshot, std::span<const BodyInput> bodies, const Frame& frame,
                          double cell) {
   Table table{.name = "pieces_by_distance",
               .meaning = "connected pieces of all particles at the last snapshot, failed or not",
               .label = "body",
               .labels = {},
               .columns = {}};
-  snapshot.scalars.erase("failed");
   for (const double link : {1.25, 1.5, 2.0}) {
-    const Fragments found = find_fragments(snapshot, bodies, frame, link * cell);
+    const Fragments found = find_fragments(snapshot, bodies, frame, link * cell, Links::nearness);
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       if (!bodies[b].condensed) continue;
       const OfBody& of = found.of_body[b];
@@ -223,15 +229,16 @@ Table fragment_distribution(const std::vector<Fragment>& fragments) {
 }
 
 Exponent distribution_exponent(std::span<const std::pair<double, double>> mass_and_copies, double least) {
-  double count = 0.0, logarithms = 0.0;
+  double count = 0.0, logarithms = 0.0, independent = 0.0;
   for (const auto& [mass, copies] : mass_and_copies) {
     if (mass < least) continue;
+    independent += 1.0;
     count += copies;
     logarithms += copies * std::log(mass / least);
   }
   if (!(logarithms > 0.0)) return {nan, nan, count};
   const double value = count / logarithms;
-  return {value, value / std::sqrt(count), count};
+  return {value, value / std::sqrt(independent), count};
 }
 
 Quantities fragment_measures(const std::vector<Fragment>& fragments, double projectile_mass,

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 
 #include "src/analysis/frame.hpp"
 #include "src/analysis/table.hpp"
@@ -35,15 +36,24 @@ struct OfBody {
   double loose = 0.0;      ///< kg of condensed material in none
 };
 
+/// What holds the particles of a fragment together.
+enum class Links {
+  intact,   ///< those that have not failed and are near; what has failed belongs to the nearest of them
+  nearness  ///< all that are near, failed or not
+};
+
 struct Fragments {
   std::vector<Fragment> list;   ///< by decreasing mass
+  std::string unknown;          ///< why there are none although bodies may have broken; empty: they were found
   std::vector<OfBody> of_body;  ///< of each body
 };
 
 /// Finds the fragments of each body. Gases and particles of the phase vapour belong to none.
-/// @param link distance within which intact particles are connected, and a failed one belongs to the nearest of them, m
+/// Without the field `failed` none is found with `Links::intact`, as it is not known what has broken.
+/// @param link distance within which particles are connected, and a failed one belongs to the nearest of them, m
+/// @throws InputError if the distance is too small for the extent of the material
 Fragments find_fragments(const Snapshot& snapshot, std::span<const BodyInput> bodies, const Frame& frame,
-                         double link);
+                         double link, Links links = Links::intact);
 
 /// Number and mean mass of the fragments of each body, and the fraction of its mass that belongs to none.
 Quantities piece_measures(const Fragments& fragments, std::span<const BodyInput> bodies);
@@ -51,7 +61,7 @@ Quantities piece_measures(const Fragments& fragments, std::span<const BodyInput>
 /// Pieces of each body by distance alone, of particles that have failed or not, for links of 1.25, 1.5 and 2 cells: where the
 /// numbers agree with each other and with that of the fragments, all gaps are open.
 /// @param cell  cell size, m
-Table pieces_by_distance(Snapshot snapshot, std::span<const BodyInput> bodies, const Frame& frame,
+Table pieces_by_distance(const Snapshot& snapshot, std::span<const BodyInput> bodies, const Frame& frame,
                          double cell);
 
 Table fragment_table(const std::vector<Fragment>& fragments, const Frame& frame);
@@ -61,7 +71,7 @@ Table fragment_distribution(const std::vector<Fragment>& fragments);
 
 /// Exponent b of N(m) ~ m^-b over masses from `least` on and its standard error, by maximum likelihood:
 /// b = n / sum ln(m_i / least) (Clauset, Shalizi and Newman, SIAM Rev. 51 (2009) 661, eq. 3.1 with b = alpha
-/// - 1).
+/// - 1), error b / sqrt(number of the fragments in the model): mirror images tell nothing more.
 struct Exponent {
   double value = 0.0, error = 0.0;
   double count = 0.0;  ///< fragments that entered

@@ -130,6 +130,10 @@ Frame find_frame(const Run& run, const Snapshot& first, std::optional<int> axis,
   std::vector<int> mirrored, other;
   for (int a = 0; a < 3; ++a) {
     const std::optional<double>& plane = run.mirror_planes[static_cast<std::size_t>(a)];
+    const auto& faces = run.walls[static_cast<std::size_t>(a)];
+    const bool slice = faces[0] && faces[1] && faces[0]->holds && faces[1]->holds;
+    const bool flown_at = a == frame.axis && !at_rest && faces[frame.sign > 0.0 ? 1 : 0];
+    if (plane && !slice && !flown_at) frame.cuts.push_back({a, *plane});
     if (a == frame.axis) {
       // The projectile flies against it: the face of a wall, not of a model cut in halves.
       const std::optional<Run::Wall>& ahead =

@@ -21,6 +21,9 @@ struct Frame {
   Vector3 centre = Vector3::Zero();  ///< a point of the axis; its axial coordinate is 0
   double start = 0.0;                ///< axial coordinate of the projectile when its centre is there
   std::vector<Plane> planes;         ///< mirror planes that cut the model out of the full problem
+  /// Mirror planes beyond which pieces go on: of each direction the one that there is, whatever the axis. A plane that
+  /// the projectile flies against is none, nor are the two sides of a slice.
+  std::vector<Plane> cuts;
   std::optional<double>
       wall;                ///< axial coordinate of a wall or mirror plane that the projectile flies against
   bool wall_holds = true;  ///< it is a mirror plane: what touches it stays there
@@ -34,6 +37,8 @@ struct Frame {
   [[nodiscard]] bool is_planar() const { return dimension != grid::Dimension::space; }
   /// How many models make the full problem: 4 for a quarter model.
   [[nodiscard]] double copies() const { return static_cast<double>(1U << planes.size()); }
+  /// Returns how many times a piece that lies on no cut is in the full problem.
+  [[nodiscard]] double images() const { return static_cast<double>(1U << cuts.size()); }
   /// Returns this frame about the point at which the line of flight meets an axial coordinate (m).
   [[nodiscard]] Frame at_face(double coordinate) const;
   /// Returns this frame along another axis of the model, in which the line of flight goes forward too. It must not be

@@ -47,10 +47,11 @@ void take_domain(const cases::Domain& domain, Run& run) {
   }
 }
 
-/// Reads what the copy of a material file in the run tells about phases. A file that is missing, or that this program
-/// does not accept, tells nothing.
-void read_material_traits(const fs::path& file, BodyInput& body) {
-  if (!fs::is_regular_file(file)) return;
+/// Reads what the copy of a material file in the run tells about phases. A file that is missing, lies elsewhere, or that
+/// this program does not accept, tells nothing.
+void read_material_traits(const fs::path& folder, const std::string& name, BodyInput& body) {
+  const fs::path file = folder / name;
+  if (!fs::is_regular_file(file) || !lies_in(file, folder)) return;
   try {
     const Material material = read_material(file);
     body.phases = material.eos->has_phases();
@@ -116,7 +117,7 @@ void take_bodies(const std::vector<cases::Body>& bodies, Run& run) {
                           .velocity = velocity,
                           .spacing = spacing,
                           .size = body.shape != nullptr ? body.shape->smallest_extent(velocity) : nan});
-    read_material_traits(run.folder / body.material, run.bodies.back());
+    read_material_traits(run.folder, body.material, run.bodies.back());
   }
 }
 

@@ -224,26 +224,33 @@ void add_bench_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("bench",
                                          "Time standard problems: nanoseconds per particle and step, by "
                                          "stage, compared with the limits of the machine");
+  CLI::Option* laws = command->add_flag(
+      "--laws", options->laws,
+      "Instead of problems: the update of the material by law of strength and failure of metals, in multiples "
+      "of Johnson-Cook");
   command->add_option("problems", options->problems, "Which ones (default: all but the largest)")
-      ->type_name("NAME");
+      ->type_name("NAME")
+      ->excludes(laws);
   command->add_option("--threads", options->threads, "Threads of each rank; several: one after the other")
       ->delimiter(',')
-      ->check(CLI::Range(1, 4096));
+      ->check(CLI::Range(1, 4096))
+      ->excludes(laws);
   command->add_option("--ranks", options->ranks, "MPI ranks of this machine; several: one after the other")
       ->delimiter(',')
-      ->check(CLI::Range(1, 4096));
+      ->check(CLI::Range(1, 4096))
+      ->excludes(laws);
   CLI::Option* quick = command->add_flag("--quick", options->quick, "A fifth of the steps");
   command
       ->add_flag("--whole", options->whole, "The cases from beginning to end instead of some steps of them")
-      ->excludes(quick);
-  command->add_flag(
-      "--laws", options->laws,
-      "Instead of problems: the update of the material by law of strength and failure, in multiples "
-      "of Johnson-Cook");
-  command->add_option("--json", options->json, "Also write the figures to a file")->type_name("FILE.json");
+      ->excludes(quick)
+      ->excludes(laws);
+  command->add_option("--json", options->json, "Also write the figures to a file")
+      ->type_name("FILE.json")
+      ->excludes(laws);
   command->add_option("--compare", options->compare, "Print ratios to the figures of an earlier call")
-      ->type_name("OLD.json");
-  command->add_flag("--force", options->force, "Replace the file of --json");
+      ->type_name("OLD.json")
+      ->excludes(laws);
+  command->add_flag("--force", options->force, "Replace the file of --json")->excludes(laws);
   command->add_option("--worker", options->worker)->group("");  // the ranks that this command starts
   std::string footer = "Problems:\n";
   for (const bench::Problem& problem : bench::problems()) {

@@ -3,15 +3,16 @@
 
 #include <fmt/format.h>
 #include <time.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <random>
+#include <utility>
 
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
+#include "src/core/base/temporary_folder.hpp"
 #include "src/io/run_directory.hpp"
 #include "src/material/material_file.hpp"
 #include "src/material/update.hpp"
@@ -76,6 +77,8 @@ constexpr Law laws[] = {
      "[[failure]]\nmodel = 'principal_stress'\nsource = 'time only'\ntensile_strength = '100 GPa'\n"},
     {"principal_strain", "failure",
      "[[failure]]\nmodel = 'principal_strain'\nsource = 'time only'\nfailure_strain = 1e6\n"},
+    {"tearing", "failure",
+     "[[failure]]\nmodel = 'tearing'\nsource = 'time only'\nenergy_per_area = '1 MJ/m^2'\nfailure_strain = 0.1\n"},
     {"gurson", "failure",
      "[[failure]]\nmodel = 'gurson'\nsource = 'time only'\ninitial_porosity = 0.001\nfailure_porosity = "
      "0.25\n"},
@@ -116,15 +119,13 @@ class Flow {
 
 /// Reads copper with the tables of a law.
 Material material_with(const Law& law) {
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / fmt::format("whipple_law_{}_{}.toml", getpid(), law.name);
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / fmt::format("{}.toml", law.name);
   const std::string tables = law.tables;
   const std::string base = tables.starts_with("base") ? "" : "base = 'copper_ofhc_mie_gruneisen'\n";
   io::write_text_atomically(
       file.string(), fmt::format("name = 'copper, {}'\nsource = 'time only'\n{}{}", law.name, base, tables));
-  Material material = read_material(file);
-  std::filesystem::remove(file);
-  return material;
+  return read_material(file);
 }
 
 double part(std::vector<double> values, double share) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-/// Cost of the laws of strength and failure, beside one another on one equation of state.
+/// Cost of the laws of strength and failure of metals, beside one another on one equation of state.
 namespace whipple::bench {
 
 /// Time of the constitutive update of yielding metal with a law.
@@ -17,7 +17,7 @@ struct LawMeasurement {
   double multiple = 0.0, low = 0.0, high = 0.0;
 };
 
-/// Times every law on one thread, in processor time, one after the other in each of some rounds, so that all see the same machine.
+/// Times the laws of metals on one thread, in processor time, one after the other in each of some rounds, so that all see the same machine.
 /// Random deviatoric flow of 32768 points of copper (Mie-Grueneisen) that alternates in sign: all yield in most steps.
 std::vector<LawMeasurement> measure_laws(int rounds);
 

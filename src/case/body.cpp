@@ -70,6 +70,25 @@ double Body::failure_factor(std::uint64_t id, double volume, const Vector3& plac
   return scattered * failure_grains.factor(place, geometry.cell_size, geometry.is_planar());
 }
 
+std::array<bool, 3> Body::guided_axes(const Case& setup) const {
+  const grid::Geometry& geometry = setup.geometry;
+  const Shape::Bounds box = shape->bounds();
+  const double near = 0.01 * geometry.cell_size;
+  std::array<bool, 3> guided{};
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto axis = static_cast<int>(a);
+    const bool below =
+        geometry.boundary[2 * a] == grid::Boundary::symmetry && box.lower[axis] <= geometry.lower[axis] + near;
+    const bool above = geometry.boundary[2 * a + 1] == grid::Boundary::symmetry &&
+                       box.upper[axis] >= geometry.upper(axis) - near;
+    guided[a] = below || above;
+  }
+  // Rings have no direction across the axis, plane bodies none across the plane.
+  if (setup.domain.is_planar()) guided[2] = true;
+  if (geometry.is_axisymmetric()) guided[1] = true;
+  return guided;
+}
+
 void Body::read_rest(input::Table& table) {
   if (has_own_shape()) {
     shape = read_shape(table);
@@ -107,6 +126,16 @@ void Body::check(const Case& setup, const Faults& faults) const {
     faults.add("driven",
                "a 'driven' body moves with one velocity, without angular_velocity and expansion_rate");
   }
+  if (driven && shape != nullptr) {
+    const std::array<bool, 3> guided = guided_axes(setup);
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (!guided[a] || velocity[static_cast<int>(a)] == 0.0) continue;
+      faults.add("driven", fmt::format("a 'driven' body that touches a symmetry plane normal to {0} is not moved along "
+                                       "{0}: expected a velocity of 0 there",
+                                       "xyz"[a]));
+    }
+  }
+  failure_grains.check(setup, faults.in("failure_grains"));
   if (!discretization.has_elements()) {
     for (std::size_t i = 0; i < node_conditions.size(); ++i) {
       faults.in("node_condition").in(i).add("", "a body of particles has no nodes");

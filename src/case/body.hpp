@@ -69,6 +69,10 @@ struct Body {
     return velocity + angular_velocity.cross(x - centre) + expansion_rate.cwiseProduct(x - centre);
   }
 
+  /// Returns the directions in which mirror planes that the body touches, or the section of a plane or axisymmetric case,
+  /// hold it: nothing drives it there.
+  [[nodiscard]] std::array<bool, 3> guided_axes(const Case& setup) const;
+
   /// Returns whether the failure thresholds of its points differ.
   [[nodiscard]] bool varies_failure() const { return failure_scatter.given() || failure_grains.given(); }
   /// Returns the factor of the failure thresholds of a point of this volume (m^3) at a place.

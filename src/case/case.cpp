@@ -166,7 +166,7 @@ void check_planar(const Case& setup, const Faults& faults) {
   }
 }
 
-/// Adds bodies, and rims of bodies that rotate, that are faster than light: slips of a unit.
+/// Adds bodies, and rims of bodies that rotate or expand, that are faster than light: slips of a unit.
 void check_speeds(const Case& setup, const Faults& faults) {
   constexpr double light = 299792458.0;  // m/s
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
@@ -175,9 +175,12 @@ void check_speeds(const Case& setup, const Faults& faults) {
     if (body.velocity.norm() >= light) of_body.add("velocity", "'velocity' is beyond the speed of light");
     if (body.shape == nullptr) continue;
     const Shape::Bounds bounds = body.shape->bounds();
-    const double radius = 0.5 * (bounds.upper - bounds.lower).norm();
-    if (std::isfinite(radius) && body.angular_velocity.norm() * radius >= light)
+    const Vector3 half = 0.5 * (bounds.upper - bounds.lower);
+    if (!half.allFinite()) continue;
+    if (body.angular_velocity.norm() * half.norm() >= light)
       of_body.add("angular_velocity", "'angular_velocity' moves the rim beyond the speed of light");
+    if (body.expansion_rate.cwiseProduct(half).norm() >= light)
+      of_body.add("expansion_rate", "'expansion_rate' moves the rim beyond the speed of light");
   }
 }
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/case/failure_grains.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
+#include "src/case/case.hpp"
 #include "src/core/base/random_bits.hpp"
 
 namespace whipple::cases {
@@ -18,6 +21,14 @@ ParameterTable<FailureGrains> FailureGrains::parameters() {
                "factor of the failure thresholds within a grain, more than half a cell from its faces")
               .optional(),
           integer("seed", &G::seed, range::between(0, 1e18), "seed of the grains").optional()};
+}
+
+void FailureGrains::check(const Case& setup, const Faults& faults) const {
+  const double cell = setup.domain.cell_size;
+  if (!given() || !(size < cell)) return;
+  faults.add("size", fmt::format("'size' is {:.3g} of a cell ({:.3g} mm): expected at least one, as all of a smaller "
+                                 "grain lies at its faces",
+                                 size / cell, 1e3 * cell));
 }
 
 bool FailureGrains::given() const { return std::isfinite(size); }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "src/case/section.hpp"
 #include "src/core/base/parameter_table.hpp"
 #include "src/core/base/tensor.hpp"
 
@@ -19,6 +20,8 @@ struct FailureGrains {
   static ParameterTable<FailureGrains> parameters();
 
   [[nodiscard]] bool given() const;
+  /// Adds a fault if grains are smaller than cells: all of the material would lie at a face.
+  void check(const Case& setup, const Faults& faults) const;
   /// Returns the factor of the thresholds at a place: 1 within half a cell of a face, else `strength`.
   /// @param planar  seeds lie in the plane of the first two coordinates
   [[nodiscard]] double factor(const Vector3& place, double cell_size, bool planar) const;

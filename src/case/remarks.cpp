@@ -254,6 +254,17 @@ void remark_on_symmetry(const Case& setup, std::vector<std::string>& remarks) {
   }
 }
 
+/// The size of the pieces comes near that of the grains from ten cells in a grain on (docs/theory/cracks.md, 3).
+void remark_on_grains(const Case& setup, std::vector<std::string>& remarks) {
+  constexpr double least = 10.0;
+  for (const Body& body : setup.bodies) {
+    const double cells = body.failure_grains.size / setup.geometry.cell_size;
+    if (!body.failure_grains.given() || cells >= least) continue;
+    remarks.push_back(fmt::format("'{}': its failure_grains are {:.3g} cells wide, resolved are those of {} and more",
+                                  body.name, cells, least));
+  }
+}
+
 void remark_on_meshes(const Case& setup, std::vector<std::string>& remarks) {
   for (const Body& body : setup.bodies) {
     if (body.discretization.mesh.empty()) continue;
@@ -284,6 +295,7 @@ std::vector<std::string> remarks(const Case& setup) {
   remark_on_splitting(setup, found);
   remark_on_detonators(setup, found);
   remark_on_symmetry(setup, found);
+  remark_on_grains(setup, found);
   remark_on_meshes(setup, found);
   return found;
 }

@@ -11,6 +11,7 @@
 
 #include "src/core/base/csv.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
 #include "src/run/requests.hpp"
 #include "src/run/status.hpp"
 #include "src/view/cloud.hpp"
@@ -69,16 +70,6 @@ json answers_json(const fs::path& file) {
                     {"detail", cells[6]}});
   }
   return list;
-}
-
-/// Tells whether a path lies in a folder when all links are followed; what cannot be found out does not.
-bool lies_in(const fs::path& path, const fs::path& folder) {
-  std::error_code unknown;
-  const fs::path inside = fs::canonical(folder, unknown);
-  if (unknown) return false;
-  const fs::path place = fs::weakly_canonical(path, unknown);
-  if (unknown) return false;
-  return std::mismatch(inside.begin(), inside.end(), place.begin(), place.end()).first == inside.end();
 }
 
 /// Whoever may write into a folder could make links in it to what only the user of the monitor may read. Checked is what

@@ -32,6 +32,19 @@ std::vector<double> halves(const std::vector<std::uint64_t>& words) {
   return halves;
 }
 
+/// Calls f(first number) for every row of an array that has `width` numbers in each.
+/// @throws InputError naming the array if its last row is incomplete
+template <class Function>
+void for_each_row(const io::CheckpointValues& values, const std::string& name, std::ptrdiff_t width,
+                  Function&& f) {
+  const std::vector<double>& numbers = values.array(name);
+  if (std::ssize(numbers) % width != 0) {
+    throw InputError(fmt::format("the checkpoint has {} numbers in \"{}\": expected a multiple of {}",
+                                 numbers.size(), name, width));
+  }
+  for (auto n = numbers.begin(); n != numbers.end(); n += width) f(n);
+}
+
 /// Joins the halves of words of bits.
 std::vector<std::uint64_t> words(const std::vector<double>& halves) {
   std::vector<std::uint64_t> words;
@@ -66,14 +79,12 @@ solver::RunState from_checkpoint(const io::CheckpointValues& values) {
   state.step = values.integer("step");
   state.particles_at_rest = values.integer("particles_at_rest");
   state.touched = words(values.array("touched"));
-  const std::vector<double>& outflow = values.array("outflow_of_body");
-  for (auto n = outflow.begin(); n + 5 <= outflow.end(); n += 5) {
+  for_each_row(values, "outflow_of_body", 5, [&](auto n) {
     state.outflow_of_body.push_back({n[0], {n[1], n[2], n[3]}, n[4]});
-  }
-  const std::vector<double>& driven = values.array("driven_bodies");
-  for (auto n = driven.begin(); n + 7 <= driven.end(); n += 7) {
+  });
+  for_each_row(values, "driven_bodies", 7, [&](auto n) {
     state.driven.push_back({{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, n[6]});
-  }
+  });
   for_each_real(state, [&](const std::string& name, double& value) { value = values.real(name); });
   return state;
 }

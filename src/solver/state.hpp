@@ -50,7 +50,6 @@ constexpr std::array<Word<TimeStepBound>, 10> words(TimeStepBound) {
            {output_time, "time of output or end"}}};
 }
 
-/// Holds the state of a run that changes with time, apart from what the carriers hold; what a checkpoint must hold.
 /// What the next step needs to know of the force that keeps the velocity of a driven body.
 struct DrivenBody {
   Vector3 velocity = Vector3::Zero();      ///< m/s, mean of the body at the beginning of the last step
@@ -58,6 +57,7 @@ struct DrivenBody {
   double time_step = 0.0;                  ///< s, of that step; 0: there was none
 };
 
+/// Holds the state of a run that changes with time, apart from what the carriers hold; what a checkpoint must hold.
 struct RunState {
   double time = 0.0;                  ///< s
   double time_step = 0.0;             ///< s, of the last step; 0 before the first

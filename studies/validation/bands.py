@@ -31,6 +31,11 @@ class GridStudy:
         return self.state in CONVERGED
 
 
+def clean(value):
+    """JSON knows no NaN."""
+    return value if value is not None and math.isfinite(value) else None
+
+
 def observed_order(fine, medium, coarse, r21, r32):
     """Order p of f(h) = f0 + c h^p through three grids of any ratios; NaN unless monotone and p > 0.
 

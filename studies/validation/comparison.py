@@ -4,6 +4,7 @@ import math
 import re
 
 from studies.validation import bands, execution, provenance
+from studies.validation.bands import clean
 from studies.validation.variants import variants_of
 
 # Kinds of quantities whose dependence on the grid reports of single runs quote.
@@ -14,11 +15,6 @@ KINDS_OF_MEASURE = (("molten mass", r"melted"), ("vaporised mass", r"vaporised")
                     ("largest fragment", r"fragment"), ("residual velocity", r"mean_velocity|residual_speed"),
                     ("final length", r"^length\.|residual_length"), ("diameter of a bar", r"foot_diameter|diameter_at"),
                     ("peak pressure", r"peak_pressure"), ("spall: pull-back and layer", r"pullback|spall_thickness"))
-
-
-def clean(value):
-    """JSON knows no NaN."""
-    return value if value is not None and math.isfinite(value) else None
 
 
 def known(value):
@@ -113,6 +109,24 @@ RECORDED_KEYS = ("revision", "dirty", "program", "executable", "source", "parame
                  "machine", "threads", "wall_time", "cell_size", "variant")
 
 
+def comparable(records):
+    """Names of the variants that one program computed: those of the program that computed most grids, of the latest of
+    equal ones. Others say nothing about the dependence on the grid."""
+    groups = []
+    for name in records:
+        group = next((g for g in groups if provenance.is_same_program(records[g[0]]["source"], records[name]["source"])), None)
+        if group is None:
+            groups.append([name])
+        else:
+            group.append(name)
+    here = provenance.digest_of_sources()
+    return max(groups, default=[], key=lambda group: (
+        sum(name in GRIDS for name in group), provenance.is_same_program(records[group[0]]["source"], here)))
+
+
+GRIDS = ("coarse", "normal", "fine")
+
+
 def can_be_renewed(stored, run, records):
     """Whether a stored entry of a run has all that its expectations measure now, and nothing of it is of former grids."""
     known_measures = {(q["name"], q["measure"]) for q in stored["quantities"]}
@@ -128,8 +142,9 @@ def run_study(case, run, collected, stored=None):
     if all(isinstance(of_run, StoredMeasures) for of_run in measures.values()) and not (
             stored and can_be_renewed(stored, run, records)):
         return None
-    grids = [name for name in ("coarse", "normal", "fine") if name in measures]
-    moved = [name for name in measures if name not in grids]
+    grids = [name for name in GRIDS if name in measures]
+    used = comparable(records)
+    moved = [name for name in used if name not in GRIDS]
     changes = input_change(case, run, measures, {name: found for name, (found, _) in collected.items()})
     rows = []
     for expectation, change in zip(run.expectations, changes):
@@ -137,8 +152,8 @@ def run_study(case, run, collected, stored=None):
         if expectation.origin == "identity":
             study = identity_study(expectation, values.values())
         else:
-            samples = [values[name] for name in (["normal"] if "normal" in values else []) + moved]
-            study = quantity_study(expectation, [(run.cells(name), values[name]) for name in grids],
+            samples = [values[name] for name in (["normal"] if "normal" in used else []) + moved]
+            study = quantity_study(expectation, [(run.cells(name), values[name]) for name in grids if name in used],
                                    samples if moved else [], change)
         rows.append({"name": expectation.name, "measure": expectation.measure, "class": expectation.origin,
                      "kind": expectation.kind, "unit": expectation.unit, "expected": clean(expectation.value),
@@ -151,6 +166,7 @@ def run_study(case, run, collected, stored=None):
             "no_variants": [] if run.band is case.band else reasons(run.band),
             "cells": {name: run.cell_size[name] for name in grids},
             "across": across,
+            "apart": sorted(set(records) - set(used)),
             "inputs": provenance.inputs_of(run), "quantities": rows,
             "records": {name: {key: record[key] for key in RECORDED_KEYS} for name, record in records.items()}}
 
@@ -165,7 +181,7 @@ def case_study(case, runs, stored=None):
     """What docs/generated/results says of a case: the runs that are there. `stored`: by name of run, what it says now."""
     collected = {run.name: collect(case, run, (stored or {}).get(run.name)) for run in case.runs}
     studies = [run_study(case, run, collected, (stored or {}).get(run.name)) for run in runs]
-    return {"title": case.title, "expected": provenance.digest_of_file(case.path), "overrides": case.overrides,
+    return {"title": case.title, "overrides": case.overrides,
             "no_variants": reasons(case.band) if case.band else ["No positions of the lattice or moving frame are declared."],
             "runs": [study for study in studies if study]}
 

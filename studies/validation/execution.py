@@ -35,7 +35,9 @@ def state_of(case, run, variant, folder, more=(), source=None):
     that of the working tree."""
     record = provenance.read(folder)
     command = command_of(case, run, variant.resolution, folder, [*variant.assignments, *more])
-    return record, provenance.state(record, command, provenance.inputs_of(run), source or provenance.digest_of_sources())
+    program = source or provenance.digest_of_sources()
+    return record, provenance.state(record, command, provenance.inputs_of(run),
+                                    lambda of: provenance.is_current(of, program, run))
 
 
 def execute(whipple, case, run, variant, threads, folder=None, more=(), any_source=False):
@@ -124,6 +126,6 @@ def cost(whipple, case, run, variant):
     estimate = re.search(r"estimated time: .* to (.*?) on", text)
     words = re.findall(r"([\d.]+) (\w+)", estimate[1] if estimate else "")
     seconds = sum(float(n) * DURATIONS.get(unit, 0.0) for n, unit in words)
-    record, state = state_of(case, run, variant, folder_of(case, run, variant))
+    record, state = state_of(case, run, variant, folder_of(case, run, variant), source=provenance.source_of(whipple))
     return {"points": points, "steps": int(steps[2]) if steps else 0, "seconds": seconds,
             "wall_time": record["wall_time"] if record else None, "state": state}

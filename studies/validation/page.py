@@ -5,8 +5,9 @@ import collections
 import math
 
 from studies.validation import bands, frozen_parameters
+from studies.validation.bands import clean
 from studies.validation.cases import ROOT, UNITS
-from studies.validation.provenance import digest_of_file, digest_of_sources, inputs_of, is_same_program
+from studies.validation.provenance import digest_of_sources, inputs_of, is_current, is_same_program
 from studies.validation.store import FOLDER, write_if_changed
 
 OVERVIEW = ROOT / "docs" / "generated" / "results.md"
@@ -138,7 +139,7 @@ def grid_text(text):
 def table(run):
     """The quantities of a run; values by grid, then bands, then the comparison."""
     grids = list(run["cells"])
-    heads = ["quantity", *(grid_text(run["cells"][g]) for g in grids), "order", "limit", "U_grid", "U_lattice", "U_num",
+    heads = ["quantity", *(grid_text(run["cells"][g]) + (" (apart)" if g in run["apart"] else "") for g in grids), "order", "limit", "U_grid", "U_lattice", "U_num",
              "expected", "E", "U_val", "", "class"]
     lines = ["| " + " | ".join(heads) + " |", "| --- |" + " --- |" * (len(heads) - 1)]
     for q in physics(run):
@@ -169,6 +170,8 @@ def provenance(run, source):
 def notes(run):
     """Sources and known causes, each said once."""
     lines, sources = [], {}
+    if run["apart"]:
+        lines.append(f"- Apart, as another program computed them: {', '.join(run['apart'])}; bands and marks are without them")
     for q in physics(run):
         sources.setdefault(q["source"], []).append(q["name"])
     for source, names in sources.items():
@@ -184,13 +187,19 @@ def notes(run):
     return lines
 
 
+def finest(run):
+    """The finest cells of those that one program computed."""
+    counted_in = [size for name, size in run["cells"].items() if name not in run["apart"]]
+    return counted_in[-1]
+
+
 def verdict_table(case):
     """One row per run that is compared and class of reference."""
     rows = []
     for origin, heading in CLASSES_OF_PHYSICS.items():
         for run, of_run in verdicts(case, origin):
             marks = [q["mark"] for q in run["quantities"] if q["class"] == origin]
-            rows.append(f"| {run['title'] or run['name']} | {heading.lower()} | {grid_text(list(run['cells'].values())[-1])} | "
+            rows.append(f"| {run['title'] or run['name']} | {heading.lower()} | {grid_text(finest(run))} | "
                         + " | ".join(str(marks.count(mark)) for mark in CHECKED[:3]) + f" | {marked(of_run)} |")
     heads = ["| run | compared with | finest cells | quantities that agree | differ | not converged | all together |",
              "| --- | --- | --- | --- | --- | --- | --- |"]
@@ -214,7 +223,7 @@ def case_page(name, case, source, stale):
         if run["decided_by"]:
             lines += [f"The same experiment with finer cells decides: {run['decided_by']}.", ""]
         if run["name"] in stale:
-            lines += ["**Not current: the case or a material has changed since.**", ""]
+            lines += ["**Not current: the case, a material or what is expected has changed since.**", ""]
         lines += [f"    scripts/results.py {name}:{run['name']} --band --run", "", *table(run), "", *notes(run), "",
                   *provenance(run, source), ""]
     return "\n".join(lines).strip("\n") + "\n"
@@ -245,8 +254,18 @@ def as_text(results):
     return "\n".join(lines)
 
 
+def compared(entry):
+    """What a stored run was compared with."""
+    return [(q["name"], q["measure"], q["class"], q["kind"], q["expected"], q["tolerance"]) for q in entry["quantities"]]
+
+
+def expected_now(run):
+    """What a run is to be compared with."""
+    return [(e.name, e.measure, e.origin, e.kind, clean(e.value), clean(e.tolerance)) for e in run.expectations]
+
+
 def outdated(results, cases):
-    """(case, run) whose case or material file has changed since; those of another source; cases whose expectations did."""
+    """(case, run) whose case or material file has changed since; those of another source; those whose expectations did."""
     stale, older, expectations = [], [], []
     source = digest_of_sources()
     for name, stored in results["cases"].items():
@@ -254,14 +273,15 @@ def outdated(results, cases):
         if case is None:
             stale += [(name, run["name"]) for run in stored["runs"]]
             continue
-        if stored["expected"] != digest_of_file(case.path):
-            expectations.append(name)
         runs = {run.name: run for run in case.runs}
         for run in stored["runs"]:
             if run["name"] not in runs or inputs_of(runs[run["name"]]) != run["inputs"]:
                 stale.append((name, run["name"]))
-            elif any(not is_same_program(record["source"], source) for record in run["records"].values()):
+                continue
+            if any(not is_current(record["source"], source, runs[run["name"]]) for record in run["records"].values()):
                 older.append((name, run["name"]))
+            if compared(run) != expected_now(runs[run["name"]]):
+                expectations.append((name, run["name"]))
     return stale, older, expectations
 
 

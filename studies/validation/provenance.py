@@ -70,16 +70,46 @@ def known_same():
     return json.loads(SAME_RESULTS.read_text()) if SAME_RESULTS.is_file() else {}
 
 
+UNKNOWN_SOURCE = "built from "  # and a revision, where that was not known when the run was made
+
+
+@functools.cache
+def known_source(source):
+    """The digest of a source; of one that is named by its revision, if the repository has it."""
+    revision = source.removeprefix(UNKNOWN_SOURCE)
+    return digest_of_revision(revision) if revision != source and has_revision(revision) else source
+
+
+@functools.cache
+def has_revision(revision):
+    done = subprocess.run(["git", "cat-file", "-e", f"{revision}^{{commit}}"], cwd=ROOT, stderr=subprocess.DEVNULL)
+    return done.returncode == 0
+
+
 def is_same_program(one, other):
-    """Whether two digests are of sources that compute the same: themselves, or by the runs of the drift gate."""
+    """Whether two sources compute the same: they are one, or by the runs of the drift gate."""
     same = known_same()
 
     def first(source):
+        source = known_source(source)
         while source in same:
             source = same[source]
         return source
 
     return first(one) == first(other)
+
+
+# Programs that compute the same runs as later ones and define pieces and fragments otherwise (docs/theory/analysis.md, 3).
+MEASURES_OF_PIECES = re.compile(r"piece_|loose_fraction|largest_fragment|mean_fragment|debris_fragments|fragment_exponent")
+FORMER_PIECES = frozenset(("e2357f6d28298d43", "6996eb7450a9143c", "a07d45635fbe8742", "45845d99f5e2109f", "04d9fe0269858762",
+                           "d4aa44ac62ed6019", "7916c7fe56677fe8", "60a53a71aa62845c", "d64a917a5377ca3e", "8b84966968a6a681"))
+
+
+def is_current(source, program, run):
+    """Whether a run that a source computed and measured is what a program gives for it."""
+    measures_pieces = any(MEASURES_OF_PIECES.search(expectation.measure) for expectation in run.expectations)
+    former = measures_pieces and known_source(source) in FORMER_PIECES and known_source(program) not in FORMER_PIECES
+    return is_same_program(source, program) and not former
 
 
 @functools.cache
@@ -147,13 +177,10 @@ def program(whipple):
     done = subprocess.run([whipple, "version"], capture_output=True, text=True)
     lines = [re.sub(r"\s+", " ", line) for line in done.stdout.splitlines()]
     match = re.search(r"revision ([0-9a-f]+)", lines[0] if lines else "")
-    dirty = bool(match) and "+" in lines[0]
-    known = bool(match) and subprocess.run(["git", "cat-file", "-e", f"{match[1]}^{{commit}}"], cwd=ROOT,
-                                           stderr=subprocess.DEVNULL).returncode == 0
-    if dirty:
+    if match and "+" in lines[0]:
         source = digest_of_sources()
     else:
-        source = digest_of_revision(match[1]) if known else f"built from {match[1] if match else 'unknown'}"
+        source = known_source(UNKNOWN_SOURCE + (match[1] if match else "unknown"))
     return {"program": lines[0] if lines else "", "build": [line for line in lines[1:3]],
             "executable": digest_of_file(whipple),
             "source": source}
@@ -207,10 +234,10 @@ def meaning(command):
     return [(key, in_si(value_of(text))) if separator else key for key, separator, text in words]
 
 
-def state(record, command, inputs, source):
-    """Whether a record is that of this command, case, materials and source."""
+def state(record, command, inputs, is_current):
+    """Whether a record is that of this command, case, materials, and of a current source by is_current(source)."""
     if record is None:
         return MISSING
     if meaning(record["command"]) != meaning(command) or any(record[key] != inputs[key] for key in ("case", "materials")):
         return STALE
-    return CURRENT if is_same_program(record["source"], source) else OLDER_SOURCE
+    return CURRENT if is_current(record["source"]) else OLDER_SOURCE

@@ -47,7 +47,7 @@ def stored_run(results, case, run):
 def is_stored(entry, run, variant, source):
     """Whether the stored results hold this variant as this program computes it."""
     record = entry["records"].get(variant.name) if entry else None
-    return (record is not None and provenance.is_same_program(record["source"], source) and entry["inputs"] == provenance.inputs_of(run)
+    return (record is not None and provenance.is_current(record["source"], source, run) and entry["inputs"] == provenance.inputs_of(run)
             and record["cell_size"] == run.cell_size[variant.resolution])
 
 

@@ -51,5 +51,32 @@ INSTANTIATE_TEST_SUITE_P(Contact, WallRanks,
                          testing::Values("[contact]\nmethod = \"none\"\n",
                                          "[contact]\nmethod = \"multi_field\"\nfriction = 0.2\n"));
 
+/// A bar between two grips that move apart, one of them by itself, the other held by a plane that pushes only.
+TEST(DrivenRanks, AgreeWithOneRank) {
+  using namespace verification;
+  const std::string material = aluminium("aluminium_of_grips", "0.3 GPa");
+  const auto part = [&](const char* name, double from, double to, const char* keys) {
+    return std::string("[[body]]\nname = \"") + name + "\"\nmaterial = \"" + material + "\"\n" + keys +
+           "contact_group = \"one\"\nshape = { " + box(1e-3 * Vector3(from, 4.0, 4.0), 1e-3 * Vector3(to, 8.0, 8.0)) +
+           " }\n";
+  };
+  const cases::Case setup = cases::read_case_text(
+      Method{}.time_toml(2e-6) + Method{}.toml() +
+          "[domain]\nlower = [0, 0, 0]\nupper = [0.024, 0.012, 0.012]\ncell_size = 0.001\n" +
+          part("left", 4.0, 6.0, "velocity = [\"-20 m/s\", \"5 m/s\", \"0 m/s\"]\ndriven = true\n") +
+          part("bar", 6.0, 16.0, "velocity = [\"0 m/s\", \"0 m/s\", \"0 m/s\"]\n") +
+          part("right", 16.0, 18.0, "velocity = [\"30 m/s\", \"0 m/s\", \"0 m/s\"]\ndriven = true\n"),
+      "grips.toml");
+  Simulation together(setup, MPI_COMM_WORLD), alone(setup, MPI_COMM_SELF);
+  advance_to(together, 2e-6);
+  advance_on_root(alone, 2e-6);
+  expect_agreement(together, alone, 1e-11);
+  if (!is_root()) return;
+  const Ledger &a = together.state().ledger, &b = alone.state().ledger;
+  EXPECT_GT(b.external_work, 0.01 * b.initial.kinetic_energy);
+  EXPECT_NEAR(a.external_work, b.external_work, 1e-11 * b.initial.kinetic_energy);
+  EXPECT_LE((a.external_impulse - b.external_impulse).norm(), 1e-11 * b.initial.momentum_scale);
+}
+
 }  // namespace
 }  // namespace whipple::solver

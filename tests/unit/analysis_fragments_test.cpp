@@ -112,7 +112,7 @@ TEST(Fragments, ExponentOfAPowerLaw) {
   const Exponent found = distribution_exponent(masses, least);
   EXPECT_NEAR(found.value, b, 1e-3);
   EXPECT_EQ(found.count, 8000.0);
-  EXPECT_NEAR(found.error, b / std::sqrt(8000.0), 1e-4);
+  EXPECT_NEAR(found.error, b / std::sqrt(4000.0), 1e-4) << "mirror images tell nothing more";
 }
 
 /// Particles of a section, two in a cell.
@@ -120,13 +120,10 @@ struct Section {
   Maker maker{half};
   Frame frame;
 
-  Section() {
-    frame.dimension = grid::Dimension::plane_strain;
-    maker.snapshot.scalars["failed"] = {};
-  }
+  Section() { frame.dimension = grid::Dimension::plane_strain; }
   void add(double x, double y, bool failed = false) {
     maker.add(Vector3(x, y, 0.0), Vector3(x, 0.0, 0.0));
-    maker.snapshot.scalars["failed"].push_back(failed ? 2.0 : 0.0);
+    maker.snapshot.scalars["failed"].back() = failed ? 2.0 : 0.0;
   }
   void square(double x, double y, int n, bool failed = false) {
     for (int i = 0; i < n; ++i) {
@@ -172,7 +169,7 @@ TEST(Pieces, TwoSquaresPartedByAStringOfFailedParticlesAreTwo) {
 
 TEST(Pieces, FailedParticlesOnAMirrorPlaneConnectNothing) {
   Section section;
-  section.frame.planes = {{0, 0.0}};
+  section.frame.cuts = {{0, 0.0}};
   section.square(1.25e-3, 0.0, 6);
   for (int j = 0; j < 6; ++j) section.add(0.25e-3, half * j, true);  // a crack in the plane
   const Fragments apart = section.found();
@@ -184,13 +181,57 @@ TEST(Pieces, FailedParticlesOnAMirrorPlaneConnectNothing) {
 
   // Two particles and their images are four.
   Section pair;
-  pair.frame.planes = {{0, 0.0}};
+  pair.frame.cuts = {{0, 0.0}};
   pair.add(0.25e-3, 0.0);
   pair.add(0.25e-3, half);
   EXPECT_EQ(pair.found().list.size(), 1U);
   EXPECT_EQ(pair.found().of_body[0].pieces, 1.0);
-  pair.frame.planes.clear();
+  pair.frame.cuts.clear();
   EXPECT_TRUE(pair.found().list.empty());
+}
+
+TEST(Pieces, AreUnknownWithoutTheFieldOfFailure) {
+  Section section;
+  section.square(0.0, 0.0, 10);
+  section.maker.snapshot.scalars.erase("failed");
+  const Fragments found = section.found();
+  EXPECT_TRUE(found.list.empty());
+  const Quantities row = piece_measures(found, one_body);
+  ASSERT_EQ(row.size(), 3U);
+  for (const Quantity& quantity : row) {
+    EXPECT_TRUE(std::isnan(quantity.value)) << quantity.name;
+    EXPECT_NE(quantity.reason.find("no field \"failed\""), std::string::npos) << quantity.reason;
+  }
+  EXPECT_EQ(pieces_by_distance(section.maker.snapshot, one_body, section.frame, cell)["pieces"],
+            (std::vector<double>{1.0, 1.0, 1.0}));
+}
+
+// Of what lies still nothing says along which axis it flies: the cuts do not depend on it.
+TEST(Pieces, AreCutByEveryMirrorPlaneButWallsAndSidesOfASlice) {
+  Maker maker(half);
+  maker.add(Vector3::Constant(2e-3), Vector3::Zero());
+  analysis::Run run;
+  run.bodies.resize(1);
+  const auto mirror = [&](std::size_t axis, std::size_t side, double position) {
+    run.walls[axis][side] = {.position = position, .holds = true};
+    run.mirror_planes[axis] = run.walls[axis][0] ? run.walls[axis][0]->position : position;
+  };
+  const auto axes = [&](const Snapshot& last) {
+    std::vector<int> found;
+    for (const Plane& plane : find_frame(run, maker.snapshot, {}, &last).cuts) found.push_back(plane.axis);
+    return found;
+  };
+  mirror(0, 0, 0.0);
+  mirror(1, 0, 0.0);
+  mirror(2, 0, 0.0);
+  mirror(2, 1, 5e-3);  // a slice
+  for (int axis = 0; axis < 3; ++axis) {
+    Snapshot last = maker.snapshot;
+    last.velocity[0][axis] = 1e-12;
+    EXPECT_EQ(axes(last), (std::vector<int>{0, 1})) << "moves along " << axis;
+  }
+  run.bodies[0].velocity = Vector3(-100.0, 0.0, 0.0);  // against the plane x = 0: a wall
+  EXPECT_EQ(axes(maker.snapshot), (std::vector<int>{1}));
 }
 
 TEST(Pieces, AGasHasNone) {

@@ -24,7 +24,7 @@ struct Maker {
   double spacing;
 
   explicit Maker(double distance) : spacing(distance) {
-    for (const char* name : {"density", "phase", "temperature", "melted_fraction"})
+    for (const char* name : {"density", "phase", "temperature", "melted_fraction", "failed"})
       snapshot.scalars[name] = {};
   }
   void add(const Vector3& position, const Vector3& velocity, std::uint16_t body = 0, double phase = 0.0,
@@ -38,6 +38,7 @@ struct Maker {
     snapshot.scalars["phase"].push_back(phase);
     snapshot.scalars["temperature"].push_back(temperature);
     snapshot.scalars["melted_fraction"].push_back(phase > 0.0 ? 1.0 : 0.0);
+    snapshot.scalars["failed"].push_back(0.0);
   }
   /// All lattice points (i + 1/2) spacing inside.
   void fill(const Vector3& lower, const Vector3& upper, const std::function<bool(const Vector3&)>& inside,
@@ -60,7 +61,7 @@ struct Maker {
 /// A quarter model that flies up along z.
 inline Frame quarter(double impact_speed = 6000.0) {
   Frame frame;
-  frame.planes = {{0, 0.0}, {1, 0.0}};
+  frame.planes = frame.cuts = {{0, 0.0}, {1, 0.0}};
   frame.impact_speed = impact_speed;
   return frame;
 }

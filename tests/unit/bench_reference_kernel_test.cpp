@@ -3,6 +3,7 @@
 // motion what it gives to the internal energy.
 #include <gtest/gtest.h>
 
+#include "src/bench/laws.hpp"
 #include "src/bench/reference_kernel.hpp"
 
 namespace whipple::bench {
@@ -19,6 +20,17 @@ TEST(ReferenceKernel, KeepsMassAndMomentumAndNearlyTheEnergy) {
   EXPECT_LT(kernel.kinetic_energy(), 0.9 * kinetic);
   // Stress last with FLIP does not conserve it exactly.
   EXPECT_NEAR(kernel.kinetic_energy() + kernel.internal_energy(), before, 0.02 * before);
+}
+
+TEST(Laws, AreReadAndTakeTimeInMultiplesOfTheFirst) {
+  const std::vector<LawMeasurement> laws = measure_laws(1);
+  ASSERT_GT(laws.size(), 15U);
+  EXPECT_EQ(laws.front().name, "johnson_cook");
+  EXPECT_EQ(laws.front().multiple, 1.0);
+  for (const LawMeasurement& law : laws) {
+    EXPECT_GT(law.nanoseconds, 0.0) << law.name;
+    EXPECT_NEAR(law.multiple, law.nanoseconds / laws.front().nanoseconds, 1e-12) << law.name;
+  }
 }
 
 }  // namespace

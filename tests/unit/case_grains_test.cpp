@@ -72,6 +72,7 @@ TEST(FailureGrains, AreTheSameForAnyNumberOfRanksAndAreReadAndWritten) {
   EXPECT_EQ(again.bodies[0].failure_grains.strength, 5.0);
   EXPECT_EQ(again.bodies[0].failure_grains.seed, 3);
   expect_error(domain + sphere + "failure_grains = { seed = 5 }\n", {"missing key 'size'"});
+  expect_error(domain + sphere + "failure_grains = { size = \"1e-25 m\" }\n", {"'size'", "of a cell"});
   expect_error(domain + sphere + "failure_grains = { size = \"1 mm\", strength = 0.5 }\n",
                {"'strength'", "1"});
 }

@@ -101,13 +101,18 @@ TEST(Remarks, NameMotionAgainstASymmetryPlane) {
                 .find("rotates about an axis that is not the plane's normal x"),
             std::string::npos);
   // A body that only touches may move into the plane: it meets its image. Off it, it may not.
-  const auto bar = [&](const char* velocity) {
+  const auto bar = [&](const char* velocity, const std::string& more = "") {
     return remarks_of(
         domain + "[[body]]\nname = \"bar\"\nmaterial = \"copper.toml\"\nvelocity = [\"" + velocity +
         "\", \"0 m/s\", \"0 m/s\"]\nshape = { box = { lower = [\"0 mm\", \"0 mm\", \"-5 mm\"], upper = "
-        "[\"5 mm\", \"5 mm\", \"5 mm\"] } }\n");
+        "[\"5 mm\", \"5 mm\", \"5 mm\"] } }\n" +
+        more);
   };
   EXPECT_EQ(bar("-200 m/s"), "");
+  // Expansion is about the middle, 2.5 mm from the plane.
+  EXPECT_EQ(bar("25 m/s", "expansion_rate = [\"1e4 1/s\", \"0 1/s\", \"0 1/s\"]\n"), "");
+  EXPECT_NE(bar("0 m/s", "expansion_rate = [\"-1e4 1/s\", \"0 1/s\", \"0 1/s\"]\n").find("at 25 m/s off the plane"),
+            std::string::npos);
   EXPECT_NE(bar("200 m/s").find("'bar' touches the symmetry plane x_lower"), std::string::npos);
 }
 

@@ -28,7 +28,7 @@ def changed(record, key, value):
 def stale_runs_are_found():
     record = {"command": ["whipple", "run"], "case": "a", "materials": {"copper.toml": "b"}, "source": "c"}
     inputs = {"case": "a", "materials": {"copper.toml": "b"}}
-    state = lambda r, command=("whipple", "run"): provenance.state(r, list(command), inputs, "c")  # noqa: E731
+    state = lambda r, command=("whipple", "run"): provenance.state(r, list(command), inputs, lambda source: source == "c")  # noqa: E731
     require(state(record) == provenance.CURRENT, "the same")
     require(state(None) == provenance.MISSING, "no record")
     require(state(record, ("whipple", "run", "--set")) == provenance.STALE, "another command")
@@ -64,10 +64,13 @@ def digests_follow_the_files(work):
     stored = {"cases": {"case": {"expected": "x", "runs": [
         {"name": "only", "inputs": before, "records": {}}, {"name": "gone", "inputs": before, "records": {}}]}}}
     stale, older, expectations = page.outdated(stored, [run.case])
-    require(stale == [("case", "only"), ("case", "gone")] and not older and expectations == ["case"], str(stale))
-    stored["cases"]["case"]["runs"] = [{"name": "only", "inputs": after, "records": {"normal": {"source": "another"}}}]
-    stale, older, _ = page.outdated(stored, [run.case])
-    require(not stale and older == [("case", "only")], f"{stale}, {older}")
+    require(stale == [("case", "only"), ("case", "gone")] and not older and not expectations, str(stale))
+    entry = {"name": "only", "inputs": after, "records": {"normal": {"source": "another"}}, "quantities": []}
+    stored["cases"]["case"]["runs"] = [entry]
+    stale, older, expectations = page.outdated(stored, [run.case])
+    require(not stale and older == [("case", "only")] and not expectations, f"{stale}, {older}, {expectations}")
+    entry["quantities"] = [{"name": "x", "measure": "x", "class": "exact", "kind": "within", "expected": 1.0, "tolerance": 0.1}]
+    require(page.outdated(stored, [run.case])[2] == [("case", "only")], "a quantity that is expected no more")
 
     def digest():
         provenance.digest_of_sources.cache_clear()
@@ -99,9 +102,37 @@ def programs_that_compute_the_same_keep_tables_current(work):
         require(provenance.is_same_program(one, other) is same and provenance.is_same_program(other, one) is same,
                 f"{one}, {other}")
     provenance.SAME_RESULTS = original
+    former = next(iter(provenance.FORMER_PIECES))
+    run = next(run for case in all_cases() if case.name == "two_spheres" for run in case.runs)
+    pieces = next(run for case in all_cases() if case.name == "ring_expansion" for run in case.runs)
+    require(provenance.is_current(former, former, pieces) and provenance.is_current(former, former, run), "the same program")
+    provenance.SAME_RESULTS = work / "later.json"
+    provenance.SAME_RESULTS.write_text(f'{{"later": "{former}"}}')
+    require(provenance.is_current(former, "later", run), "what measures no pieces stays current")
+    require(not provenance.is_current(former, "later", pieces), "pieces are defined otherwise")
+    require(provenance.is_current("later", "later", pieces), "and now as they are")
+    provenance.SAME_RESULTS = original
     if (ROOT / ".git").exists():
         digest = provenance.digest_of_revision("HEAD")
         require(re.fullmatch("[0-9a-f]{16}", digest), digest)
+        revision = provenance.git("rev-parse", "--short=12", "HEAD")
+        for word, source in ((revision, digest), (f"{revision}+changes", provenance.digest_of_sources()),
+                             ("0123456789ab", "built from 0123456789ab")):
+            fake = work / f"whipple_{word}"
+            fake.write_text(f"#!/bin/sh\necho 'whipple 0.1.0 (revision {word})'\n")
+            fake.chmod(0o755)
+            require(provenance.source_of(str(fake)) == source, f"{word}: {provenance.source_of(str(fake))}, not {source}")
+        require(provenance.is_same_program(f"built from {revision}", digest), "a source that is named by its revision")
+
+
+def only_runs_of_one_program_make_a_band():
+    def record(source):
+        return {"source": source}
+    mixed = {"coarse": record("a"), "normal": record("a"), "fine": record("b"), "offset_1": record("a")}
+    require(set(comparison.comparable(mixed)) == {"coarse", "normal", "offset_1"}, str(comparison.comparable(mixed)))
+    require(comparison.comparable({}) == [], "nothing was run")
+    here = provenance.digest_of_sources()
+    require(comparison.comparable({"coarse": record("a"), "normal": record(here)}) == ["normal"], "the present program decides")
 
 
 def departures_need_a_reason(work):
@@ -217,6 +248,7 @@ with tempfile.TemporaryDirectory() as name:
     stale_runs_are_found()
     digests_follow_the_files(pathlib.Path(name))
     programs_that_compute_the_same_keep_tables_current(pathlib.Path(name))
+    only_runs_of_one_program_make_a_band()
     departures_need_a_reason(pathlib.Path(name))
     drift_is_seen()
     stored_variants_count_beside_new_ones()

@@ -67,6 +67,18 @@ TEST(Driven, GripStretchesABarByHookesLawAndTheBalancesKnowItsWork) {
   EXPECT_LT(std::abs(ledger.momentum_error(simulation.totals())), 1e-12);
 }
 
+TEST(Driven, AgainstAMirrorPlaneThatItTouchesIsRefused) {
+  const std::string text = bar_and_grip("");
+  const std::size_t at = text.find("velocity = [\"5 m/s\"");  // the bar, on the plane x = 0
+  ASSERT_NE(at, std::string::npos);
+  try {
+    cases::read_case_text(text.substr(0, at) + "driven = true\n" + text.substr(at), "driven.toml");
+    ADD_FAILURE() << "passed";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("symmetry plane normal to x"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Driven, KeysThatContradictItAreNamed) {
   const auto refused = [](const std::string& keys, const std::string& reason) {
     try {
@@ -77,6 +89,7 @@ TEST(Driven, KeysThatContradictItAreNamed) {
     }
   };
   refused("driven = true\nexpansion_rate = [\"1 1/s\", \"0 1/s\"]", "one velocity");
+  refused("driven = true\ndiscretization = { method = \"finite_elements\" }", "only bodies of particles");
   refused("driven = true\nangular_velocity = [\"0 rad/s\", \"0 rad/s\", \"1 rad/s\"]", "one velocity");
 }
 

@@ -143,6 +143,14 @@ std::vector<std::uint8_t> cracked_fields(const Case& setup, ContactFields& found
   const auto divides = [&](std::size_t b) { return setup.bodies[b].failure.cracks == CrackMotion::fields; };
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     if (!divides(b)) continue;
+    const bool is_new = std::ranges::find(cracked, found.of_body[b]) == cracked.end();
+    if (is_new && count + sectors > grid::maximum_fields) {
+      found.warnings.push_back(fmt::format(
+          "body \"{}\": no velocity fields are left for its cracks, they do not part: each such body takes "
+          "{} of {}, and every body one",
+          setup.bodies[b].name, sectors, grid::maximum_fields));
+      continue;
+    }
     for (std::size_t other = 0; other < setup.bodies.size(); ++other) {
       if (found.of_body[other] != found.of_body[b] || divides(other)) continue;
       found.remarks.push_back(
@@ -150,14 +158,7 @@ std::vector<std::uint8_t> cracked_fields(const Case& setup, ContactFields& found
                       "cracks of either",
                       setup.bodies[b].name, setup.bodies[other].name));
     }
-    if (std::ranges::find(cracked, found.of_body[b]) != cracked.end()) continue;
-    if (count + sectors > grid::maximum_fields) {
-      found.warnings.push_back(fmt::format(
-          "body \"{}\": no velocity fields are left for its cracks, they do not part: each such body takes "
-          "{} of {}, and every body one",
-          setup.bodies[b].name, sectors, grid::maximum_fields));
-      continue;
-    }
+    if (!is_new) continue;
     cracked.push_back(found.of_body[b]);
     count += sectors;
   }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <random>
@@ -46,6 +47,15 @@ void write_text(const fs::path& opened, int flags, std::string_view text, const 
 }
 
 }  // namespace
+
+bool lies_in(const fs::path& path, const fs::path& folder) {
+  std::error_code unknown;
+  const fs::path inside = fs::canonical(folder, unknown);
+  if (unknown) return false;
+  const fs::path place = fs::weakly_canonical(path, unknown);
+  if (unknown) return false;
+  return std::mismatch(inside.begin(), inside.end(), place.begin(), place.end()).first == inside.end();
+}
 
 const fs::path& regular_file(const fs::path& path, std::uintmax_t most) {
   std::error_code error;

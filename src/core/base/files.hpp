@@ -22,6 +22,9 @@ const std::filesystem::path& regular_file(const std::filesystem::path& path,
 std::string read_text(const std::filesystem::path& path,
                       std::uintmax_t most = std::numeric_limits<std::uintmax_t>::max());
 
+/// Tells whether a path lies in a folder when all links are followed; what cannot be found out does not.
+bool lies_in(const std::filesystem::path& path, const std::filesystem::path& folder);
+
 /// Nothing is overwritten unless asked for. An empty path (no file wanted) passes.
 /// @throws InputError if the file exists and `force` is not set
 void require_new_file(const std::filesystem::path& path, bool force);

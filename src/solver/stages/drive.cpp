@@ -6,23 +6,10 @@
 namespace whipple::solver {
 
 Drive::Drive(const cases::Case& setup) {
-  const grid::Geometry& geometry = setup.geometry;
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     const cases::Body& body = setup.bodies[b];
     if (!body.driven) continue;
-    Driven driven{.body = b, .velocity = body.velocity, .guided = {}};
-    const cases::Shape::Bounds box = body.shape->bounds();
-    for (int axis = 0; axis < 3; ++axis) {
-      const bool below = geometry.boundary[2 * axis] == grid::Boundary::symmetry &&
-                         box.lower[axis] <= geometry.lower[axis] + 0.01 * geometry.cell_size;
-      const bool above = geometry.boundary[2 * axis + 1] == grid::Boundary::symmetry &&
-                         box.upper[axis] >= geometry.upper(axis) - 0.01 * geometry.cell_size;
-      driven.guided[axis] = below || above;
-    }
-    // Rings have no direction across the axis, plane bodies none across the plane.
-    if (setup.domain.is_planar()) driven.guided[2] = true;
-    if (geometry.is_axisymmetric()) driven.guided[1] = true;
-    driven_.push_back(driven);
+    driven_.push_back({.body = b, .velocity = body.velocity, .guided = body.guided_axes(setup)});
   }
 }
 
