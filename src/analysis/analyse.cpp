@@ -33,8 +33,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Finds the fragments of a snapshot. @throws InputError naming its file
-Fragments fragments_of(const SnapshotEntry& entry, const Snapshot& snapshot, const Run& run, const Frame& frame,
-                       double link) {
+Fragments fragments_of(const SnapshotEntry& entry, const Snapshot& snapshot, const Run& run,
+                       const Frame& frame, double link) {
   try {
     return find_fragments(snapshot, run.bodies, frame, link);
   } catch (const InputError& error) {
@@ -427,9 +427,9 @@ void analyse(const Run& run, const Options& options, const fs::path& folder) {
     append(values, rod_measures(first, last, b, run.bodies[b], run.cell_size));
   }
   Quantities of_fragments = fragment_measures(fragments.list, start.projectile_mass, start.particle_mass);
-  const std::string none = frame.is_planar()
-                               ? "in two dimensions a piece of the section is a ring or a bar: see piece_count"
-                               : fragments.unknown;
+  const std::string none =
+      frame.is_planar() ? "in two dimensions a piece of the section is a ring or a bar: see piece_count"
+                        : fragments.unknown;
   for (Quantity& value : of_fragments) {
     if (none.empty()) break;
     value.value = nan;

@@ -43,8 +43,8 @@ enum class Links {
 };
 
 struct Fragments {
-  std::vector<Fragment> list;   ///< by decreasing mass
-  std::string unknown;          ///< why there are none although bodies may have broken; empty: they were found
+  std::vector<Fragment> list;  ///< by decreasing mass
+  std::string unknown;         ///< why there are none although bodies may have broken; empty: they were found
   std::vector<OfBody> of_body;  ///< of each body
 };
 

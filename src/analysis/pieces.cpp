@@ -59,7 +59,9 @@ class CellList {
       upper_ = upper_.cwiseMax(point);
     }
     if (((upper_ - lower_).array() / size > most).any()) {
-      throw InputError("fragments: the linking length is too small for the extent of the material (whipple analyse --link)");
+      throw InputError(
+          "fragments: the linking length is too small for the extent of the material (whipple analyse "
+          "--link)");
     }
     std::vector<std::uint64_t> of_point(points.size());
     parallel::for_each(points.size(), [&](std::size_t i) { of_point[i] = *key_at(points[i]); });

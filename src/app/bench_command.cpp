@@ -224,10 +224,10 @@ void add_bench_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("bench",
                                          "Time standard problems: nanoseconds per particle and step, by "
                                          "stage, compared with the limits of the machine");
-  CLI::Option* laws = command->add_flag(
-      "--laws", options->laws,
-      "Instead of problems: the update of the material by law of strength and failure of metals, in multiples "
-      "of Johnson-Cook");
+  CLI::Option* laws = command->add_flag("--laws", options->laws,
+                                        "Instead of problems: the update of the material by law of strength "
+                                        "and failure of metals, in multiples "
+                                        "of Johnson-Cook");
   command->add_option("problems", options->problems, "Which ones (default: all but the largest)")
       ->type_name("NAME")
       ->excludes(laws);

@@ -51,8 +51,8 @@ void print_as_json(const std::vector<Found>& runs) {
   json list = json::array();
   for (const Found& found : runs) {
     json entry = found.status ? run::status_json(*found.status)
-                              : json{{"state", "unknown"}, {"goes_on", false}, {"time", nullptr}, {"step", nullptr},
-                                     {"end", nullptr},      {"message", found.fault}};
+                              : json{{"state", "unknown"}, {"goes_on", false}, {"time", nullptr},
+                                     {"step", nullptr},    {"end", nullptr},   {"message", found.fault}};
     entry["run"] = found.run.string();
     list.push_back(std::move(entry));
   }

@@ -78,7 +78,8 @@ constexpr Law laws[] = {
     {"principal_strain", "failure",
      "[[failure]]\nmodel = 'principal_strain'\nsource = 'time only'\nfailure_strain = 1e6\n"},
     {"tearing", "failure",
-     "[[failure]]\nmodel = 'tearing'\nsource = 'time only'\nenergy_per_area = '1 MJ/m^2'\nfailure_strain = 0.1\n"},
+     "[[failure]]\nmodel = 'tearing'\nsource = 'time only'\nenergy_per_area = '1 MJ/m^2'\nfailure_strain = "
+     "0.1\n"},
     {"gurson", "failure",
      "[[failure]]\nmodel = 'gurson'\nsource = 'time only'\ninitial_porosity = 0.001\nfailure_porosity = "
      "0.25\n"},

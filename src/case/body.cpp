@@ -77,8 +77,8 @@ std::array<bool, 3> Body::guided_axes(const Case& setup) const {
   std::array<bool, 3> guided{};
   for (std::size_t a = 0; a < 3; ++a) {
     const auto axis = static_cast<int>(a);
-    const bool below =
-        geometry.boundary[2 * a] == grid::Boundary::symmetry && box.lower[axis] <= geometry.lower[axis] + near;
+    const bool below = geometry.boundary[2 * a] == grid::Boundary::symmetry &&
+                       box.lower[axis] <= geometry.lower[axis] + near;
     const bool above = geometry.boundary[2 * a + 1] == grid::Boundary::symmetry &&
                        box.upper[axis] >= geometry.upper(axis) - near;
     guided[a] = below || above;
@@ -130,9 +130,10 @@ void Body::check(const Case& setup, const Faults& faults) const {
     const std::array<bool, 3> guided = guided_axes(setup);
     for (std::size_t a = 0; a < 3; ++a) {
       if (!guided[a] || velocity[static_cast<int>(a)] == 0.0) continue;
-      faults.add("driven", fmt::format("a 'driven' body that touches a symmetry plane normal to {0} is not moved along "
-                                       "{0}: expected a velocity of 0 there",
-                                       "xyz"[a]));
+      faults.add("driven",
+                 fmt::format("a 'driven' body that touches a symmetry plane normal to {0} is not moved along "
+                             "{0}: expected a velocity of 0 there",
+                             "xyz"[a]));
     }
   }
   failure_grains.check(setup, faults.in("failure_grains"));

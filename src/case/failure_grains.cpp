@@ -26,9 +26,10 @@ ParameterTable<FailureGrains> FailureGrains::parameters() {
 void FailureGrains::check(const Case& setup, const Faults& faults) const {
   const double cell = setup.domain.cell_size;
   if (!given() || !(size < cell)) return;
-  faults.add("size", fmt::format("'size' is {:.3g} of a cell ({:.3g} mm): expected at least one, as all of a smaller "
-                                 "grain lies at its faces",
-                                 size / cell, 1e3 * cell));
+  faults.add("size",
+             fmt::format("'size' is {:.3g} of a cell ({:.3g} mm): expected at least one, as all of a smaller "
+                         "grain lies at its faces",
+                         size / cell, 1e3 * cell));
 }
 
 bool FailureGrains::given() const { return std::isfinite(size); }

@@ -260,8 +260,9 @@ void remark_on_grains(const Case& setup, std::vector<std::string>& remarks) {
   for (const Body& body : setup.bodies) {
     const double cells = body.failure_grains.size / setup.geometry.cell_size;
     if (!body.failure_grains.given() || cells >= least) continue;
-    remarks.push_back(fmt::format("'{}': its failure_grains are {:.3g} cells wide, resolved are those of {} and more",
-                                  body.name, cells, least));
+    remarks.push_back(
+        fmt::format("'{}': its failure_grains are {:.3g} cells wide, resolved are those of {} and more",
+                    body.name, cells, least));
   }
 }
 

@@ -245,10 +245,10 @@ solver::Simulation resume(const cases::Case& setup, io::Checkpoint& checkpoint, 
   if (!changed.empty()) log::info("changed since the checkpoint: {}", changed);
   const solver::RunState state = from_checkpoint(checkpoint.values);
   if (state.driven.size() != setup.bodies.size() || state.outflow_of_body.size() != setup.bodies.size()) {
-    throw InputError(fmt::format("{}: holds \"driven_bodies\" of {} and \"outflow_of_body\" of {} bodies: expected "
-                                 "those of the {} of the case",
-                                 checkpoint.path.string(), state.driven.size(), state.outflow_of_body.size(),
-                                 setup.bodies.size()));
+    throw InputError(fmt::format(
+        "{}: holds \"driven_bodies\" of {} and \"outflow_of_body\" of {} bodies: expected "
+        "those of the {} of the case",
+        checkpoint.path.string(), state.driven.size(), state.outflow_of_body.size(), setup.bodies.size()));
   }
   if (setup.time.end < state.time) {
     throw InputError(

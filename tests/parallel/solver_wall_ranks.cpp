@@ -57,8 +57,8 @@ TEST(DrivenRanks, AgreeWithOneRank) {
   const std::string material = aluminium("aluminium_of_grips", "0.3 GPa");
   const auto part = [&](const char* name, double from, double to, const char* keys) {
     return std::string("[[body]]\nname = \"") + name + "\"\nmaterial = \"" + material + "\"\n" + keys +
-           "contact_group = \"one\"\nshape = { " + box(1e-3 * Vector3(from, 4.0, 4.0), 1e-3 * Vector3(to, 8.0, 8.0)) +
-           " }\n";
+           "contact_group = \"one\"\nshape = { " +
+           box(1e-3 * Vector3(from, 4.0, 4.0), 1e-3 * Vector3(to, 8.0, 8.0)) + " }\n";
   };
   const cases::Case setup = cases::read_case_text(
       Method{}.time_toml(2e-6) + Method{}.toml() +

@@ -111,8 +111,9 @@ TEST(Remarks, NameMotionAgainstASymmetryPlane) {
   EXPECT_EQ(bar("-200 m/s"), "");
   // Expansion is about the middle, 2.5 mm from the plane.
   EXPECT_EQ(bar("25 m/s", "expansion_rate = [\"1e4 1/s\", \"0 1/s\", \"0 1/s\"]\n"), "");
-  EXPECT_NE(bar("0 m/s", "expansion_rate = [\"-1e4 1/s\", \"0 1/s\", \"0 1/s\"]\n").find("at 25 m/s off the plane"),
-            std::string::npos);
+  EXPECT_NE(
+      bar("0 m/s", "expansion_rate = [\"-1e4 1/s\", \"0 1/s\", \"0 1/s\"]\n").find("at 25 m/s off the plane"),
+      std::string::npos);
   EXPECT_NE(bar("200 m/s").find("'bar' touches the symmetry plane x_lower"), std::string::npos);
 }
 

@@ -75,7 +75,8 @@ TEST(Driven, AgainstAMirrorPlaneThatItTouchesIsRefused) {
     cases::read_case_text(text.substr(0, at) + "driven = true\n" + text.substr(at), "driven.toml");
     ADD_FAILURE() << "passed";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("symmetry plane normal to x"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("symmetry plane normal to x"), std::string::npos)
+        << error.what();
   }
 }
 
