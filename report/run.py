@@ -30,6 +30,7 @@ class Run:
         except tomllib.TOMLDecodeError as error:
             raise NotARun(f"{path}: {error}") from None
         self.history = History(self.folder / "history.csv")
+        self.columns = self._read_columns()
         self.entries = self._read_index()
         if not self.entries and not self.history.columns:
             raise NotARun(f"{folder}: the run has neither snapshots nor a history.csv yet")
@@ -46,6 +47,19 @@ class Run:
             return False
         file = f"{os.major(lock.st_dev):02x}:{os.minor(lock.st_dev):02x}:{lock.st_ino}"
         return any(line.split()[1:2] == ["FLOCK"] and file in line.split() for line in held.splitlines())
+
+    def _read_columns(self) -> list[dict[str, str]]:
+        """Reads what the columns of history.csv mean (docs/manual/output.md); nothing of a run that does not say it."""
+        path = self.folder / "columns.json"
+        if not path.is_file():
+            return []
+        try:
+            columns = json.loads(path.read_text(encoding="utf-8"))
+            if not all(isinstance(column["name"], str) for column in columns):
+                raise TypeError("names are no texts")
+            return columns
+        except (ValueError, KeyError, TypeError) as error:
+            raise NotARun(f"{path}: does not describe the columns of history.csv: {error}") from None
 
     def _read_index(self):
         indices = sorted(self.folder.glob("*.particles.hdf.series"))

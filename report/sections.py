@@ -24,28 +24,6 @@ from report.run import Run
 from report.units import number
 from report.views import PHASES
 
-# Clamps are counted by the solver and shown if there were any.
-COUNTED = (("below_cold_curve", "points clamped to the cold curve"),
-           ("at_pressure_floor", "points held at the floor of their pressure"),
-           ("limited_volume_changes", "limited changes of volume"),
-           ("limited_densities", "points limited to their minimum density"),
-           ("limited_compressions", "points limited to the end of their equation of state"),
-           ("limited_void_steps", "limited changes of material with voids"),
-           ("limited_bulking", "limited bulking"),
-           ("limited_domains", "limited domains"),
-           ("limited_hourglass", "hourglass forces of elements limited to their stored energy"),
-           ("elements_beyond_range", "elements that left their valid range"),
-           ("held_time_steps", "steps longer than the volumetric strain-rate limit"))
-# What took kinetic energy from the motion, and where it is (docs/theory/dissipation.md).
-DISSIPATION = (("viscous_work", "artificial viscosity", "internal energy"),
-               ("plastic_work", "plastic work", "internal energy (and stored cold work)"),
-               ("dissipation", "material models in all: plastic, viscous, lost strength", "internal energy"),
-               ("contact_heat", "contact, normal", "internal energy"),
-               ("friction_heat", "contact, friction", "internal energy"),
-               ("transfer_heat", "transfers between particles and grid", "internal energy"),
-               ("unresolved_kept", "transfers and viscosity", "unresolved motion"),
-               ("unresolved_returned", "unresolved motion where gaps close", "internal energy"),
-               ("conducted_heat", "conduction inside shocks", "moved between particles"))
 DIMENSIONS = {
     "axisymmetric": "Axisymmetric model: particles are rings, and all masses, momenta and energies are those of whole "
                     "rings. A fragment of the section is a ring too: numbers and masses of fragments, petals and "
@@ -117,9 +95,9 @@ class Report:
             tiles.append(("largest energy error", units.error(float(abs(history["energy_error"]).max()))))
         if "momentum_error" in history:
             tiles.append(("largest momentum error", units.error(float(abs(history["momentum_error"]).max()))))
-        for name, meaning in COUNTED:
-            if history.last(name):
-                tiles.append((meaning, f"{history.last(name):.0f}"))
+        for column in run.columns:
+            if "limiter" in column and history.last(column["name"]):
+                tiles.append((column["limiter"].replace("`", ""), f"{history.last(column['name']):.0f}"))
         if run.goes_on:
             measured = f", pictures and measures to {units.time(float(run.analysis.series['time'][-1]))}" if run.analysis else ""
             self.page.note(f"The run goes on: curves reach to {units.time(history.last('time') or 0.0)}{measured}, its end "
@@ -293,12 +271,12 @@ class Report:
 
     def _dissipation(self):
         history, scale = self.run.history, self.run.multiplicity
-        rows = [[cause, number(scale * history.last(name), 4), into] for name, cause, into in DISSIPATION
-                if history.last(name)]
+        rows = [[column["taken_by"], number(scale * history.last(column["name"]), 4), column["taken_to"]]
+                for column in self.run.columns if "taken_by" in column and history.last(column["name"])]
         if not rows:
             return
         self.page.heading("Where the energy went")
-        self.page.table(["cause", "energy (J)", "into"], rows, text_columns=(0, 2))
+        self.page.table(["taken by", "energy (J)", "into"], rows, text_columns=(0, 2))
         share = history.last("unresolved_share")
         if share:
             unresolved, most = history.last("unresolved_energy"), float(history["kinetic_energy"].max())

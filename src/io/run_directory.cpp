@@ -33,7 +33,7 @@ std::regex own(const std::string& names) {
 }
 const std::regex& own_outputs() {
   static const std::regex names =
-      own(R"((run\.toml|(history|gauges|steering)\.csv|log\.txt|(profile|status)\.json))"
+      own(R"((run\.toml|(history|gauges|steering)\.csv|log\.txt|(profile|status|columns)\.json))"
           R"(|.+\.(particles|elements)\.(hdf\.series|[0-9]{6,}\.hdf))");
   return names;
 }

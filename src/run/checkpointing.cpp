@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/run/checkpointing.hpp"
 
+#include "src/solver/accounts.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple::run {

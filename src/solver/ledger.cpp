@@ -7,6 +7,7 @@
 
 #include "src/core/base/vector_math.hpp"
 #include "src/core/parallel/threads.hpp"
+#include "src/solver/accounts.hpp"
 
 namespace whipple::solver {
 
@@ -119,37 +120,7 @@ void Ledger::add(const Ledger& step) {
   retired += step.retired;
   wall_impulse += step.wall_impulse;
   external_impulse += step.external_impulse;
-  external_work += step.external_work;
-  work += step.work;
-  viscous_work += step.viscous_work;
-  plastic_work += step.plastic_work;
-  dissipation += step.dissipation;
-  transfer_heat += step.transfer_heat;
-  unresolved_kept += step.unresolved_kept;
-  unresolved_returned += step.unresolved_returned;
-  conducted_heat += step.conducted_heat;
-  contact_heat += step.contact_heat;
-  friction_heat += step.friction_heat;
-  contact_impulse += step.contact_impulse;
-  friction_impulse += step.friction_impulse;
-  converted_mass += step.converted_mass;
-  conversion_heat += step.conversion_heat;
-  removed_mass += step.removed_mass;
-  hourglass_work += step.hourglass_work;
-  hourglass_overdrawn += step.hourglass_overdrawn;
-  limited_hourglass += step.limited_hourglass;
-  elements_beyond_range += step.elements_beyond_range;
-  clamped_to_cold_curve += step.clamped_to_cold_curve;
-  held_at_pressure_floor += step.held_at_pressure_floor;
-  limited_volume_changes += step.limited_volume_changes;
-  limited_domains += step.limited_domains;
-  held_pressures += step.held_pressures;
-  refused_divisions += step.refused_divisions;
-  limited_densities += step.limited_densities;
-  limited_compressions += step.limited_compressions;
-  limited_void_steps += step.limited_void_steps;
-  limited_bulking += step.limited_bulking;
-  held_time_steps += step.held_time_steps;
+  for (const Account& account : accounts) this->*account.sum += step.*account.sum;
 }
 
 namespace {

@@ -108,39 +108,16 @@ struct Ledger {
   BodyOutflow retired;                     ///< part of it: products of explosives, removed below a pressure
   Vector3 wall_impulse = Vector3::Zero();  ///< N s, by mirror planes and walls, along y by hoop stresses
   Vector3 external_impulse = Vector3::Zero();  ///< N s, by an external acceleration
-  double external_work = 0.0;                  ///< J, of the same, and of nodes with prescribed velocities
-  double work = 0.0;                           ///< J, stress on strain, into internal energy
-  double viscous_work = 0.0;                   ///< J, part of it: of the artificial viscosity
-  double plastic_work = 0.0;                   ///< J, part of it: of the strength on plastic strain
-  double dissipation = 0.0;                    ///< J, part of it that the material models made irreversible
-  double transfer_heat = 0.0;        ///< J, kinetic energy lost in transfers that became internal at once
-  double unresolved_kept = 0.0;      ///< J, the rest of it, into unresolved energy
-  double unresolved_returned = 0.0;  ///< J, unresolved energy that became internal
-  double conducted_heat = 0.0;       ///< J, internal energy that shocks moved between particles
-  double contact_heat = 0.0;         ///< J, lost by the normal impulses of contact, into internal energy
-  double friction_heat = 0.0;        ///< J, lost by its tangential impulses, into internal energy
-  double contact_impulse = 0.0;      ///< N s, sum of the normal impulses (equal and opposite on two bodies)
-  double friction_impulse = 0.0;     ///< N s, sum of the tangential impulses
-  double converted_mass = 0.0;       ///< kg, of elements that became particles
-  double conversion_heat = 0.0;      ///< J, kinetic energy that this took, into internal energy
-  double removed_mass = 0.0;         ///< kg, of elements that were deleted, part of the outflow
-  double hourglass_work = 0.0;       ///< J, against hourglass forces, into hourglass and internal energy
-  double hourglass_overdrawn = 0.0;  ///< J, that these gave beyond what was stored, out of internal energy
-  double limited_hourglass = 0.0;    ///< steps of elements whose hourglass forces their stored energy limited
-  double elements_beyond_range = 0.0;  ///< elements that left their valid range
-  double clamped_to_cold_curve =
-      0.0;  ///< evaluations below the cold curve (temperature clamped, energy kept)
-  double held_at_pressure_floor = 0.0;  ///< evaluations at the least pressure of a modifier `floor`
-  double limited_volume_changes = 0.0;  ///< steps of particles whose volume change was limited
-  double limited_domains = 0.0;  ///< steps of particles whose domain was larger than its shape function takes
-  double held_pressures = 0.0;   ///< steps of fluid particles that have parted
-  double refused_divisions = 0.0;  ///< beyond `splitting.maximum_particles`
-  double limited_densities = 0.0;  ///< steps of particles at their least density
-  double limited_compressions =
-      0.0;                          ///< steps of particles at the greatest density of their equation of state
-  double limited_void_steps = 0.0;  ///< steps of particles that changed beside their void by the most allowed
-  double limited_bulking = 0.0;  ///< steps of particles of crushed brittle material at its greatest bulking
-  double held_time_steps = 0.0;  ///< steps longer than `time.compression_limit` asked for
+  // Unit and meaning of the following: `accounts` (src/solver/accounts.hpp).
+  double external_work = 0.0, work = 0.0, viscous_work = 0.0, plastic_work = 0.0, dissipation = 0.0;
+  double transfer_heat = 0.0, unresolved_kept = 0.0, unresolved_returned = 0.0, conducted_heat = 0.0;
+  double contact_heat = 0.0, friction_heat = 0.0, contact_impulse = 0.0, friction_impulse = 0.0;
+  double converted_mass = 0.0, conversion_heat = 0.0, removed_mass = 0.0;
+  double hourglass_work = 0.0, hourglass_overdrawn = 0.0;
+  double below_cold_curve = 0.0, at_pressure_floor = 0.0, limited_volume_changes = 0.0;
+  double limited_densities = 0.0, limited_compressions = 0.0, limited_void_steps = 0.0;
+  double limited_bulking = 0.0, limited_domains = 0.0, limited_hourglass = 0.0, elements_beyond_range = 0.0;
+  double held_pressures = 0.0, refused_divisions = 0.0, held_time_steps = 0.0;
 
   double largest_kinetic_energy =
       0.0;                        ///< J, with affine and hourglass energies, at the ends of the steps so far
@@ -157,59 +134,6 @@ struct Ledger {
   /// Error of the momentum relative to the largest sum of m |v| so far and the external impulse.
   [[nodiscard]] double momentum_error(const Totals& now) const;
 };
-
-/// Calls f(name, number) for every number of the ledger.
-template <class L, class Function>
-  requires std::same_as<std::remove_const_t<L>, Ledger>
-void for_each_number(L& ledger, Function&& f) {
-  for_each_number(ledger.initial, [&](const std::string& name, auto& x) { f("initial_" + name, x); });
-  for_each_number(ledger.outflow, [&](const std::string& name, auto& x) { f("outflow_" + name, x); });
-  f("retired_mass", ledger.retired.mass);
-  f("retired_momentum_x", ledger.retired.momentum[0]);
-  f("retired_momentum_y", ledger.retired.momentum[1]);
-  f("retired_momentum_z", ledger.retired.momentum[2]);
-  f("retired_energy", ledger.retired.energy);
-  f("wall_impulse_x", ledger.wall_impulse[0]);
-  f("wall_impulse_y", ledger.wall_impulse[1]);
-  f("wall_impulse_z", ledger.wall_impulse[2]);
-  f("external_impulse_x", ledger.external_impulse[0]);
-  f("external_impulse_y", ledger.external_impulse[1]);
-  f("external_impulse_z", ledger.external_impulse[2]);
-  f("external_work", ledger.external_work);
-  f("work", ledger.work);
-  f("viscous_work", ledger.viscous_work);
-  f("plastic_work", ledger.plastic_work);
-  f("dissipation", ledger.dissipation);
-  f("transfer_heat", ledger.transfer_heat);
-  f("unresolved_kept", ledger.unresolved_kept);
-  f("unresolved_returned", ledger.unresolved_returned);
-  f("conducted_heat", ledger.conducted_heat);
-  f("contact_heat", ledger.contact_heat);
-  f("friction_heat", ledger.friction_heat);
-  f("contact_impulse", ledger.contact_impulse);
-  f("friction_impulse", ledger.friction_impulse);
-  f("converted_mass", ledger.converted_mass);
-  f("conversion_heat", ledger.conversion_heat);
-  f("removed_mass", ledger.removed_mass);
-  f("hourglass_work", ledger.hourglass_work);
-  f("hourglass_overdrawn", ledger.hourglass_overdrawn);
-  f("limited_hourglass", ledger.limited_hourglass);
-  f("elements_beyond_range", ledger.elements_beyond_range);
-  f("clamped_to_cold_curve", ledger.clamped_to_cold_curve);
-  f("held_at_pressure_floor", ledger.held_at_pressure_floor);
-  f("limited_volume_changes", ledger.limited_volume_changes);
-  f("limited_domains", ledger.limited_domains);
-  f("held_pressures", ledger.held_pressures);
-  f("refused_divisions", ledger.refused_divisions);
-  f("limited_densities", ledger.limited_densities);
-  f("limited_compressions", ledger.limited_compressions);
-  f("limited_void_steps", ledger.limited_void_steps);
-  f("limited_bulking", ledger.limited_bulking);
-  f("held_time_steps", ledger.held_time_steps);
-  f("largest_kinetic_energy", ledger.largest_kinetic_energy);
-  f("largest_heating", ledger.largest_heating);
-  f("largest_momentum", ledger.largest_momentum);
-}
 
 /// Replaces every number by its sum over all ranks. Collective.
 template <class... Parts>

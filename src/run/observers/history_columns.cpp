@@ -5,12 +5,13 @@
 
 #include <algorithm>
 #include <array>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <tuple>
 
 #include "src/core/parallel/mpi.hpp"
-#include "src/solver/limiters.hpp"
+#include "src/solver/accounts.hpp"
 
 namespace whipple::run {
 namespace {
@@ -70,25 +71,9 @@ const auto always = std::to_array<Column>({
      [](const Source& s) { return s.totals.angular_momentum[1]; }},
     {"angular_momentum_z", "kg m^2/s", "the same along z",
      [](const Source& s) { return s.totals.angular_momentum[2]; }},
-    {"viscous_work", "J", "work of the artificial viscosity", [](const Source& s) { return s.ledger.viscous_work; }},
-    {"plastic_work", "J", "plastic work that became heat", [](const Source& s) { return s.ledger.plastic_work; }},
-    {"dissipation", "J", "work that the material models made irreversible: plastic, viscous, lost with the strength",
-     [](const Source& s) { return s.ledger.dissipation; }},
-    {"transfer_heat", "J", "kinetic energy lost in transfers that became internal at once",
-     [](const Source& s) { return s.ledger.transfer_heat; }},
-    {"unresolved_kept", "J", "kinetic energy that became unresolved",
-     [](const Source& s) { return s.ledger.unresolved_kept; }},
-    {"unresolved_returned", "J", "unresolved energy that became internal",
-     [](const Source& s) { return s.ledger.unresolved_returned; }},
-    {"conducted_heat", "J", "internal energy conducted between particles in shocks",
-     [](const Source& s) { return s.ledger.conducted_heat; }},
-    {"contact_heat", "J", "kinetic energy lost by normal impulses of contact",
-     [](const Source& s) { return s.ledger.contact_heat; }},
-    {"friction_heat", "J", "kinetic energy lost by friction", [](const Source& s) { return s.ledger.friction_heat; }},
-    {"contact_impulse", "N s", "sum of the normal impulses of contact",
-     [](const Source& s) { return s.ledger.contact_impulse; }},
-    {"friction_impulse", "N s", "sum of the tangential impulses of contact",
-     [](const Source& s) { return s.ledger.friction_impulse; }},
+});
+
+const auto of_border_and_phases = std::to_array<Column>({
     {"outflow_mass", "kg", "mass that has left the domain", [](const Source& s) { return s.ledger.outflow.mass; }},
     {"outflow_energy", "J", "energy that has left the domain",
      [](const Source& s) { return s.ledger.outflow.energy(); }},
@@ -113,18 +98,8 @@ const auto always = std::to_array<Column>({
 
 const auto of_elements = std::to_array<Column>({
     {"elements", "1", "number of finite elements left", [](const Source& s) { return s.elements; }},
-    {"converted_mass", "kg", "mass of elements that became particles",
-     [](const Source& s) { return s.ledger.converted_mass; }},
-    {"conversion_heat", "J", "kinetic energy that conversions turned into internal energy",
-     [](const Source& s) { return s.ledger.conversion_heat; }},
     {"hourglass_energy", "J", "energy stored in hourglass modes",
      [](const Source& s) { return s.totals.hourglass_energy; }},
-    {"hourglass_work", "J", "work against hourglass forces, into hourglass and internal energy",
-     [](const Source& s) { return s.ledger.hourglass_work; }},
-    {"hourglass_overdrawn", "J", "work that hourglass forces gave beyond what was stored, taken from internal energy",
-     [](const Source& s) { return s.ledger.hourglass_overdrawn; }},
-    {"removed_mass", "kg", "mass of elements deleted beyond their valid range, part of outflow_mass",
-     [](const Source& s) { return s.ledger.removed_mass; }},
 });
 
 const auto of_cold_work = std::to_array<Column>({
@@ -179,6 +154,11 @@ const auto outflow_of_body = std::to_array<BodyColumn>({
 });
 // clang-format on
 
+constexpr std::string_view limits_are =
+    "Limits applied to the material or the time step, counted over all particles and steps so far; shown at "
+    "the end of a run\n"
+    "and in its report if there were any:\n";
+
 /// Holds the parts of a run that decide which columns its file has.
 struct Parts {
   bool elements = false, cold_work = false, explosives = false, retired = false, bars = false;
@@ -200,12 +180,23 @@ std::vector<HistoryColumn> columns_of(const Parts& parts) {
       }
     }
   };
+  const auto add_accounts = [&](solver::Shown shown) {
+    for (const solver::Account& account : solver::accounts) {
+      if (account.shown != shown) continue;
+      columns.push_back(
+          {account.name, account.unit,
+           (shown == solver::Shown::limiter ? std::string("times: ") : std::string()) + account.meaning,
+           [sum = account.sum](const Source& s) { return s.ledger.*sum; }});
+    }
+  };
   add(always);
-  for (const solver::Limiter& limiter : solver::limiters) {
-    columns.push_back({limiter.name, "1", std::string("times: ") + limiter.meaning,
-                       [count = limiter.count](const Source& s) { return s.ledger.*count; }});
+  add_accounts(solver::Shown::always);
+  add(of_border_and_phases);
+  add_accounts(solver::Shown::limiter);
+  if (parts.elements) {
+    add(of_elements);
+    add_accounts(solver::Shown::of_elements);
   }
-  if (parts.elements) add(of_elements);
   if (parts.cold_work) add(of_cold_work);
   if (parts.explosives) add(of_explosives);
   if (parts.retired) add(of_retired);
@@ -267,6 +258,32 @@ std::string history_columns_as_markdown() {
     text += fmt::format("| `{}` | {} | {} |\n", column.name, column.unit, column.meaning);
   }
   return text;
+}
+
+std::string accounts_as_markdown() {
+  std::string energies = "| column | taken by | into |\n| --- | --- | --- |\n";
+  std::string limits = "| column | counts | reason of the limit |\n| --- | --- | --- |\n";
+  for (const solver::Account& a : solver::accounts) {
+    if (!a.taken_by.empty()) energies += fmt::format("| `{}` | {} | {} |\n", a.name, a.taken_by, a.taken_to);
+    if (a.shown == solver::Shown::limiter)
+      limits += fmt::format("| `{}` | {} | {} |\n", a.name, a.meaning, a.reason);
+  }
+  return fmt::format("{}\n{}\n{}", energies, limits_are, limits);
+}
+
+std::string columns_as_json(std::span<const HistoryColumn> columns) {
+  using nlohmann::json;
+  json list = json::array();
+  for (const HistoryColumn& column : columns) {
+    list.push_back({{"name", column.name}, {"unit", column.unit}, {"meaning", column.meaning}});
+    const auto account = std::ranges::find(solver::accounts, column.name, &solver::Account::name);
+    if (account == solver::accounts.end()) continue;
+    if (account->shown == solver::Shown::limiter) list.back()["limiter"] = account->meaning;
+    if (account->taken_by.empty()) continue;
+    list.back()["taken_by"] = account->taken_by;
+    list.back()["taken_to"] = account->taken_to;
+  }
+  return list.dump(1) + "\n";
 }
 
 std::vector<io::HistoryValue> history_row(std::span<const HistoryColumn> columns,

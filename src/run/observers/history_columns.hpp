@@ -43,6 +43,13 @@ std::vector<HistoryColumn> history_columns(const cases::Case& setup);
 /// Lists all columns that there are as rows `| name | unit | meaning |` of docs/manual/output.md.
 std::string history_columns_as_markdown();
 
+/// Lists the accounts of energy that leaves the motion, and the limiters, as two tables of docs/manual/output.md.
+std::string accounts_as_markdown();
+
+/// Describes columns for other programs (columns.json): a list of {name, unit, meaning}; of limiters also `limiter`, what is
+/// limited, of energy that leaves the motion `taken_by` and `taken_to`.
+std::string columns_as_json(std::span<const HistoryColumn> columns);
+
 /// Computes the row of now. Collective.
 std::vector<io::HistoryValue> history_row(std::span<const HistoryColumn> columns,
                                           const solver::Simulation& simulation);

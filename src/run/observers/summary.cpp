@@ -14,7 +14,7 @@
 #include "src/core/parallel/threads.hpp"
 #include "src/material/fluid.hpp"
 #include "src/solver/carriers/domains.hpp"
-#include "src/solver/limiters.hpp"
+#include "src/solver/accounts.hpp"
 
 namespace whipple::run {
 namespace {
@@ -70,9 +70,9 @@ void tell(const Moment& moment, double expanded) {
   log::info("{} steps to t = {:.6g} s in {}; energy error {:.2e}, momentum error {:.2e}, outflow {:.3g} kg",
             moment.step(), moment.time(), format_duration(moment.wall_time), ledger.energy_error(totals),
             ledger.momentum_error(totals), ledger.outflow.mass);
-  for (const solver::Limiter& limiter : solver::limiters) {
-    const double count = ledger.*(limiter.count);
-    if (count > 0.0) log::info("{}: {:.0f} times", limiter.meaning, count);
+  for (const solver::Account& account : solver::accounts) {
+    const double count = ledger.*account.sum;
+    if (account.shown == solver::Shown::limiter && count > 0.0) log::info("{}: {:.0f} times", account.meaning, count);
   }
   // Of bodies that have come to rest the remainder is no motion of fragments.
   const bool at_rest = totals.kinetic_energy < nearly_at_rest * ledger.initial.kinetic_energy;

@@ -9,6 +9,7 @@
 
 #include "src/core/base/error.hpp"
 #include "src/core/parallel/mpi.hpp"
+#include "src/solver/accounts.hpp"
 
 namespace whipple::solver {
 

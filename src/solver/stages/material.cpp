@@ -44,8 +44,8 @@ std::span<const double> affine_divergence(const Particles& particles, std::span<
 
 std::string book(State& state, const MaterialReport& report, const Material& material,
                  const DescribePoint& describe) {
-  state.booked.clamped_to_cold_curve += static_cast<double>(report.equation_of_state.below_cold_curve);
-  state.booked.held_at_pressure_floor += static_cast<double>(report.equation_of_state.at_pressure_floor);
+  state.booked.below_cold_curve += static_cast<double>(report.equation_of_state.below_cold_curve);
+  state.booked.at_pressure_floor += static_cast<double>(report.equation_of_state.at_pressure_floor);
   state.booked.plastic_work += report.plastic_work;
   state.booked.dissipation += report.dissipation;
   state.booked.limited_volume_changes += static_cast<double>(report.limited_volume_changes);
