@@ -16,6 +16,7 @@ import tempfile
 import threading
 import tomllib
 import unittest
+from unittest import mock
 
 import numpy as np
 
@@ -32,6 +33,19 @@ class Library(unittest.TestCase):
         self.assertEqual(keys, {path.stem for path in (SOURCE / "eos/materials").glob("*.toml")})
         groups = {entry.group for entry in eos.materials()}
         self.assertIn("explosives", groups)
+
+    def test_folders_and_files_need_no_names_in_utf8(self):
+        with tempfile.TemporaryDirectory() as folder, mock.patch.dict(os.environ):
+            library = os.fsencode(folder) + b"/caf\xe9"
+            os.mkdir(library)
+            with open(library + b"/br\xfcche.toml", "w", encoding="utf-8") as stream:
+                stream.write("name = \"broken\"\n")
+            os.environ["WHIPPLE_MATERIALS"] = os.fsdecode(library)
+            entry = next(entry for entry in eos.materials() if entry.key == os.fsdecode(b"br\xfcche"))
+            self.assertTrue(pathlib.Path(entry.file).is_file())
+            self.assertIn(os.fsdecode(b"caf\xe9"), entry.note)
+            self.assertIn(entry.note, repr(entry))
+            self.assertIsInstance(entry.name, str)
 
     def test_a_material_tells_its_sources_and_constants(self):
         self.assertEqual((COPPER.name, COPPER.model, COPPER.group), ("copper", "gray", "metals"))
