@@ -142,6 +142,7 @@ std::vector<NamedDefault> read_rows(std::vector<input::Table> tables,
 
 /// What a file says of strength and failure.
 enum class Template { as_before, named, none };
+constexpr std::array<Word<Template>, 1> words(Template) { return {{{Template::none, "none"}}}; }
 
 struct Element {
   ElementDefaults table;
@@ -172,7 +173,7 @@ Contents read_contents(const std::filesystem::path& file) {
     Element element{{words.symbol, words.metal, {}, read_rows(table.list("constant"), sources)},
                     Template::as_before};
     if (given) {
-      element.strength_and_failure = words.template_name == "none" ? Template::none : Template::named;
+      element.strength_and_failure = value_of<Template>(words.template_name).value_or(Template::named);
       element.table.template_name = words.template_name;
     }
     contents.elements.push_back(std::move(element));
