@@ -89,11 +89,10 @@ void report_what_a_fit_lacks(const Plan& plan) {
       elements::missing_constants(elements::FitModel::gray, table, {.melting = melts, .vapour = boils});
   if (!missing.empty()) {
     log::warning(
-        "a fit of GRAY will lack {} of {}: neither these points nor the program know them; give them to it "
-        "with "
-        "whipple fit --defaults FILE (whipple describe element), or fit --model mie_gruneisen, which needs "
-        "none",
-        fmt::join(missing, ", "), plan.element);
+        "a fit of GRAY will lack {} of {}: neither these points nor the program know them; options of "
+        "whipple "
+        "fit, or points: {}",
+        fmt::join(missing, ", "), plan.element, elements::remedies(missing));
     return;
   }
   std::vector<std::string> defaults = {"heat of the electrons"};

@@ -144,13 +144,14 @@ def piece_figure(run: Run, bodies: list[str]) -> Figure | None:
         if not np.isfinite(exponent):
             continue
         colour = style.LINES[drawn % len(style.LINES)]
-        mass = np.sort(masses)
-        ax.step(units.MILLIGRAMS * mass, len(mass) - np.arange(len(mass)), where="pre", color=colour,
-                label=f"{name}: {len(mass)} fragments, mean {units.mass(mass.mean())}; {units.percent(shares[name])} of the mass has "
+        order = np.argsort(masses.mass)
+        mass, copies = masses.mass[order], masses.copies[order]
+        ax.step(units.MILLIGRAMS * mass, masses.number - np.cumsum(copies) + copies, where="pre", color=colour,
+                label=f"{name}: {masses.number} fragments, mean {units.mass(masses.mean)}; {units.percent(shares[name])} of the mass has "
                 f"failed, {units.percent(run.analysis.quantity(f'loose_fraction.{name}'))} is in no fragment")
-        typical = float(((masses ** exponent).mean()) ** (1.0 / exponent))
+        typical = float(((copies * mass**exponent).sum() / copies.sum()) ** (1.0 / exponent))
         along = np.linspace(0.0, mass[-1], 200)
-        ax.plot(units.MILLIGRAMS * along, len(mass) * np.exp(-((along / typical) ** exponent)), "--", color=colour,
+        ax.plot(units.MILLIGRAMS * along, masses.number * np.exp(-((along / typical) ** exponent)), "--", color=colour,
                 label=f"exponent b {exponent:.3g} ± {error:.1g}, m_c {units.mass(typical)}")
         drawn += 1
     if not drawn:

@@ -7,6 +7,9 @@ force alone falls as far without a crack.
 """
 import csv
 import math
+import re
+
+from report.expectations import BadExpectation
 
 AVERAGE = 4e-6  # s over which the force is a mean: a few passages of sound over a bar of centimetres
 
@@ -54,7 +57,7 @@ def forces(folder):
 def section_of(folder, tracers):
     """Columns of gauges.csv, and the names of the tracers from the axis outwards."""
     table = columns(folder / "gauges.csv")
-    names = [head[:-2] for head in table if head.startswith(f"{tracers}_") and head.endswith(".y")]
+    names = [head[:-2] for head in table if re.fullmatch(re.escape(tracers) + r"_\d+\.y", head)]
     return table, sorted(names, key=lambda name: int(name.rpartition("_")[2]))
 
 
@@ -108,11 +111,12 @@ def failure_triaxiality(folder, tracers):
     if not found:
         return math.nan
     row, name = found
-    xx, yy, zz, xy = (table[f"{name}.stress_{c}"] for c in ("xx", "yy", "zz", "xy"))
+    xx, yy, zz, xy, yz, zx = (table[f"{name}.stress_{c}"] for c in ("xx", "yy", "zz", "xy", "yz", "zx"))
     strain, total = table[f"{name}.plastic_strain"], 0.0
     for i in range(1, row):
         mean = (xx[i] + yy[i] + zz[i]) / 3
-        equivalent = math.sqrt(1.5 * ((xx[i] - mean) ** 2 + (yy[i] - mean) ** 2 + (zz[i] - mean) ** 2 + 2 * xy[i] ** 2))
+        shear = xy[i] ** 2 + yz[i] ** 2 + zx[i] ** 2
+        equivalent = math.sqrt(1.5 * ((xx[i] - mean) ** 2 + (yy[i] - mean) ** 2 + (zz[i] - mean) ** 2 + 2 * shear))
         total += (strain[i] - strain[i - 1]) * (mean / equivalent if equivalent > 0 else 0.0)
     reached = strain[max(row - 1, 0)]
     return total / reached if reached > 0 else math.nan
@@ -124,14 +128,19 @@ def peak_stress(folder, radius):
     return max(pulls, default=math.nan) / (math.pi * radius**2)
 
 
-def measure(kind, folder, of, place):
-    """The measure `kind` of the tracers, or of tracers and a gauge, that `of` names."""
+def measure(name, folder, place):
+    """The measure `name`: KIND.TRACERS, or elongation.TRACERS.GAUGE. BadExpectation: it names no tracers, or none that are there."""
+    kind, *of = name.split(".")
+    if len(of) != (2 if kind == "elongation" else 1):
+        raise BadExpectation(f"measure {name!r}: expected {kind}.TRACERS{'.GAUGE' if kind == 'elongation' else ''}")
     if kind == "peak_stress":
         return peak_stress(folder, place)
-    if kind == "elongation":
-        return elongation(folder, *of.split("."))
-    return {"neck_strain": neck_strain, "failure_strain": failure_strain,
-            "failure_triaxiality": failure_triaxiality}[kind](folder, of)
+    table, names = section_of(folder, of[0])
+    for part, there in ((f"{of[0]}_1, {of[0]}_2, ...", names), (of[-1], kind != "elongation" or f"{of[-1]}.x" in table)):
+        if table and not there:
+            raise BadExpectation(f"measure {name!r}: {folder / 'gauges.csv'} has no {part}")
+    return {"elongation": elongation, "neck_strain": neck_strain, "failure_strain": failure_strain,
+            "failure_triaxiality": failure_triaxiality}[kind](folder, *of)
 
 
 KINDS = ("peak_stress", "elongation", "neck_strain", "failure_strain", "failure_triaxiality")

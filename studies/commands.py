@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Commands that studies run."""
+import functools
+import hashlib
+import json
 import pathlib
+import shutil
 import subprocess
 import sys
 import tomllib
@@ -14,6 +18,35 @@ def call(command, allowed=(0,)):
     if result.returncode not in allowed:
         sys.exit(f"{' '.join(map(str, command))}\nfailed with code {result.returncode}:\n{result.stdout}{result.stderr}")
     return result
+
+
+def digest(file):
+    """SHA-256 of a file."""
+    return hashlib.sha256(pathlib.Path(file).read_bytes()).hexdigest()
+
+
+@functools.cache
+def program(whipple):
+    """Version and revision of the program; the digest too where it was built from changed sources, which a revision does not name."""
+    version = call([whipple, "version"]).stdout.splitlines()[0]
+    return f"{version} {digest(shutil.which(whipple))}" if "+changes" in version else version
+
+
+RECORD = "study.json"  # beside a run: what computed it
+
+
+def compute(whipple, folder, commands, inputs=()):
+    """Runs commands of the program whose results are in the folder, unless that was done before: by the same program, with the same
+    words, and with the same bytes in the files `inputs`."""
+    words = [[str(word).replace(str(folder), "RUN").replace(f"{ROOT}/", "") for word in command] for command in commands]
+    record = {"program": program(whipple), "commands": words, "inputs": {pathlib.Path(file).name: digest(file) for file in inputs}}
+    path = folder / RECORD
+    if path.is_file() and json.loads(path.read_text(encoding="utf-8")) == record:
+        return
+    path.unlink(missing_ok=True)
+    for command in commands:
+        call([whipple, *command])
+    path.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
 
 
 def cell_size(folder):

@@ -103,6 +103,19 @@ bool read_number(std::string_view cell, double& value) {
 
 constexpr std::string_view percent = "%";
 
+/// A heading without the unit at its end: "D" of "D [mm]" and "D_mm".
+std::string without_unit(const std::string& heading) {
+  const std::size_t bracket = heading.find_first_of("[(");
+  if (bracket != std::string::npos) return trimmed(heading.substr(0, bracket));
+  for (std::size_t at = heading.rfind('_'); at != std::string::npos && at > 0;
+       at = heading.rfind('_', at - 1)) {
+    std::string unit = heading.substr(at + 1);
+    std::ranges::replace(unit, '_', '/');
+    if (!unit.empty() && fits(unit, unit)) return heading.substr(0, at);
+  }
+  return heading;
+}
+
 /// The quantity of which a heading gives the error: "us" of "us_err", "sigma_us" and "dus"; both as `plain` leaves
 /// them. Empty: it is no error.
 std::string_view subject_of_error(std::string_view heading) {
@@ -234,7 +247,7 @@ MeasuredTable::Column MeasuredTable::understand(const std::string& heading, int 
     }
     return made;
   };
-  const Column unknown{heading, std::nullopt, 0, false, std::nullopt};
+  const Column unknown{heading, std::nullopt, 0, false, std::nullopt, plain(without_unit(heading))};
   const std::size_t bracket = heading.find_first_of("[(");
   if (bracket != std::string::npos && (heading.back() == ']' || heading.back() == ')')) {
     const std::string name = trimmed(heading.substr(0, bracket));
@@ -288,8 +301,8 @@ bool MeasuredTable::take_units(const std::vector<std::string>& cells) {
     if (!column.is_error || unit != percent) {
       std::erase_if(column.could_be,
                     [&](Quantity quantity) { return !fits(*column.unit, spelling_of(quantity).si_unit); });
-      if (column.could_be.empty()) return false;
-      column.quantity = column.could_be.front();
+      if (column.could_be.empty() && column.word.size() > 1) return false;
+      column.quantity = column.could_be.empty() ? std::nullopt : std::optional(column.could_be.front());
     }
     any = true;
   }
@@ -361,18 +374,24 @@ std::vector<double> MeasuredTable::numbers(Quantity quantity) const {
 void MeasuredTable::assign_errors() {
   for (Column& error : columns_) {
     if (!error.is_error) continue;
-    const auto has = [&](Quantity quantity, bool of_this_word) {
+    const auto has = [&](std::optional<Quantity> quantity, bool of_this_word) {
       return std::ranges::any_of(columns_, [&](const Column& column) {
         return column.quantity == quantity && !column.is_error &&
                (!of_this_word || column.word == error.word);
       });
     };
-    for (const bool of_this_word : {true, false}) {
+    const auto take = [&](bool of_this_word) {
       const auto present = std::ranges::find_if(
           error.could_be, [&](Quantity quantity) { return has(quantity, of_this_word); });
-      if (present == error.could_be.end()) continue;
+      if (present == error.could_be.end()) return false;
       error.quantity = *present;
-      break;
+      return true;
+    };
+    if (take(true)) continue;
+    if (has(std::nullopt, true)) {
+      error.quantity.reset();
+    } else {
+      take(false);
     }
   }
 }
@@ -412,7 +431,8 @@ std::vector<std::string> MeasuredTable::unused_errors() const {
         !column.quantity &&
         std::ranges::any_of(std::array{"err", "sigma", "uncert", "\u00b1"},
                             [&](const char* word) { return bare.find(word) != std::string::npos; });
-    if (unknown || (column.is_error && find_errors(*column.quantity) != i)) found.push_back(column.heading);
+    const bool used = column.is_error && column.quantity && find_errors(*column.quantity) == i;
+    if (unknown || (column.is_error && !used)) found.push_back(column.heading);
   }
   return found;
 }

@@ -62,8 +62,8 @@ class MeasuredTable {
   /// One standard deviation of a quantity in every row, SI: a column "us_err", "sigma_us", "dus" or "us_unc" in a unit
   /// of the quantity or in "%" of it; empty without such a column. Of several that of the same word as the quantity's.
   [[nodiscard]] std::vector<double> errors(Quantity quantity) const;
-  /// Headings of errors that `errors` gives of no quantity: not known here, or of a column that is not there or not the
-  /// one that `find` takes.
+  /// Headings of errors that `errors` gives of no quantity: not known here, or of a column that is not there, is no
+  /// quantity, or is not the one that `find` takes.
   [[nodiscard]] std::vector<std::string> unused_errors() const;
   [[nodiscard]] std::vector<std::string> texts(std::size_t column) const;
 
@@ -74,13 +74,14 @@ class MeasuredTable {
     std::size_t spelling = 0;  ///< place among its spellings, the best first
     bool is_error = false;     ///< the standard deviation of the quantity
     std::optional<std::string> unit;
-    std::string word{};                ///< that names the quantity, bare: "us" of "us_err_km_s"
+    std::string word{};                ///< that names the quantity, known or not, bare: "us" of "us_err_km_s"
     std::vector<Quantity> could_be{};  ///< quantities of this word and unit, the best first
   };
   [[nodiscard]] Column understand(const std::string& heading, int line) const;
   /// Takes a row that only names units into the headings.
   bool take_units(const std::vector<std::string>& cells);
-  /// Gives errors of a word that names several quantities to the one that the table has: V may be of atoms.
+  /// Gives errors of a word that names several quantities to the one that the table has: V may be of atoms. Those of a
+  /// column that is no quantity, such as a diameter D, stay with it.
   void assign_errors();
   /// Column of the errors of a quantity.
   [[nodiscard]] std::optional<std::size_t> find_errors(Quantity quantity) const;

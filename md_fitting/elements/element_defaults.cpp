@@ -24,18 +24,20 @@ struct Kind {
   const char* unit;
   Range range;
   const char* meaning;
+  const char* instead = nullptr;  ///< what a fit takes instead of a row; nullptr: nothing
 };
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> all = {
       {"melting_point", "K", range::positive(), "measured melting point at atmospheric pressure"},
       {"electronic_heat_coefficient", "J/(mol K^2)", range::non_negative(),
-       "g_el of GRAY and debye_gruneisen"},
+       "g_el of GRAY and debye_gruneisen", "--electrons \"VALUE mJ/(mol K^2)\""},
       {"melting_temperature", "K", range::positive(),
-       "T_m0 on the isochore V0, if no coexistence was simulated"},
+       "T_m0 on the isochore V0, if no coexistence was simulated", "points of [[coexistence]]"},
       {"debye_temperature", "K", range::positive(),
-       "of debye_gruneisen, if no elastic constants were simulated"},
+       "of debye_gruneisen, if no elastic constants were simulated", "points of [elastic] or [quantum]"},
       {"join_volume_ratio", "", range::open_between(1.0, 2.0), "V_J/V0 of GRAY's vapour"},
-      {boiling, "K", range::positive(), "of GRAY's vapour at 101325 Pa"},
+      {boiling, "K", range::positive(), "of GRAY's vapour at 101325 Pa",
+       "vapour_attraction, or [liquid_vapour] of two temperatures"},
       {attraction, "J m^3/kg^2", range::positive(),
        "a_y of GRAY's vapour, instead of its boiling temperature"},
       {"hugoniot_quadratic", "", range::any(), "S2 of the shock curve"},
@@ -89,8 +91,8 @@ struct ElementWords {
         whipple::text("metal", &ElementWords::metal, "name of the material")
             .optional("that of the program, or the symbol"),
         whipple::text("template", &ElementWords::template_name,
-                      "material of the library with strength and failure")
-            .optional("no strength and failure")};
+                      "material of the library with strength and failure; \"none\": without")
+            .optional("that of the program, else none")};
     return table;
   }
 };
@@ -138,9 +140,18 @@ std::vector<NamedDefault> read_rows(std::vector<input::Table> tables,
   return rows;
 }
 
+/// What a file says of strength and failure.
+enum class Template { as_before, named, none };
+constexpr std::array<Word<Template>, 1> words(Template) { return {{{Template::none, "none"}}}; }
+
+struct Element {
+  ElementDefaults table;
+  Template strength_and_failure;
+};
+
 struct Contents {
   std::vector<NamedDefault> common;
-  std::vector<ElementDefaults> elements;
+  std::vector<Element> elements;
 };
 
 Contents read_contents(const std::filesystem::path& file) {
@@ -156,10 +167,16 @@ Contents read_contents(const std::filesystem::path& file) {
   for (input::Table& table : root.list("element")) {
     ElementWords words;
     table.read(ElementWords::parameters(), words);
-    contents.elements.push_back(
-        {words.symbol, words.metal,
-         words.template_name.empty() ? std::nullopt : std::optional(words.template_name),
-         read_rows(table.list("constant"), sources)});
+    const bool given = table.has("template");
+    if (given && words.template_name.empty())
+      table.error_at("template", "names no material; \"none\": without strength and failure");
+    Element element{{words.symbol, words.metal, {}, read_rows(table.list("constant"), sources)},
+                    Template::as_before};
+    if (given) {
+      element.strength_and_failure = value_of<Template>(words.template_name).value_or(Template::named);
+      element.table.template_name = words.template_name;
+    }
+    contents.elements.push_back(std::move(element));
   }
   document.finish();
   return contents;
@@ -181,10 +198,11 @@ void replace(std::vector<NamedDefault>& rows, const std::vector<NamedDefault>& o
 
 void apply(ElementDefaults& table, const Contents& contents) {
   replace(table.constants, contents.common);
-  for (const ElementDefaults& entry : contents.elements) {
+  for (const auto& [entry, strength_and_failure] : contents.elements) {
     if (entry.element != table.element) continue;
     if (!entry.metal.empty()) table.metal = entry.metal;
-    if (entry.template_name) table.template_name = entry.template_name;
+    if (strength_and_failure == Template::named) table.template_name = entry.template_name;
+    if (strength_and_failure == Template::none) table.template_name.reset();
     replace(table.constants, entry.constants);
   }
 }
@@ -207,11 +225,21 @@ const NamedDefault& ElementDefaults::at(std::string_view parameter) const {
 }
 
 std::string missing_text(std::string_view element, const std::vector<std::string>& parameters) {
-  return fmt::format(
-      "no default of {} for the element '{}': give it in a file, --defaults FILE (whipple describe element), "
-      "or fit "
-      "--model mie_gruneisen, which needs none; the program knows {}",
-      fmt::join(parameters, ", "), element, fmt::join(known_elements(), ", "));
+  return fmt::format("no default of {} for the element '{}': {}; the program knows {}",
+                     fmt::join(parameters, ", "), element, remedies(parameters),
+                     fmt::join(known_elements(), ", "));
+}
+
+std::string remedies(const std::vector<std::string>& parameters) {
+  std::vector<std::string> each;
+  for (const std::string& parameter : parameters) {
+    const auto kind = std::ranges::find(kinds(), parameter, &Kind::name);
+    const bool other = kind != kinds().end() && kind->instead != nullptr;
+    each.push_back(fmt::format("{}: {}a row in --defaults FILE", parameter,
+                               other ? fmt::format("{}, or ", kind->instead) : ""));
+  }
+  return fmt::format("{} (whipple describe element); --model mie_gruneisen needs none",
+                     fmt::join(each, "; "));
 }
 
 std::vector<const NamedDefault*> ElementDefaults::choices(std::string_view parameter) const {
@@ -233,7 +261,7 @@ ElementDefaults element_defaults(std::string_view element,
 
 std::vector<std::string> known_elements() {
   std::vector<std::string> symbols;
-  for (const ElementDefaults& entry : of_the_program().elements) symbols.push_back(entry.element);
+  for (const Element& entry : of_the_program().elements) symbols.push_back(entry.table.element);
   return symbols;
 }
 

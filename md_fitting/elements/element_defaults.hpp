@@ -31,10 +31,11 @@ struct NamedDefault {
 };
 
 struct ElementDefaults {
-  std::string element;                         ///< chemical symbol
-  std::string metal;                           ///< English name
-  std::optional<std::string> template_name{};  ///< material of the library with its strength and failure
-  std::vector<NamedDefault> constants{};       ///< of several of one parameter the first is the default
+  std::string element;  ///< chemical symbol
+  std::string metal;    ///< English name
+  std::optional<std::string>
+      template_name{};                    ///< material of the library with its strength and failure, if any
+  std::vector<NamedDefault> constants{};  ///< of several of one parameter the first is the default
 
   /// The default of a parameter, if there is one.
   [[nodiscard]] const NamedDefault* find(std::string_view parameter) const;
@@ -54,8 +55,11 @@ ElementDefaults element_defaults(std::string_view element,
 /// Symbols of the program's table.
 std::vector<std::string> known_elements();
 
-/// Says which constants an element lacks, and the remedy.
+/// Says which constants an element lacks, and the remedies.
 std::string missing_text(std::string_view element, const std::vector<std::string>& parameters);
+
+/// Says for each constant that a fit lacks how to give it.
+std::string remedies(const std::vector<std::string>& parameters);
 
 /// Describes the files of `whipple fit --defaults`.
 std::string describe_elements();

@@ -265,9 +265,9 @@ void run(const Options& options) {
       model = default_template(table);
       if (!model) {
         log::warning(
-            "{}: without strength and failure, a fluid: the library has no material of {} to take them from; "
+            "{}: without strength and failure, a fluid: the table of {} names no template to take them from; "
             "--template FILE names one",
-            files[i].string(), table.metal);
+            files[i].string(), table.element);
       }
     } else {
       model = options.template_file;

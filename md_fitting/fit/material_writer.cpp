@@ -346,13 +346,12 @@ std::string material_text(const Fit& fit, const StoreOrigin& origin,
   for (const Constant& constant : fit.constants) text += constant_line(constant);
   for (const auto& [name, word] : fit.words) text += fmt::format("{} = {}\n", name, toml_string(word));
   text += "\n";
-  text +=
-      template_file
-          ? strength_and_failure(*template_file)
-          : fmt::format(
-                "[strength]\nmodel = \"none\"\nnote = \"the library has no material of {} to take strength "
-                "and failure from; whipple fit --template FILE names one\"\n",
-                metal);
+  text += template_file ? strength_and_failure(*template_file)
+                        : fmt::format(
+                              "[strength]\nmodel = \"none\"\nnote = \"the table of {} names no template to "
+                              "take strength and "
+                              "failure from; whipple fit --template FILE names one\"\n",
+                              fit.element);
   const std::string covariance = covariance_table(fit);
   text += fmt::format("\n{}{}\n{}", covariance.empty() ? covariance : covariance + "\n",
                       provenance_table(fit, origin), defaults_table(fit));

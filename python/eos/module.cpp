@@ -212,7 +212,7 @@ void pass_messages_to_python() {
     const char* level = kind == log::Kind::warning       ? "warning"
                         : kind == log::Kind::information ? "info"
                                                          : "debug";
-    py::module_::import("logging").attr("getLogger")("whipple").attr(level)("%s", message);
+    py::module_::import("logging").attr("getLogger")("whipple").attr(level)("%s", with_paths(message));
   });
 }
 
@@ -392,13 +392,18 @@ void add_library(py::module_& module) {
       .def_property_readonly(
           "key", [](const LibraryMaterial& m) { return with_paths(m.file.stem().string()); },
           "The name that `material` takes.")
-      .def_readonly("name", &LibraryMaterial::name, "Name of the material.")
+      // What cannot be read is listed with the reason, which names its file.
+      .def_property_readonly(
+          "name", [](const LibraryMaterial& m) { return with_paths(m.name); }, "Name of the material.")
       .def_property_readonly(
           "file", [](const LibraryMaterial& m) { return with_paths(m.file.string()); }, "Its file.")
-      .def_readonly("note", &LibraryMaterial::note, "Purpose or limits in one line.")
+      .def_property_readonly(
+          "note", [](const LibraryMaterial& m) { return with_paths(m.note); },
+          "Purpose or limits in one line.")
       .def_readonly("group", &LibraryMaterial::group, "\"metals\", \"explosives\", \"polymers\", ...")
-      .def("__repr__",
-           [](const LibraryMaterial& m) { return fmt::format("<{}: {}>", m.file.stem().string(), m.note); });
+      .def("__repr__", [](const LibraryMaterial& m) {
+        return with_paths(fmt::format("<{}: {}>", m.file.stem().string(), m.note));
+      });
   module.def("materials", &library_materials, "List the materials of the library.");
   module.def(
       "samples",

@@ -15,7 +15,7 @@ import sys
 import tempfile
 import threading
 import tomllib
-import unittest
+import unittest.mock
 
 import numpy as np
 
@@ -32,6 +32,15 @@ class Library(unittest.TestCase):
         self.assertEqual(keys, {path.stem for path in (SOURCE / "eos/materials").glob("*.toml")})
         groups = {entry.group for entry in eos.materials()}
         self.assertIn("explosives", groups)
+
+    def test_folders_and_files_need_no_names_in_utf8(self):
+        with tempfile.TemporaryDirectory() as folder, unittest.mock.patch.dict(os.environ):
+            os.environ["WHIPPLE_MATERIALS"] = folder
+            path = pathlib.Path(folder, os.fsdecode(b"br\xfcche.toml"))
+            path.write_text("name = \"broken\"\n", encoding="utf-8")
+            entry = next(entry for entry in eos.materials() if entry.file == str(path))
+            self.assertEqual((entry.key, repr(entry)), (path.stem, f"<{path.stem}: {entry.note}>"))
+            self.assertIn(path.stem, entry.note + entry.name)
 
     def test_a_material_tells_its_sources_and_constants(self):
         self.assertEqual((COPPER.name, COPPER.model, COPPER.group), ("copper", "gray", "metals"))

@@ -6,9 +6,11 @@ import tempfile
 import unittest
 
 from report import tension
+from report.expectations import BadExpectation
 
 RATE, BREAK, END = 1000.0, 200e-6, 260e-6  # 1/s; s
 RADII = (0.0, 1e-3, 2e-3)
+SHEAR = (1e8, 2e8, 3e8)  # Pa, xy, yz and zx
 FORCE, HELD = 5e3, 0.2  # N before the break and the part of it after
 
 
@@ -24,20 +26,21 @@ class Bar(unittest.TestCase):
         head = ["time [s]", "mark.x [m]"]
         for i in range(len(RADII)):
             head += [f"section_{i + 1}.{c}" for c in ("y [m]", "stress_xx [Pa]", "stress_yy [Pa]", "stress_zz [Pa]",
-                                                      "stress_xy [Pa]", "plastic_strain [1]", "failed_fraction [1]")]
+                                                      "stress_xy [Pa]", "stress_yz [Pa]", "stress_zx [Pa]", "plastic_strain [1]",
+                                                      "failed_fraction [1]")]
         rows = []
         for t in times:
             strain = RATE * t
             row = [t, 10e-3 * math.exp(strain)]
             for i, radius in enumerate(RADII):
-                # Under a lateral tension of 1 and an axial one of 3: mean 5/3, equivalent 2.
+                # Under a lateral tension of 1 and an axial one of 3, and shear: mean 5/3, equivalent (4 + 3 (1 + 4 + 9))^0.5.
                 failed = 1.0 if i == 0 and t >= BREAK - 0.5e-6 else 0.0
-                row += [radius * math.exp(-0.5 * strain), 3e8, 1e8, 1e8, 0.0, strain, failed]
+                row += [radius * math.exp(-0.5 * strain), 3e8, 1e8, 1e8, *SHEAR, strain, failed]
             rows.append(",".join(map(str, row)))
         (self.folder / "gauges.csv").write_text(",".join(head) + "\n" + "\n".join(rows) + "\n")
 
     def measure(self, kind, of="section", place=2e-3):
-        return tension.measure(kind, self.folder, of, place)
+        return tension.measure(f"{kind}.{of}", self.folder, place)
 
     def test_force_and_section(self):
         self.assertAlmostEqual(self.measure("peak_stress") / (FORCE / (math.pi * 4e-6)), 1.0, places=9)
@@ -47,7 +50,19 @@ class Bar(unittest.TestCase):
 
     def test_first_failure(self):
         self.assertAlmostEqual(self.measure("failure_strain"), RATE * BREAK, places=9)
-        self.assertAlmostEqual(self.measure("failure_triaxiality"), 5 / 6, places=9)
+        self.assertAlmostEqual(self.measure("failure_triaxiality"), 5 / 3 / math.sqrt(46), places=9)
+
+    def test_names_of_what_is_not_there_are_refused(self):
+        for kind, of, words in (("elongation", "section", "elongation.TRACERS.GAUGE"), ("elongation", "section.end", "has no end"),
+                                ("neck_strain", "section.mark", "neck_strain.TRACERS"), ("neck_strain", "waist", "has no waist_1")):
+            with self.assertRaisesRegex(BadExpectation, words):
+                self.measure(kind, of)
+        gauges = self.folder / "gauges.csv"
+        gauges.write_text(gauges.read_text().replace("section_1.", "section_a."))
+        self.assertTrue(math.isfinite(self.measure("neck_strain")))
+        gauges.write_text(gauges.read_text().replace("section_", "section_a"))
+        with self.assertRaisesRegex(BadExpectation, "gauges.csv has no section_1"):
+            self.measure("neck_strain")
 
     def test_whole_bar_has_no_strain_at_fracture(self):
         text = (self.folder / "history.csv").read_text().splitlines()

@@ -2,12 +2,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Fragments with and without cracks as velocity fields: do numbers, loose mass and failed mass converge with the cells?
 
-Usage: studies/crack_fragments/crack_fragments.py [--long] [--table] [NAME...]
+Usage: studies/crack_fragments/crack_fragments.py [--long] [--table] [--whipple EXE] [NAME...]
 
 The rows are runs of cases/shell_fragmentation: the ring that coasts (ring.toml) with and without fields, by cell size and seed, and
 the shell (section.toml) with softening in tension. --long: also those that take more than a few minutes each. --table runs nothing;
-names choose rows. Runs lie in run/studies/crack_fragments; those that are there are kept. Printed: the rows
-(docs/theory/analysis.md, section 3), mean and standard deviation over the seeds, and Mott's statistics with the scatter of the ring.
+names choose rows. Runs lie in run/studies/crack_fragments; those of the same program and the same case are kept. Printed: the rows
+(docs/theory/analysis.md, section 3), mean and standard deviation over the seeds, the energy of the cracks that tear, and Mott's
+statistics with the scatter of the ring. Width of a crack: failed share times perimeter over the number of fragments. The energy is
+from the damage D of all particles, whose work per volume is (2 D - D^2) Gamma/h in the law `tearing`, h a cell
+(docs/theory/material.md, 5.1).
 """
 import argparse
 import csv
@@ -21,10 +24,13 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[0] = str(ROOT)
 from report.measured import Measures  # noqa: E402
 from report.pieces import masses_of_run, weibull_exponent  # noqa: E402
-from studies.commands import call, cell_size  # noqa: E402
+from report.detonation import particles_of  # noqa: E402
+from studies.commands import cell_size, compute  # noqa: E402
 from studies.crack_fragments import mott  # noqa: E402
 
 RUNS = ROOT / "run/studies/crack_fragments"
+LATE = (24, 28, 32, 36, 40)  # us, of the shell
+WALL = {"ring": 2e-3, "shell": 4e-3}  # m, thickness at the start
 PERIMETER = {"ring": 2.0 * np.pi * 21e-3, "shell": 2.0 * np.pi * 22e-3}  # m, of the middle of the wall at the start
 TEARING = "steel_45_tearing.toml"
 
@@ -43,6 +49,14 @@ class Row:
         return f"{self.body}_{'tearing_' if self.tearing else ''}{self.fields}_{self.cell}_seed_{self.seed}"
 
     @property
+    def failure(self):
+        return "`tearing`, 65 kJ/m2" if self.tearing else "`plastic_strain`"
+
+    @property
+    def label(self):
+        return "cracks" if self.fields == "fields" else "none"
+
+    @property
     def case(self):
         return ROOT / "cases/shell_fragmentation" / ("ring.toml" if self.body == "ring" else "section.toml")
 
@@ -52,7 +66,7 @@ class Row:
         words = [f"domain.cell_size={self.cell} mm", f"body.{number}.failure.cracks={self.fields}",
                  f"body.{number}.failure_scatter.seed={self.seed}"]
         if self.tearing:
-            words.append(f"body.{number}.material={TEARING}")
+            words += [f"body.{number}.material={TEARING}", 'output.fields=["density","failed","damage"]']
         if self.body == "shell":  # until all gaps are open
             words += ["time.end=40 us", "output.snapshot_every=4 us", 'domain.lower=["-90 mm","-90 mm"]', 'domain.upper=["90 mm","90 mm"]']
         return words
@@ -65,50 +79,94 @@ ROWS += [Row("shell", "none", "0.8", tearing=True), Row("shell", "fields", "0.8"
          Row("shell", "fields", "0.4", tearing=True, long=True), Row("shell", "fields", "0.2", tearing=True, long=True)]
 
 
-def compute(row):
+def run_row(row, whipple):
     """Runs and analyses a row unless that was done before."""
     folder = RUNS / row.name
-    whipple = ROOT / "build/release/bin/whipple"
-    if not (folder / "report/pieces_by_distance.csv").is_file():
-        words = [word for text in row.assignments for word in ("--set", text)]
-        call([whipple, "run", row.case, "-o", folder, "--force", "--quiet", "--threads", "1", *words])
-        call([whipple, "analyse", folder, "--by-distance", "--radiographs", "1", "--quiet"])
+    words = [word for text in row.assignments for word in ("--set", text)]
+    compute(whipple, folder, [["run", row.case, "-o", folder, "--force", "--quiet", "--threads", "1", *words],
+                              ["analyse", folder, "--by-distance", "--radiographs", "1", "--quiet"]],
+            [row.case, *row.case.parent.glob("*.toml")])
+
+
+def crack_energy(row):
+    """Energy of the cracks of a row that tears over Gamma times thickness of the wall and number of fragments, all of which end at one
+    crack; NaN of other laws. damage: D of its particles."""
+    folder = RUNS / row.name
+    found = particles_of(folder, row.body)
+    if not row.tearing or found is None or "damage" not in found:
+        return np.nan
+    damage, volume = found["damage"].astype(float), found["mass"] / mott.Ring.density  # of a metre along z
+    area = ((2 * damage - damage**2) * volume).sum() / cell_size(folder)
+    return area / (WALL[row.body] * Measures(folder).single[f"piece_count.{row.body}"])
+
+
+@dataclasses.dataclass(frozen=True)
+class Found:
+    number: float
+    failed: float
+    loose: float
+    width: float             # of a crack, cells
+    by_distance: list
+    exponent: tuple          # with its error
+    over_time: list          # number at each of LATE
+    energy: float            # of cracks, Gamma
 
 
 def measure(row):
-    """Values of a row: number of fragments, failed, loose, width of a crack in cells, numbers by distance, exponent; None if it was not
-    computed."""
+    """What a row shows; None if it was not computed."""
     folder = RUNS / row.name
     if not (folder / "report/pieces_by_distance.csv").is_file():
         return None
-    single = Measures(folder).single
+    measures = Measures(folder)
+    single = measures.single
     number, failed = single[f"piece_count.{row.body}"], single[f"failed_fraction.{row.body}.whole"]
     with (folder / "report/pieces_by_distance.csv").open(newline="") as stream:
         distance = [float(line["pieces [1]"]) for line in csv.DictReader(stream) if line["body"] == row.body]
     width = failed * PERIMETER[row.body] / (number * cell_size(folder)) if number > 0 else np.nan
-    return number, failed, single[f"loose_fraction.{row.body}"], width, distance, weibull_exponent(masses_of_run(folder, row.body))
+    numbers = dict(zip(np.round(1e6 * np.array(measures.series["time"])), measures.series[f"piece_count.{row.body}"]))
+    return Found(number, failed, single[f"loose_fraction.{row.body}"], width, distance, weibull_exponent(masses_of_run(folder, row.body)),
+                 [numbers.get(time, np.nan) for time in LATE], crack_energy(row))
+
+
+def ring_lines(found):
+    """Table of the rings, and means over seeds."""
+    text = ["| failure | fields | cells mm | seed | failed % | fragments | width of a crack, cells | loose % | by distance | exponent b |",
+            "| --- " * 10 + "|"]
+    by_seed = {}
+    for row, f in found:
+        text.append(f"| {row.failure} | {row.label} | {float(row.cell):.3g} | {row.seed} | {100 * f.failed:.1f} | {f.number:g} | "
+                    f"{f.width:.2f} | {100 * f.loose:.2f} | {joined(f.by_distance)} | {f.exponent[0]:.2f} +- {f.exponent[1]:.2f} |")
+        by_seed.setdefault((row.failure, row.label, row.cell), []).append((f.number, 100 * f.loose))
+    for (failure, label, cell), values in by_seed.items():
+        if len(values) > 1:
+            numbers, loose = np.array(values).T
+            text.append(f"{failure}, {label}, {float(cell):.3g} mm, {len(values)} seeds: {numbers.mean():.1f} +- "
+                        f"{numbers.std(ddof=1):.1f} fragments, loose {loose.mean():.2f} %")
+    return text
+
+
+def shell_lines(found):
+    """Table of the shells: the mean fragment in mm of the initial perimeter."""
+    text = [f"| fields | cells mm | failed % | fragments at {joined(LATE)} us | loose % | by distance, 40 us | mean, mm of perimeter | "
+            "exponent b |", "| --- " * 8 + "|"]
+    for row, f in found:
+        mean = 1e3 * PERIMETER[row.body] * (1 - f.loose) / f.number if f.number > 0 else np.nan
+        text.append(f"| {row.label} | {float(row.cell):.3g} | {100 * f.failed:.1f} | {joined(f.over_time)} | {100 * f.loose:.2f} | "
+                    f"{joined(f.by_distance)} | {mean:.2f} | {f.exponent[0]:.2f} +- {f.exponent[1]:.2f} |")
+    return text
+
+
+def joined(numbers):
+    return ", ".join(f"{number:g}" for number in numbers)
 
 
 def lines(rows):
-    """Lines of the table, and of the means over seeds."""
-    text = ["| body | failure | fields | cells mm | seed | failed % | fragments | width of a crack, cells | loose % | by distance | exponent b |",
-            "| --- " * 11 + "|"]
-    by_seed = {}
-    for row in rows:
-        found = measure(row)
-        if found is None:
-            continue
-        number, failed, loose, width, distance, (b, error) = found
-        failure = "tearing" if row.tearing else "plastic strain"
-        text.append(f"| {row.body} | {failure} | {row.fields} | {float(row.cell):.3g} | {row.seed} | {100 * failed:.1f} | {number:g} | "
-                    f"{width:.2f} | {100 * loose:.2f} | {', '.join(f'{n:g}' for n in distance)} | {b:.2f} +- {error:.2f} |")
-        by_seed.setdefault((row.body, failure, row.fields, row.cell), []).append((number, 100 * loose))
-    for (body, failure, fields, cell), values in by_seed.items():
-        if len(values) > 1:
-            numbers, loose = np.array(values).T
-            text.append(f"{body}, {failure}, {fields}, {float(cell):.3g} mm, {len(values)} seeds: {numbers.mean():.1f} +- "
-                        f"{numbers.std(ddof=1):.1f} fragments, loose {loose.mean():.2f} %")
-    return text
+    """What was found of the rows that were computed."""
+    found = [(row, f) for row in rows if (f := measure(row)) is not None]
+    text = []
+    for body, table in (("ring", ring_lines), ("shell", shell_lines)):
+        text += table([(row, f) for row, f in found if row.body == body]) + [""]
+    return text + [f"{row.name}: energy of a crack {f.energy:.2f} Gamma per area" for row, f in found if np.isfinite(f.energy)]
 
 
 def main():
@@ -116,6 +174,7 @@ def main():
     parser.add_argument("names", nargs="*", metavar="NAME")
     parser.add_argument("--long", action="store_true")
     parser.add_argument("--table", action="store_true")
+    parser.add_argument("--whipple", default=str(ROOT / "build/release/bin/whipple"))
     arguments = parser.parse_args()
     chosen = [row for row in ROWS if row.name in arguments.names or not arguments.names]
     unknown = set(arguments.names) - {row.name for row in ROWS}
@@ -124,7 +183,7 @@ def main():
     if not arguments.table:
         for row in chosen:
             if arguments.long or not row.long or arguments.names:
-                compute(row)
+                run_row(row, arguments.whipple)
     print("\n".join(lines(chosen)))
     for delay in (0.0, 0.4e-6):
         numbers = np.array([mott.fragments(seed, delay=delay) for seed in range(1, 21)])

@@ -5,7 +5,7 @@
 Usage: studies/fragment_ensemble/fragment_ensemble.py CASE:RUN [--resolution coarse] [--members 100]
 
 Every member is the run with its lattice moved by a random part of a cell along the axes that the `offsets` of the case's [band]
-name (docs/manual/expected_results.md); all else is equal. Runs that are there already are kept. Printed: mean over the members,
+name (docs/manual/expected_results.md); all else is equal. Runs of the same program and case are kept. Printed: mean over the members,
 its standard error, standard deviation, and the interval that holds 95 % of the members; the numbers of fragments N(>m) at equal
 steps of log m. Members lie in run/studies/fragment_ensemble.
 """
@@ -19,7 +19,7 @@ import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[0] = str(ROOT)
-from studies.commands import call  # noqa: E402
+from studies.commands import compute  # noqa: E402
 from studies.validation.cases import BadExpectation, Measures  # noqa: E402
 from studies.validation.execution import select  # noqa: E402
 from studies.validation.variants import PLACE, placed  # noqa: E402
@@ -40,14 +40,12 @@ def offset(run, cell, generator):
 
 def run_member(whipple, run, resolution, folder, assignments):
     """Runs and analyses a member unless that was done before."""
-    if not (folder / "report" / "fragment_distribution.csv").is_file():
-        command = [whipple, "run", run.case.file, "-o", folder, "--force", "--quiet", "--threads", "1"]
-        for text in [*run.assignments(resolution), *assignments]:
-            command += ["--set", text]
-        call(command)
-        call([whipple, "analyse", folder, "--quiet", *run.analyse])
-        for snapshot in folder.glob("*.hdf"):
-            snapshot.unlink()
+    command = ["run", run.case.file, "-o", folder, "--force", "--quiet", "--threads", "1"]
+    for text in [*run.assignments(resolution), *assignments]:
+        command += ["--set", text]
+    compute(whipple, folder, [command, ["analyse", folder, "--quiet", *run.analyse]], sorted(run.case.file.parent.glob("*.toml")))
+    for snapshot in folder.glob("*.hdf"):
+        snapshot.unlink()
 
 
 def numbers(folder):

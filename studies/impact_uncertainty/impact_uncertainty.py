@@ -26,7 +26,7 @@ import tomllib
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 from report.expectations import quantity  # noqa: E402
-from studies.commands import call  # noqa: E402
+from studies.commands import call, program  # noqa: E402
 from studies.fit_calibration.fit_calibration import METALS, table, usable  # noqa: E402
 from studies.validation.bands import STUDENT, grid_study  # noqa: E402
 
@@ -71,7 +71,7 @@ class Ensemble:
         quantities = folder / "report/quantities.csv"
         stamp = folder / "ensemble.txt"
         settings = [*AXISYMMETRIC, f"domain.cell_size={cell or self.cell}", *changes]
-        inputs = "\n".join([*settings, *map(digest, settings)])
+        inputs = "\n".join([program(self.binaries / "whipple"), *settings, *map(digest, settings)])
         if not quantities.exists() or not stamp.exists() or stamp.read_text(encoding="utf-8") != inputs:
             call([self.binaries / "whipple", "run", CASE, "-o", folder, "--force", "--quiet",
                   *[word for setting in settings for word in ("--set", setting)]], allowed=(0, 3))

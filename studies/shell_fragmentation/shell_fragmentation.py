@@ -17,14 +17,14 @@ import numpy as np
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[0] = str(ROOT)
 from report.measured import Measures  # noqa: E402
-from report.pieces import masses_of_run, weibull_exponent  # noqa: E402
+from report.expectations import BadExpectation  # noqa: E402
+from report.pieces import joined, masses_of_run, weibull_exponent  # noqa: E402
 from studies.commands import cell_size  # noqa: E402
 
 
 def line(name, masses, failed, loose):
     b, error = weibull_exponent(masses)
-    mean = masses.mean() if len(masses) else np.nan
-    return (f"| {name} | {len(masses)} | {1e3 * mean:.4g} | {1e3 * max(masses, default=np.nan):.4g} | {b:.2f} +- {error:.2f} | "
+    return (f"| {name} | {masses.number} | {1e3 * masses.mean:.4g} | {1e3 * masses.largest:.4g} | {b:.2f} +- {error:.2f} | "
             f"{100 * failed:.1f} | {100 * loose:.2f} |")
 
 
@@ -37,7 +37,10 @@ def main():
     print("| --- " * 7 + "|")
     by_cell = {}
     for folder in arguments.runs:
-        measures = Measures(folder).single
+        try:
+            measures = Measures(folder).single
+        except BadExpectation as error:
+            sys.exit(str(error))
         shares = measures[f"failed_fraction.{arguments.body}.whole"], measures[f"loose_fraction.{arguments.body}"]
         masses = masses_of_run(folder, arguments.body)
         print(line(folder.name, masses, *shares))
@@ -45,7 +48,7 @@ def main():
     for cell, found in by_cell.items():
         if len(found) > 1:
             name = f"all of {1e3 * cell:.4g} mm: {len(found)}"
-            print(line(name, np.concatenate([masses for masses, _, _ in found]), *np.mean([rest for _, *rest in found], axis=0)))
+            print(line(name, joined([masses for masses, _, _ in found]), *np.mean([rest for _, *rest in found], axis=0)))
 
 
 if __name__ == "__main__":

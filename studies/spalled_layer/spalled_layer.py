@@ -2,16 +2,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Does a spalled layer leave with the same mass and speed at every cell size, and what decides it?
 
-usage: spalled_layer.py [--problem NAME]... [--folder run/studies/spalled_layer] [--threads N] [--whipple EXE]
+usage: spalled_layer.py [--problem NAME]... [--table] [--folder run/studies/spalled_layer] [--threads N] [--whipple EXE]
 
 6061-T6 throughout (aluminium_6061_t6, whose voids meet at a porosity of 0.15), times until nothing changes (6 to 8 us):
 
-  plate_1.6, plate_0.8  a plate of that many mm at 500 m/s on a wall of 4 mm, in plane strain, one row of cells
+  plate_1.6, plate_0.8  a plate of that many mm at 500 m/s on a wall of 4 mm, in plane strain, two rows of cells
   grain                 the unit cell of a dense load of grains: a sphere of 1 mm of 2017-T4 at 5.7 km/s on the axis of a wall of
                         4.064 mm whose side is a mirror of the radius 2.2141 mm (0.095 mg of grains per mm^2)
 
 with one velocity field or with those of cracks, and with other porosities of coalescence. The layer is the rearmost fragment of
-at least a twentieth of the wall (docs/theory/analysis.md, section 3). Runs that are there are not repeated.
+at least a twentieth of the wall (docs/theory/analysis.md, section 3); "whole": the wall has one such fragment, with 95 % of its
+mass and more. Runs of the same program and the same case are kept; --table runs nothing.
 """
 import argparse
 import csv
@@ -21,7 +22,7 @@ import tomllib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[0] = str(ROOT)
-from studies.commands import call  # noqa: E402
+from studies.commands import compute  # noqa: E402
 
 CASE = """title = "spalled layer"
 [domain]
@@ -63,6 +64,7 @@ def grain(cells):
 PROBLEMS = {"plate_1.6": [plate(1.6, cell) for cell in (0.2, 0.1, 0.05, 0.025)],
             "plate_0.8": [plate(0.8, cell) for cell in (0.2, 0.1, 0.05, 0.025)],
             "grain": [grain(cells) for cells in (11, 22, 44)]}
+LABELS = {"none": "one", "fields": "cracks"}
 VARIANTS = [("none", 0.15), ("fields", 0.15), ("fields", 0.05), ("fields", 0.1), ("fields", 0.29)]
 
 
@@ -77,7 +79,7 @@ def wall_of(folder, porosity):
 
 
 def layer_of(run):
-    """Fraction of the wall's mass (%) and speed (m/s) of the rearmost fragment; whole walls: 100 %."""
+    """Fraction of the wall's mass (%) and speed (m/s) of the rearmost fragment, and whether the wall is whole."""
     bodies = [body["name"] for body in tomllib.loads((run / "run.toml").read_text(encoding="utf-8"))["body"]]
     with (run / "report/fragments.csv").open(newline="") as stream:
         rows = [{key.split(" [")[0]: float(value) for key, value in row.items()} for row in csv.DictReader(stream)]
@@ -85,13 +87,14 @@ def layer_of(run):
         mass = next(float(row["mass [kg]"]) for row in csv.DictReader(stream) if row["body part"] == "wall whole")
     pieces = [row for row in rows if row["body"] == bodies.index("wall") and row["mass"] > 0.05 * mass]
     rear = max(pieces, key=lambda row: row["x"])
-    return 100.0 * rear["mass"] / mass, rear["velocity_x"]
+    return 100.0 * rear["mass"] / mass, rear["velocity_x"], len(pieces) == 1 and rear["mass"] > 0.95 * mass
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--problem", action="append", choices=PROBLEMS)
     parser.add_argument("--folder", type=pathlib.Path, default=ROOT / "run/studies/spalled_layer")
+    parser.add_argument("--table", action="store_true")
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--whipple", default=ROOT / "build/release/bin/whipple")
     arguments = parser.parse_args()
@@ -107,14 +110,18 @@ def main():
                 cell = parameters["cell"]
                 end = -2 + cell * round(16 / cell)
                 run = folder / f"{problem}_{cracks}_{porosity}_{cell:.3g}"
+                if not arguments.table:
+                    case, wall = folder / f"{run.name}.toml", wall_of(folder, porosity)
+                    case.write_text(CASE.format(end=end, cracks=cracks, wall=wall, **parameters), encoding="utf-8")
+                    compute(arguments.whipple, run, [["run", case, "--output", run, "--force", "--quiet", "--threads", arguments.threads],
+                                                     ["analyse", run]],
+                            [case, *(file for file in [folder / wall] if file.is_file())])
                 if not (run / "report/fragments.csv").is_file():
-                    case = folder / f"{run.name}.toml"
-                    case.write_text(CASE.format(end=end, cracks=cracks, wall=wall_of(folder, porosity), **parameters), encoding="utf-8")
-                    call([arguments.whipple, "run", case, "--output", run, "--force", "--quiet", "--threads", arguments.threads])
-                    call([arguments.whipple, "analyse", run])
-                mass, speed = layer_of(run)
-                found.append("whole" if mass > 99.0 else f"{mass:.1f}, {speed:.0f}")
-            print(f"| {cracks} | {porosity} | {' | '.join(found)} |", flush=True)
+                    found.append("not computed")
+                    continue
+                mass, speed, whole = layer_of(run)
+                found.append("whole" if whole else f"{mass:.1f}, {speed:.0f}")
+            print(f"| {LABELS[cracks]} | {porosity} | {' | '.join(found)} |", flush=True)
 
 
 if __name__ == "__main__":

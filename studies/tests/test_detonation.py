@@ -122,9 +122,11 @@ class Measures(unittest.TestCase):
         (self.folder / "report").mkdir()
         (self.folder / "report/fragments.csv").write_text(
             "mass [kg],copies [1],body [1]\n" + "".join(f"{m},2,1\n" for m in (1.0, 2.0, 4.0)) + "50,1,0\n")
-        self.assertEqual(sorted(pieces.masses_of_run(self.folder, "metal")), [1.0, 1.0, 2.0, 2.0, 4.0, 4.0])
-        self.assertEqual(len(pieces.masses_of_run(self.folder, "copper")), 0)
-        self.assertEqual(pieces.exponent_of_run(self.folder, "metal"), pieces.weibull_exponent([1, 1, 2, 2, 4, 4])[0])
+        found = pieces.masses_of_run(self.folder, "metal")
+        self.assertEqual((sorted(found.mass), found.number, found.largest), ([1.0, 2.0, 4.0], 6, 4.0))
+        self.assertAlmostEqual(found.mean, 7.0 / 3.0)
+        self.assertEqual(pieces.masses_of_run(self.folder, "copper").number, 0)
+        self.assertEqual(pieces.exponent_of_run(self.folder, "metal"), pieces.weibull_exponent(found)[0])
         self.assertTrue(math.isnan(pieces.exponent_of_run(self.folder, "air")))
 
 
@@ -132,7 +134,24 @@ class Theory(unittest.TestCase):
     def test_weibull_exponent_of_its_own_quantiles(self):
         for b in (0.8, 1.1, 2.0):
             masses = (-np.log((np.arange(4000) + 0.5) / 4000)) ** (1.0 / b)
-            self.assertAlmostEqual(pieces.weibull_exponent(masses)[0], b, delta=0.01 * b)
+            found = pieces.Masses(masses, np.ones(4000))
+            self.assertAlmostEqual(pieces.weibull_exponent(found)[0], b, delta=0.01 * b)
+
+    def test_images_are_no_further_observations(self):
+        masses = np.array([1.0, 2.0, 4.0, 7.0])
+        b, error = pieces.weibull_exponent(pieces.Masses(masses, np.ones(4)))
+        self.assertAlmostEqual(error, b * np.sqrt(0.608 / 4))
+        self.assertEqual(pieces.weibull_exponent(pieces.Masses(masses, np.full(4, 4.0))), (b, error))
+        # A fragment that counts twice pulls the exponent as two of them do.
+        twice = pieces.weibull_exponent(pieces.Masses(masses, np.array([1.0, 1.0, 1.0, 2.0])))
+        same = pieces.weibull_exponent(pieces.Masses(np.append(masses, 7.0), np.ones(5)))
+        self.assertAlmostEqual(twice[0], same[0])
+        self.assertGreater(twice[1], same[1])
+
+    def test_error_is_the_scatter_of_samples(self):
+        generator = np.random.default_rng(1)
+        found = np.array([pieces.weibull_exponent(pieces.Masses(generator.weibull(1.5, 60), np.full(60, 2.0))) for _ in range(300)])
+        self.assertAlmostEqual(found[:, 0].std() / found[:, 1].mean(), 1.0, delta=0.15)
 
     def test_jet_of_a_cone(self):
         velocity, mass, share = shaped_charge.theory(21.0, "composition_b")

@@ -5,6 +5,8 @@ import tempfile
 import tomllib
 import unittest
 
+import numpy as np
+
 from studies.debris_grains import debris_grains
 from studies.spalled_layer import spalled_layer
 
@@ -18,9 +20,11 @@ class Layer(unittest.TestCase):
             (run / "report/bodies.csv").write_text("body part,mass [kg]\nflyer whole,9\nwall whole,2\n")
             (run / "report/fragments.csv").write_text("mass [kg],body [1],x [m],velocity_x [m/s]\n"
                                                       "9,0,0.9,1\n1.2,1,0.1,50\n0.7,1,0.4,250\n0.05,1,0.6,400\n")
-            mass, speed = spalled_layer.layer_of(run)
-        self.assertAlmostEqual(mass, 35.0)
-        self.assertEqual(speed, 250.0)
+            mass, speed, whole = spalled_layer.layer_of(run)
+            self.assertAlmostEqual(mass, 35.0)
+            self.assertEqual((speed, whole), (250.0, False))
+            (run / "report/fragments.csv").write_text("mass [kg],body [1],x [m],velocity_x [m/s]\n1.97,1,0.1,56\n")
+            self.assertTrue(spalled_layer.layer_of(run)[2])
 
     def test_walls_of_other_porosities_are_the_librarys_with_one_key_more(self):
         with tempfile.TemporaryDirectory() as name:
@@ -29,6 +33,19 @@ class Layer(unittest.TestCase):
 
 
 class Cloud(unittest.TestCase):
+    def test_fragments_are_connected_intact_particles_with_what_failed_beside_them(self):
+        row = np.array([[0.1 * i, 0.0] for i in range(5)])
+        points = np.vstack([row, row + [0.0, 1.0], [[0.0, 0.12], [0.0, 0.5], [0.4, 0.88]], row[:3] + [2.0, 0.0]])
+        failed = np.array([False] * 10 + [True] * 3 + [False] * 3)
+        found = sorted(sorted(map(int, own)) for own in debris_grains.fragments_of(points, failed, 0.15))
+        self.assertEqual(found, [[0, 1, 2, 3, 4, 10], [5, 6, 7, 8, 9, 12]])
+
+    def test_sizes_by_number_and_by_mass_without_the_largest(self):
+        pieces = debris_grains.Pieces(np.array([1.0, 1.0, 3.0, 50.0]), np.array([0.1, 0.2, 0.3, 0.9]), np.array([1.0, 2.0, 2.0, 1.0]), "")
+        self.assertEqual(pieces.at_half(pieces.copies), 0.2)
+        self.assertEqual(pieces.at_half(pieces.copies * pieces.mass), 0.9)
+        self.assertEqual(pieces.at_half(pieces.copies * pieces.mass, without_largest=True), 0.3)
+
     def test_cases_hold_whole_cells_and_are_toml(self):
         for space in (False, True):
             for cell in (0.2, 0.12, 0.05):

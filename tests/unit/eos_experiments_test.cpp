@@ -188,6 +188,15 @@ TEST(EosExperiments, ErrorColumnsBelongToTheColumnThatIsTaken) {
   EXPECT_NE(scales.remarks[0].find("P_old_err_GPa"), std::string::npos);
   const Experiment other_word = experiment_of("shock velocity [km/s],up [km/s],us_err [km/s]\n6,1,0.1\n");
   EXPECT_NEAR(other_word.ordinate_error[0], 100.0, 1e-9);
+  // The diameter of a specimen is no quantity of the table, and its error not one of the shock velocity.
+  for (const char* headings : {"us [km/s],up [km/s],D [mm],D_err [%]", "us_km_s,up_km_s,D_mm,dD_%",
+                               "us,up,D,sigma_D\nkm/s,km/s,mm,%"}) {
+    const Experiment diameter = experiment_of(std::string(headings) + "\n6,1,12,3\n");
+    EXPECT_FALSE(diameter.states_errors) << headings;
+    ASSERT_FALSE(diameter.remarks.empty()) << headings;
+  }
+  const Experiment shock_speed = experiment_of("D [km/s],up [km/s],D_err [%]\n6,1,3\n");
+  EXPECT_NEAR(shock_speed.ordinate_error[0], 180.0, 1e-9);
   const Experiment absent = experiment_of("us_km_s,up_km_s,rho_err [%]\n6,1,3\n");
   EXPECT_FALSE(absent.states_errors);
   ASSERT_EQ(absent.remarks.size(), 1U);

@@ -281,7 +281,7 @@ TEST_F(FitMaterial, RefusesPointsOfTwoPotentials) {
 
 TEST_F(FitMaterial, UnknownElementNamesTheKnownOnes) {
   for (md::PointRecord& point : store.points) point.provenance["element"] = "Xx";
-  EXPECT_THAT(refusal(store.points), HasSubstr("for the element 'Xx': give it in a file, --defaults FILE"));
+  EXPECT_THAT(refusal(store.points), HasSubstr("for the element 'Xx': electronic_heat_coefficient: --"));
 }
 
 TEST_F(FitMaterial, TableHoldsThePublishedRows) {

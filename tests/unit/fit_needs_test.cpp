@@ -87,6 +87,15 @@ TEST_F(FitNeeds, AreWhatPointsAndUserDoNotSay) {
             Names{});
 }
 
+TEST_F(FitNeeds, EachMissingConstantHasItsRemedy) {
+  const std::string text = elements::missing_text(
+      "Xx", {"electronic_heat_coefficient", "melting_temperature", "join_volume_ratio"});
+  EXPECT_THAT(text, AllOf(HasSubstr("electronic_heat_coefficient: --electrons"),
+                          HasSubstr("melting_temperature: points of [[coexistence]], or a row in --defaults"),
+                          HasSubstr("join_volume_ratio: a row in --defaults FILE"),
+                          HasSubstr("--model mie_gruneisen")));
+}
+
 TEST_F(FitNeeds, CoexistencePointsStandForTheMeltingTemperature) {
   add_row("boiling_temperature", "\"2835 K\"");
   const GrayFit fit = fit_gray(points(), settings, "s");
@@ -149,6 +158,10 @@ TEST_F(FitNeeds, TheTemplateIsTheOneThatIsNamed) {
   EXPECT_FALSE(default_template(elements::element_defaults("Xx", file)));
   std::ofstream(file) << "[[element]]\nsymbol = \"Cu\"\nmetal = \"my copper\"\n";
   EXPECT_EQ(default_template(elements::element_defaults("Cu", file)), copper);
+  std::ofstream(file) << "[[element]]\nsymbol = \"Cu\"\ntemplate = \"none\"\n";
+  EXPECT_FALSE(default_template(elements::element_defaults("Cu", file)));
+  std::ofstream(file) << "[[element]]\nsymbol = \"Cu\"\ntemplate = \"\"\n";
+  EXPECT_THAT(refusal([&] { (void)elements::element_defaults("Cu", file); }), HasSubstr("names no material"));
   std::ofstream(file) << "[[element]]\nsymbol = \"Cu\"\ntemplate = \"coper\"\n";
   EXPECT_THAT(refusal([&] { (void)default_template(elements::element_defaults("Cu", file)); }),
               HasSubstr("no material 'coper.toml' to take strength and failure from"));

@@ -26,7 +26,7 @@ steps = 200
 
 
 def damages(text):
-    """Texts of damaged files by name, each with what the message must hold."""
+    """Texts of damaged files by name, each with the reason that the message must hold."""
     lines = text.splitlines(keepends=True)
 
     def with_line(number, line):
@@ -36,13 +36,13 @@ def damages(text):
     # Five lines of the embedding function, from digit to digit, once more within the density.
     at, begin = (sum(map(len, lines[:line])) + 3 * 24 + 12 for line in (293, 90))
     yield "bytes twice", text[:at] + text[begin:begin + 5 * len(lines[90])] + text[at:], "Lost atoms"
-    yield "huge attraction", with_line(150, " 1e30" * 5), "p.eam"
-    yield "no number", with_line(100, " ".join(["nan", *numbers[1:]])), "p.eam:101"
-    yield "a word", with_line(100, " ".join([numbers[0] + "x", *numbers[1:]])), "p.eam:101"
-    yield "cut off", text[:len(text) // 2], "p.eam"
-    yield "without a line", "".join([*lines[:200], *lines[201:]]), "p.eam"
-    yield "no density", "".join([*lines[:203], *["0 0 0 0 0\n"] * 100]), "p.eam"
-    yield "bytes that are no text", text[:5000] + "\0\xff\x80" * 10 + text[5030:], "p.eam"
+    yield "huge attraction", with_line(150, " 1e30" * 5), "Lost atoms"
+    yield "no number", with_line(100, " ".join(["nan", *numbers[1:]])), "p.eam:101: error: the potential file has 'nan' for a number"
+    yield "a word", with_line(100, " ".join([numbers[0] + "x", *numbers[1:]])), f"p.eam:101: error: the potential file has '{numbers[0]}x'"
+    yield "cut off", text[:len(text) // 2], "too few numbers for the effective charge"
+    yield "without a line", "".join([*lines[:200], *lines[201:]]), "too few numbers for the density function"
+    yield "no density", "".join([*lines[:203], *["0 0 0 0 0\n"] * 100]), "has no energy minimum for lattice constants"
+    yield "bytes that are no text", text[:5000] + "\0\xff\x80" * 10 + text[5030:], "characters that are not printable"
 
 
 def main():

@@ -9,10 +9,21 @@ import { test } from 'node:test';
 
 const STAND_INS = {
   'package.json': '{"type": "module"}',
-  'elements.js': 'export const element = () => ({ prepend() {}, replaceChildren() {} }), labelled = null, tickBox = null;',
+  'elements.js': `export class Stub {
+    constructor(tag, attributes, children) { Object.assign(this, { tag, attributes, children, dataset: {}, textContent: '' }); }
+    get all() { return [this, ...this.children.flatMap((child) => child.all ?? [])]; }
+    get text() { return this.textContent + this.children.map((child) => child.text ?? child).join(''); }
+    prepend(...children) { this.children.unshift(...children); }
+    append(...children) { this.children.push(...children); }
+    replaceChildren(...children) { this.children = children; }
+    addEventListener() {}
+    querySelector(which) { return this.all.find((one) => which === \`[data-act="\${one.attributes['data-act']}"]\`) ?? null; }
+  }
+  export const element = (tag, attributes = {}, ...children) => new Stub(tag, attributes, children);
+  export const labelled = (text, control) => element('label', {}, text, control), tickBox = null;`,
   'panel.js': 'export const panel = () => null, timeBar = () => null;',
   'wpv.js': 'export const fromBase64 = null, unpackCloud = async (cloud) => cloud;',
-  'server.js': 'export const ask = null, tell = null, askBytes = async (path, keys) => `${globalThis.answering} ${keys.index}`;',
+  'server.js': 'export const ask = async (path) => globalThis.asked[path], tell = null, askBytes = async (path, keys) => `${globalThis.answering} ${keys.index}`;',
   'viewer.js': `export class Viewer {
     constructor(times, cloud, index) { Object.assign(this, { times, cloud, index }); }
     changed() {}
@@ -71,7 +82,7 @@ test('opened files stay while the run goes on', async () => {
   assert.equal(cloud.times.count, 1);
 });
 
-test('requests that a state makes useless have no button, and answers take the place of what was asked', async () => {
+test('requests that a state makes useless have their button disabled, and answers take the place of what was asked', async () => {
   const { allow, wordsOf } = await monitorModule('steering.js', '../numbers.js');
   const buttons = { '[data-act="pause"]': {}, '[data-act="resume"]': {} };
   const root = { querySelector: (which) => buttons[which] };
@@ -83,6 +94,39 @@ test('requests that a state makes useless have no button, and answers take the p
   assert.deepEqual(disabled('paused'), [true, false]);
   assert.equal(wordsOf({ request: 'end', value: '1 us', answer: 'refused', detail: 'it is past' }), 'end 1 us: refused: it is past');
   assert.equal(wordsOf({ request: 'pause', value: '', answer: 'accepted', detail: '' }), 'pause: accepted');
+});
+
+test('the page of a run shows its state, offers what it accepts, and tells of new answers', async () => {
+  const { RunPage } = await monitorModule('run.js', '../numbers.js', '../times.js', '../../monitor/cloud.js', '../../monitor/plot.js',
+                                          '../../monitor/steering.js');
+  globalThis.document = {};
+  const status = { state: 'running', time: 2.5e-6, end: 1e-5, step: 1234, time_step: 1e-9, wall_time: 75, time_left: 4000, goes_on: true };
+  const acts = ['pause', 'resume', 'end'].map((word) => ({ word, meaning: word }));
+  const run = { title: 'a disk', status, acts, answers: [], log: ['one', 'two'], tables: { history: [], gauges: [] }, snapshots: [], rows: 0 };
+  globalThis.asked = { '/run': run };
+  const page = new RunPage('disk', false);
+  await page.update();
+  const disabled = () => ['pause', 'resume', 'end'].map((word) => page.acts.querySelector(`[data-act="${word}"]`)?.disabled);
+  assert.deepEqual([page.state.textContent, page.progress.value, page.log.textContent], ['running', 0.25, 'one\ntwo']);
+  assert.equal(globalThis.document.title, '25 % a disk');
+  assert.match(page.facts.text, /1234.*1 min 15 s.*1 h 6 min/);
+  assert.deepEqual(disabled(), [false, true, undefined]);  // end is never off
+  assert.ok(page.acts.querySelector('[data-act="end"]'));
+  globalThis.asked['/run'] = { ...run, status: { ...status, state: 'paused' },
+                               answers: [{ request: 'pause', value: '', answer: 'accepted', detail: '', time: '2.5e-6', step: 1234 }] };
+  await page.update();
+  assert.deepEqual([page.state.textContent, page.told.textContent], ['paused', 'pause: accepted']);
+  assert.deepEqual(disabled(), [true, false, undefined]);
+  globalThis.asked['/run'] = { ...run, status: { ...status, state: 'ended', goes_on: false } };
+  await page.update();
+  assert.ok(page.acts.querySelector('[data-act="restart"]'));
+  globalThis.asked['/run'] = { ...run, status: { ...status, state: 'done', goes_on: false } };
+  await page.update();
+  assert.equal(page.acts.children.length, 0);
+  const watched = new RunPage('disk', true);
+  globalThis.asked['/run'] = run;
+  await watched.update();
+  assert.equal(watched.acts.children.length, 0);
 });
 
 test('curves that are zero all the time are left out, unless all are', async () => {
