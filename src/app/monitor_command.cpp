@@ -44,13 +44,13 @@ void monitor_runs(const MonitorOptions& options) {
     program.insert(program.end(), arguments.begin(), arguments.end());
     process::start_in_background(program, output);
   };
-  monitor::Desk desk(std::move(folder), access, process::find_data("web/monitor"),
-                     process::find_data("web/viewer"), cases, start);
+  monitor::Handler handler(std::move(folder), access, process::find_data("web/monitor"),
+                           process::find_data("web/viewer"), cases, start);
   // The key stands behind the mark #, which browsers do not send.
   fmt::print("Open http://{}/#{} in a browser of this machine; Ctrl-C ends the monitor, not the runs.\n",
              access.host, access.token);
   std::fflush(stdout);
-  server.serve(desk, std::chrono::minutes(options.minutes), [&options] {
+  server.serve(handler, std::chrono::minutes(options.minutes), [&options] {
     for (const fs::path& run : run::find_runs(options.folder)) {
       if (run::goes_on(run::read_status(run).state)) return false;
     }

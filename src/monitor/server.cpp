@@ -27,10 +27,10 @@ using Clock = std::chrono::steady_clock;
 namespace {
 
 constexpr std::size_t most_connections = 64, most_body = 64 * 1024, most_head = 16 * 1024;
-constexpr std::chrono::seconds silence(30), first_question(5), look(1);
+constexpr std::chrono::seconds silence(30), first_request(5), look(1);
 
-using Request = http::request<http::string_body>;
-using Response = http::response<http::string_body>;
+using HttpRequest = http::request<http::string_body>;
+using HttpResponse = http::response<http::string_body>;
 
 std::string text(beast::string_view view) { return {view.data(), view.size()}; }
 
@@ -45,7 +45,7 @@ std::string random_token() {
 
 struct Server::Connections {
   class Session;
-  /// Open connections, the longest without a question with the key first: those that have never had one, and the
+  /// Open connections, the longest without a request with the key first: those that have never had one, and the
   /// others. Of too many the first ones give way, so that nobody is kept out by connections that say nothing. They
   /// stand before `io`, whose end ends the sessions that wait, and each leaves its list.
   std::list<Session*> strangers, known;
@@ -53,15 +53,15 @@ struct Server::Connections {
   tcp::acceptor acceptor{io};
   asio::steady_timer timer{io};
   asio::signal_set signals{io};
-  Clock::time_point asked = Clock::now();
-  Desk* desk = nullptr;
+  Clock::time_point last_request = Clock::now();
+  Handler* handler = nullptr;
 
   void accept();
   void make_room();
   void wait(std::chrono::seconds patience, const std::function<bool()>& may_end);
 };
 
-/// One connection: reads a question, writes the answer, and so on.
+/// One connection: reads requests and writes their responses in turn.
 class Server::Connections::Session : public std::enable_shared_from_this<Session> {
  public:
   Session(Server::Connections& all, tcp::socket socket)
@@ -82,39 +82,39 @@ class Server::Connections::Session : public std::enable_shared_from_this<Session
     parser_.emplace();
     parser_->body_limit(most_body);
     parser_->header_limit(most_head);
-    stream_.expires_after(list_ == &all_.known ? silence : first_question);
+    stream_.expires_after(list_ == &all_.known ? silence : first_request);
     http::async_read(stream_, buffer_, *parser_,
                      [self = shared_from_this()](beast::error_code error, std::size_t) {
                        if (error == http::error::body_limit)
                          return self->write({413, "text/plain", "too long\n"}, false);
                        if (error == http::error::header_limit)
                          return self->write({431, "text/plain", "too long\n"}, false);
-                       if (!error) self->answer(self->parser_->release());
+                       if (!error) self->respond(self->parser_->release());
                      });
   }
 
  private:
-  void answer(const Request& request) {
-    all_.asked = Clock::now();
-    const bool changes = request.method() == http::verb::post;
-    if (!changes && request.method() != http::verb::get)
+  void respond(const HttpRequest& received) {
+    all_.last_request = Clock::now();
+    const bool changes = received.method() == http::verb::post;
+    if (!changes && received.method() != http::verb::get)
       return write({405, "text/plain", "GET or POST\n"}, false);
-    const Question question{.changes = changes,
-                            .target = text(request.target()),
-                            .host = text(request[http::field::host]),
-                            .origin = text(request[http::field::origin]),
-                            .site = text(request["Sec-Fetch-Site"]),
-                            .token = text(request["X-Whipple-Token"]),
-                            .content_type = text(request[http::field::content_type]),
-                            .body = request.body()};
-    Answer made;
+    const Request request{.changes = changes,
+                          .target = text(received.target()),
+                          .host = text(received[http::field::host]),
+                          .origin = text(received[http::field::origin]),
+                          .site = text(received["Sec-Fetch-Site"]),
+                          .token = text(received["X-Whipple-Token"]),
+                          .content_type = text(received[http::field::content_type]),
+                          .body = received.body()};
+    Response made;
     try {
-      made = all_.desk->answer(question);
+      made = all_.handler->handle(request);
     } catch (const std::exception& error) {  // a file that cannot be read, say: the server goes on
       made = {500, "text/plain; charset=utf-8", std::string(error.what()) + "\n"};
     }
-    if (all_.desk->has_key(question)) move_to(all_.known);
-    write(made, request.keep_alive());
+    if (all_.handler->has_key(request)) move_to(all_.known);
+    write(made, received.keep_alive());
   }
 
   void leave() {
@@ -127,9 +127,9 @@ class Server::Connections::Session : public std::enable_shared_from_this<Session
     list_ = &list;
   }
 
-  void write(const Answer& answer, bool keep) {
-    auto response = std::make_shared<Response>(static_cast<http::status>(answer.status), 11);
-    response->set(http::field::content_type, answer.type);
+  void write(const Response& made, bool keep) {
+    auto response = std::make_shared<HttpResponse>(static_cast<http::status>(made.status), 11);
+    response->set(http::field::content_type, made.type);
     response->set(http::field::cache_control, "no-store");
     response->set("X-Content-Type-Options", "nosniff");
     response->set("Cross-Origin-Resource-Policy", "same-origin");
@@ -138,7 +138,7 @@ class Server::Connections::Session : public std::enable_shared_from_this<Session
                   "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; "
                   "img-src 'self' data: blob:; frame-ancestors 'none'; base-uri 'none'; form-action 'none'");
     response->keep_alive(keep);
-    response->body() = answer.body;
+    response->body() = made.body;
     response->prepare_payload();
     stream_.expires_after(silence);
     http::async_write(stream_, *response,
@@ -177,7 +177,7 @@ void Server::Connections::wait(std::chrono::seconds patience, const std::functio
   timer.expires_after(look);
   timer.async_wait([this, patience, &may_end](beast::error_code error) {
     if (error) return;
-    if (patience.count() > 0 && Clock::now() - asked > patience && may_end()) return io.stop();
+    if (patience.count() > 0 && Clock::now() - last_request > patience && may_end()) return io.stop();
     wait(patience, may_end);
   });
 }
@@ -200,8 +200,8 @@ std::string Server::host() const {
   return fmt::format("127.0.0.1:{}", connections_->acceptor.local_endpoint().port());
 }
 
-void Server::serve(Desk& desk, std::chrono::seconds patience, const std::function<bool()>& may_end) {
-  connections_->desk = &desk;
+void Server::serve(Handler& handler, std::chrono::seconds patience, const std::function<bool()>& may_end) {
+  connections_->handler = &handler;
   for (const int signal : {SIGINT, SIGTERM}) connections_->signals.add(signal);
   connections_->signals.async_wait([this](beast::error_code error, int) {
     if (!error) connections_->io.stop();

@@ -7,16 +7,16 @@
 #include <memory>
 #include <string>
 
-#include "src/monitor/answers.hpp"
+#include "src/monitor/handler.hpp"
 
 namespace whipple::monitor {
 
 /// Returns 128 random bits of the operating system as text.
 std::string random_token();
 
-/// Serves questions over HTTP on this machine's own address 127.0.0.1 and no other, on one thread. At most 64
-/// connections, 64 KiB of a question's body, 16 KiB of its head. A new connection takes the place of the one that has been
-/// without a question with the key for longest; one that has had none has 5 s for its question, others 30 s.
+/// Serves HTTP on this machine's own address 127.0.0.1 and no other, on one thread. At most 64
+/// connections, 64 KiB of a request's body, 16 KiB of its head. A new connection takes the place of the one that has been
+/// without a request with the key for longest; one that has had none has 5 s for its request, others 30 s.
 class Server {
  public:
   /// @param port  0: any that is free
@@ -24,12 +24,12 @@ class Server {
   explicit Server(std::uint16_t port);
   ~Server();
 
-  /// Returns address and port, as browsers name them in the head Host.
+  /// Returns address and port, as browsers send them in the header field Host.
   [[nodiscard]] std::string host() const;
 
-  /// Serves until SIGINT or SIGTERM, or until nobody has asked for `patience` and `may_end()` is true.
+  /// Serves until SIGINT or SIGTERM, or until there was no request for `patience` and `may_end()` is true.
   /// @param patience  0: for ever
-  void serve(Desk& desk, std::chrono::seconds patience, const std::function<bool()>& may_end);
+  void serve(Handler& handler, std::chrono::seconds patience, const std::function<bool()>& may_end);
 
   struct Connections;  ///< the network's part, known where it is implemented
 

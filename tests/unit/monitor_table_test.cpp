@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tables that grow while they are read, and questions that are answered without a network.
+// Tables that grow while they are read, and requests that are answered without a network.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <fstream>
 
-#include "src/monitor/answers.hpp"
+#include "src/monitor/handler.hpp"
 #include "src/monitor/table.hpp"
 #include "tests/unit/temporary_folder.hpp"
 
@@ -92,10 +92,10 @@ TEST(GrowingTable, DrawsFewRowsAndEveryPeak) {
   EXPECT_EQ(table.rows_to_draw(1, 20000).size(), 5000U);
 }
 
-/// Whatever a question contains, it is answered, and nobody without the key is told anything of a run.
-TEST(Desk, AnswersTenThousandDamagedQuestions) {
+/// Whatever a request contains, it is answered, and nobody without the key is told anything of a run.
+TEST(Handler, AnswersTenThousandDamagedQuestions) {
   const TemporaryFolder folder;
-  Desk desk(Folder(folder.path()), {.host = "127.0.0.1:1", .token = std::string(32, 'a')}, folder.path(),
+  Handler handler(Folder(folder.path()), {.host = "127.0.0.1:1", .token = std::string(32, 'a')}, folder.path(),
             folder.path(), folder.path(),
             [](const std::vector<std::string>&) { FAIL() << "nothing may be started"; });
   const std::vector<std::string> targets = {"/",
@@ -121,8 +121,8 @@ TEST(Desk, AnswersTenThousandDamagedQuestions) {
   };
   for (int n = 0; n < 10000; ++n) {
     const bool has_key = random(2) == 0;
-    const Answer answer =
-        desk.answer({.changes = random(2) == 0,
+    const Response answer =
+        handler.answer({.changes = random(2) == 0,
                      .target = damaged(targets[random(targets.size())]),
                      .host = "127.0.0.1:1",
                      .origin = {},

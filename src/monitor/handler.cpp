@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/monitor/answers.hpp"
+#include "src/monitor/handler.hpp"
 
 #include <fmt/format.h>
 
@@ -33,10 +33,10 @@ enum Status {
   unsupported = 415
 };
 
-Answer text(int status, std::string body) {
+Response text(int status, std::string body) {
   return {status, "text/plain; charset=utf-8", std::move(body) + "\n"};
 }
-Answer data(const json& body, int status = ok) {
+Response data(const json& body, int status = ok) {
   return {status, "application/json", body.dump(-1, ' ', false, json::error_handler_t::replace)};
 }
 
@@ -103,14 +103,14 @@ class Query {
   std::map<std::string, std::vector<std::string>> values_;
 };
 
-std::string text_of(const json& wish, const char* key) { return wish.at(key).get<std::string>(); }
+std::string text_of(const json& body, const char* key) { return body.at(key).get<std::string>(); }
 
 constexpr std::array<std::pair<std::string_view, std::string_view>, 3> types = {
     {{".html", "text/html; charset=utf-8"}, {".js", "text/javascript"}, {".css", "text/css"}}};
 
 }  // namespace
 
-Desk::Desk(Folder folder, Access access, fs::path page, fs::path view, fs::path cases, Start start)
+Handler::Handler(Folder folder, Access access, fs::path page, fs::path view, fs::path cases, Start start)
     : folder_(std::move(folder)),
       access_(std::move(access)),
       page_(std::move(page)),
@@ -120,13 +120,13 @@ Desk::Desk(Folder folder, Access access, fs::path page, fs::path view, fs::path 
 
 /// Other pages of the same browser can reach this address, under another name too; their browsers say where they are
 /// from.
-bool Desk::is_from_here(const Question& question) const {
-  if (question.host != access_.host) return false;
-  if (!question.origin.empty() && question.origin != "http://" + access_.host) return false;
-  return question.site.empty() || question.site == "same-origin" || question.site == "none";
+bool Handler::is_from_here(const Request& request) const {
+  if (request.host != access_.host) return false;
+  if (!request.origin.empty() && request.origin != "http://" + access_.host) return false;
+  return request.site.empty() || request.site == "same-origin" || request.site == "none";
 }
 
-std::string Desk::file_of(const std::string& path, std::string& type) const {
+std::string Handler::file_of(const std::string& path, std::string& type) const {
   if (!path.starts_with('/')) return {};
   const std::string name = path.size() == 1 ? "/index.html" : path;
   const bool of_view = name.starts_with("/viewer/");
@@ -144,7 +144,7 @@ std::string Desk::file_of(const std::string& path, std::string& type) const {
   return read_text(file);
 }
 
-std::vector<std::string> Desk::cases() const {
+std::vector<std::string> Handler::cases() const {
   std::vector<std::string> names;
   if (cases_.empty() || folder_.is_run()) return names;
   std::error_code missing;
@@ -155,25 +155,25 @@ std::vector<std::string> Desk::cases() const {
   return names;
 }
 
-bool Desk::has_key(const Question& question) const { return equal_texts(question.token, access_.token); }
+bool Handler::has_key(const Request& request) const { return equal_texts(request.token, access_.token); }
 
-Answer Desk::answer(const Question& question) {
-  if (!is_from_here(question)) return text(forbidden, "only the page of this address may ask");
-  const std::size_t mark = question.target.find('?');
-  const std::string path = question.target.substr(0, mark);
-  const std::string query = mark == std::string::npos ? "" : question.target.substr(mark + 1);
-  if (!question.changes) {
+Response Handler::handle(const Request& request) {
+  if (!is_from_here(request)) return text(forbidden, "only the page of this address may ask");
+  const std::size_t mark = request.target.find('?');
+  const std::string path = request.target.substr(0, mark);
+  const std::string query = mark == std::string::npos ? "" : request.target.substr(mark + 1);
+  if (!request.changes) {
     std::string type;
     if (std::string file = file_of(path, type); !type.empty()) return {ok, type, std::move(file)};
   }
-  if (!has_key(question)) {
+  if (!has_key(request)) {
     return text(unauthorized, "open the address that whipple monitor printed: it holds the key");
   }
   try {
-    if (!question.changes) return read(path, query);
+    if (!request.changes) return read(path, query);
     if (access_.read_only) return text(forbidden, "this monitor only shows (--read-only)");
-    if (question.content_type != "application/json") return text(unsupported, "expected application/json");
-    return change(path, json::parse(question.body));
+    if (request.content_type != "application/json") return text(unsupported, "expected application/json");
+    return change(path, json::parse(request.body));
   } catch (const json::exception& error) {
     return text(bad_request, error.what());
   } catch (const InputError& error) {
@@ -181,10 +181,10 @@ Answer Desk::answer(const Question& question) {
   }
 }
 
-Answer Desk::read(const std::string& path, const std::string& query) {
+Response Handler::read(const std::string& path, const std::string& query) {
   const Query keys(query);
-  using Answers = std::map<std::string_view, std::function<Answer()>>;
-  const Answers answers = {
+  using Routes = std::map<std::string_view, std::function<Response()>>;
+  const Routes routes = {
       {"/runs",
        [&] {
          return data({{"folder", fs::absolute(folder_.path()).string()},
@@ -202,28 +202,28 @@ Answer Desk::read(const std::string& path, const std::string& query) {
              folder_.curves(keys.one("run"), *table, keys.one("x"), keys.all("y"), keys.number("points")));
        }},
       {"/cloud", [&] {
-         return Answer{ok, "application/octet-stream",
-                       folder_.cloud(keys.one("run"), keys.number("index"), keys.number("particles"))};
+         return Response{ok, "application/octet-stream",
+                         folder_.cloud(keys.one("run"), keys.number("index"), keys.number("particles"))};
        }}};
-  const auto found = answers.find(path);
-  return found == answers.end() ? text(not_found, "there is nothing at " + path) : found->second();
+  const auto found = routes.find(path);
+  return found == routes.end() ? text(not_found, "there is nothing at " + path) : found->second();
 }
 
-/// The answer comes into the table of answers, when the step under way has ended.
-Answer Desk::steer(const json& wish) {
-  (void)run::steer(folder_.run(text_of(wish, "run")), text_of(wish, "request"), text_of(wish, "value"));
+/// The outcome is written to steering.csv when the step under way has ended.
+Response Handler::steer(const json& body) {
+  (void)run::steer(folder_.run(text_of(body, "run")), text_of(body, "request"), text_of(body, "value"));
   return data(json::object(), accepted);
 }
 
-Answer Desk::resume(const json& wish) {
-  const fs::path run = folder_.run(text_of(wish, "run"));
+Response Handler::resume(const json& body) {
+  const fs::path run = folder_.run(text_of(body, "run"));
   if (io::is_running(run)) throw InputError("the run goes on already");
   start_({"--restart", run.string()});
   return data(json::object(), accepted);
 }
 
-Answer Desk::begin(const json& wish) {
-  const std::string name = text_of(wish, "case"), run = text_of(wish, "run");
+Response Handler::begin(const json& body) {
+  const std::string name = text_of(body, "case"), run = text_of(body, "run");
   const std::vector<std::string> known = cases();
   if (std::ranges::find(known, name) == known.end())
     throw InputError(fmt::format("there is no case \"{}\"", name));
@@ -240,8 +240,8 @@ Answer Desk::begin(const json& wish) {
   const fs::path folder = folder_.path() / run;
   if (fs::exists(folder)) throw InputError(fmt::format("{} exists already", folder.string()));
   std::vector<std::string> arguments = {(cases_ / name / "case.toml").string(), "-o", folder.string()};
-  if (!wish.at("set").is_array()) throw InputError("\"set\" is a list of texts key=value");
-  for (const json& entry : wish.at("set")) {
+  if (!body.at("set").is_array()) throw InputError("\"set\" is a list of texts key=value");
+  for (const json& entry : body.at("set")) {
     const auto set = entry.get<std::string>();
     const bool is_key = !set.empty() && std::islower(static_cast<unsigned char>(set.front())) != 0;
     if (!is_key || set.find('=') == std::string::npos) {
@@ -253,12 +253,12 @@ Answer Desk::begin(const json& wish) {
   return data(json::object(), accepted);
 }
 
-Answer Desk::change(const std::string& path, const json& wish) {
-  using Act = Answer (Desk::*)(const json&);
+Response Handler::change(const std::string& path, const json& body) {
+  using Act = Response (Handler::*)(const json&);
   static const std::map<std::string_view, Act> acts = {
-      {"/steer", &Desk::steer}, {"/resume", &Desk::resume}, {"/start", &Desk::begin}};
+      {"/steer", &Handler::steer}, {"/resume", &Handler::resume}, {"/start", &Handler::begin}};
   const auto found = acts.find(path);
-  return found == acts.end() ? text(not_found, "there is nothing at " + path) : (this->*found->second)(wish);
+  return found == acts.end() ? text(not_found, "there is nothing at " + path) : (this->*found->second)(body);
 }
 
 }  // namespace whipple::monitor
