@@ -125,7 +125,7 @@ WORDS_ALLOWED = {
     "src/fem/vtk_xml.cpp": "grammar of VTK",
     "src/io/snapshot_table.cpp": "the unit 1",
     "src/material/material_file.cpp": "endings of file names",
-    "src/monitor/answers.cpp": "heads of HTTP and what browsers write into them",
+    "src/monitor/handler.cpp": "header fields of HTTP",
     "src/monitor/folder.cpp": "endings of file names",
     "src/run/directory_control.cpp": "endings of file names",
     "src/run/run.cpp": "the file name case.toml",

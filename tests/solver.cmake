@@ -12,7 +12,7 @@ whipple_test(test_solver STARTS_MPI
           validation/solver_table_test.cpp regression/solver_regression_test.cpp fuzz/case_fuzz.cpp
   DEPENDS whipple_run GTest::gmock LABELS fast)
 whipple_test(test_run STARTS_MPI
-  SOURCES parallel/run_restart_test.cpp unit/run_signal_control_test.cpp property/run_forecast_test.cpp property/run_gauges_test.cpp property/solver_plausibility_test.cpp verification/run_steering_test.cpp
+  SOURCES parallel/run_restart_test.cpp unit/run_signal_control_test.cpp unit/run_history_columns_test.cpp property/run_forecast_test.cpp property/run_gauges_test.cpp property/solver_plausibility_test.cpp verification/run_steering_test.cpp
   DEPENDS whipple_run nlohmann_json::nlohmann_json GTest::gmock LABELS fast)
 whipple_test(test_contact STARTS_MPI SOURCES property/contact_pressing_test.cpp verification/solver_gap_test.cpp verification/solver_first_touch_test.cpp verification/solver_conduction_test.cpp
              DEPENDS whipple_run LABELS fast)

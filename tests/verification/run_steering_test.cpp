@@ -32,7 +32,6 @@
 #include "src/run/replay_control.hpp"
 #include "src/run/runner.hpp"
 #include "src/run/status.hpp"
-#include "src/solver/accounts.hpp"
 #include "tests/unit/folder_test.hpp"
 #include "tests/unit/temporary_folder.hpp"
 
@@ -470,66 +469,11 @@ TEST_F(Steering, ObserversSeeTheFailureOfARun) {
               testing::StartsWith("out of range\n  stopped at step 2,"));
 }
 
-TEST(HistoryColumns, StandInTheManual) {
-  const std::string table = history_columns_as_markdown();
-  EXPECT_THAT(text_of(WHIPPLE_SOURCE_DIR "/docs/manual/output.md"), HasSubstr(table))
-      << "docs/manual/output.md must hold:\n"
-      << table;
-}
-
-TEST(Accounts, StandInTheManual) {
-  const std::string tables = accounts_as_markdown();
-  EXPECT_THAT(text_of(WHIPPLE_SOURCE_DIR "/docs/manual/output.md"), HasSubstr(tables))
-      << "docs/manual/output.md must hold:\n"
-      << tables;
-}
-
-// One list for checkpoints, history.csv and columns.json: every limiter is a column that says what it limits.
-TEST(Accounts, AreDescribedForPrograms) {
-  const std::vector<HistoryColumn> columns = history_columns(ball_on_plate());
-  const nlohmann::json list = nlohmann::json::parse(columns_as_json(columns));
-  ASSERT_EQ(list.size(), columns.size());
-  std::size_t limiters = 0;
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    EXPECT_EQ(list[i].at("name"), columns[i].name);
-    EXPECT_EQ(list[i].at("unit"), columns[i].unit);
-    limiters += list[i].count("limiter");
-  }
-  EXPECT_EQ(limiters, static_cast<std::size_t>(std::ranges::count(solver::accounts, solver::Shown::limiter,
-                                                                  &solver::Account::shown)));
-  const auto transfers = std::ranges::find(list, "transfer_heat", [](const auto& c) { return c.at("name"); });
-  ASSERT_NE(transfers, list.end());
-  EXPECT_EQ(transfers->at("taken_to"), "internal energy");
-}
-
-TEST(Accounts, AddUpInTheLedger) {
-  solver::Ledger step, sum;
-  double number = 1.0;
-  for (const solver::Account& account : solver::accounts) step.*account.sum = number++;
-  sum.add(step);
-  sum.add(step);
-  number = 1.0;
-  for (const solver::Account& account : solver::accounts)
-    EXPECT_EQ(sum.*account.sum, 2.0 * number++) << account.name;
-}
-
 TEST(Requests, StandInTheManual) {
   const std::string manual = text_of(WHIPPLE_SOURCE_DIR "/docs/manual/output.md");
   for (const ActEntry& entry : acts())
     EXPECT_THAT(manual,
                 HasSubstr("| `" + std::string(entry.word) + "` | " + std::string(entry.meaning) + " |"));
-}
-
-TEST(HistoryColumns, HaveNamesOfTheirOwn) {
-  std::vector<std::string> names;
-  for (const HistoryColumn& column : history_columns(ball_on_plate())) {
-    names.push_back(column.name);
-    EXPECT_FALSE(column.meaning.empty()) << column.name;
-  }
-  EXPECT_EQ(names.front(), "step");
-  EXPECT_EQ(names.back(), "outflow_energy.plate");
-  std::ranges::sort(names);
-  EXPECT_EQ(std::ranges::adjacent_find(names), names.end());
 }
 
 }  // namespace

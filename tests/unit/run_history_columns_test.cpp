@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One list of accounts: in the ledger, in history.csv, in columns.json and in the manual.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "src/core/base/files.hpp"
+#include "src/run/observers/history_columns.hpp"
+#include "src/solver/accounts.hpp"
+
+namespace whipple::run {
+namespace {
+
+using ::testing::HasSubstr;
+
+cases::Case ball_on_plate() {
+  return cases::read_case_text(R"(
+[domain]
+lower = ["-3 mm", "-3 mm", "-4 mm"]
+upper = ["3 mm", "3 mm", "2 mm"]
+cell_size = "1 mm"
+[time]
+end = "0.4 us"
+[[body]]
+name = "ball"
+material = "copper.toml"
+velocity = ["0 m/s", "0 m/s", "2 km/s"]
+shape = { sphere = { center = ["0 mm", "0 mm", "-1.6 mm"], radius = "1.5 mm" } }
+[[body]]
+name = "plate"
+material = "aluminium.toml"
+shape = { box = { lower = ["-2 mm", "-2 mm", "0 mm"], upper = ["2 mm", "2 mm", "1 mm"] } }
+)",
+                               "case.toml");
+}
+
+TEST(HistoryColumns, StandInTheManual) {
+  const std::string table = history_columns_as_markdown();
+  EXPECT_THAT(read_text(WHIPPLE_SOURCE_DIR "/docs/manual/output.md"), HasSubstr(table))
+      << "docs/manual/output.md must hold:\n"
+      << table;
+}
+
+TEST(Accounts, StandInTheManual) {
+  const std::string tables = accounts_as_markdown();
+  EXPECT_THAT(read_text(WHIPPLE_SOURCE_DIR "/docs/manual/output.md"), HasSubstr(tables))
+      << "docs/manual/output.md must hold:\n"
+      << tables;
+}
+
+// One list for checkpoints, history.csv and columns.json: every limiter is a column that says what it limits.
+TEST(Accounts, AreDescribedForPrograms) {
+  const std::vector<HistoryColumn> columns = history_columns(ball_on_plate());
+  const nlohmann::json list = nlohmann::json::parse(columns_as_json(columns));
+  ASSERT_EQ(list.size(), columns.size());
+  std::size_t limiters = 0;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    EXPECT_EQ(list[i].at("name"), columns[i].name);
+    EXPECT_EQ(list[i].at("unit"), columns[i].unit);
+    limiters += list[i].count("limiter");
+  }
+  EXPECT_EQ(limiters, static_cast<std::size_t>(std::ranges::count(solver::accounts, solver::Shown::limiter,
+                                                                  &solver::Account::shown)));
+  const auto transfers = std::ranges::find(list, "transfer_heat", [](const auto& c) { return c.at("name"); });
+  ASSERT_NE(transfers, list.end());
+  EXPECT_EQ(transfers->at("taken_to"), "internal energy");
+}
+
+TEST(Accounts, AddUpInTheLedger) {
+  solver::Ledger step, sum;
+  double number = 1.0;
+  for (const solver::Account& account : solver::accounts) step.*account.sum = number++;
+  sum.add(step);
+  sum.add(step);
+  number = 1.0;
+  for (const solver::Account& account : solver::accounts)
+    EXPECT_EQ(sum.*account.sum, 2.0 * number++) << account.name;
+}
+
+TEST(HistoryColumns, HaveNamesOfTheirOwn) {
+  std::vector<std::string> names;
+  for (const HistoryColumn& column : history_columns(ball_on_plate())) {
+    names.push_back(column.name);
+    EXPECT_FALSE(column.meaning.empty()) << column.name;
+  }
+  EXPECT_EQ(names.front(), "step");
+  EXPECT_EQ(names.back(), "outflow_energy.plate");
+  std::ranges::sort(names);
+  EXPECT_EQ(std::ranges::adjacent_find(names), names.end());
+}
+
+}  // namespace
+}  // namespace whipple::run
