@@ -9,7 +9,7 @@ from studies.validation import comparison, execution, provenance, queue
 
 def run_of(name, *, headline=True, sensitivity=False, decided_by=""):
     return types.SimpleNamespace(name=name, headline=headline, sensitivity=sensitivity, decided_by=decided_by,
-                                 cell_size={"normal": "1 mm"})
+                                 cell_size={"normal": "1 mm"}, expectations=[])
 
 
 def entry_of(run, source, seconds=10.0):
