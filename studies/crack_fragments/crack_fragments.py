@@ -89,8 +89,8 @@ def run_row(row, whipple):
 
 
 def crack_energy(row):
-    """Energy of the cracks of a row that tears over Gamma times thickness of the wall and number of fragments, all of which end at one
-    crack; NaN of other laws. damage: D of its particles."""
+    """Energy of the cracks of a row that tears over Gamma times the initial thickness of the wall and the number of fragments, each of
+    which ends at one more crack; NaN of other laws. damage: D of its particles."""
     folder = RUNS / row.name
     found = particles_of(folder, row.body)
     if not row.tearing or found is None or "damage" not in found:
@@ -165,7 +165,8 @@ def lines(rows):
     found = [(row, f) for row in rows if (f := measure(row)) is not None]
     text = []
     for body, table in (("ring", ring_lines), ("shell", shell_lines)):
-        text += table([(row, f) for row, f in found if row.body == body]) + [""]
+        own = [(row, f) for row, f in found if row.body == body]
+        text += table(own) + [""] if own else []
     return text + [f"{row.name}: energy of a crack {f.energy:.2f} Gamma per area" for row, f in found if np.isfinite(f.energy)]
 
 
