@@ -119,9 +119,16 @@ def digest_of_file(path):
 
 @functools.cache
 def digest_of_toml(path):
-    """Of what the file says: comments and layout do not count."""
+    """Of what the file says: comments, layout, and the texts `source` and `note` do not count."""
     table = tomllib.loads(pathlib.Path(path).read_text(encoding="utf-8"))
-    return digest_of(json.dumps(table, sort_keys=True, default=str))
+    return digest_of(json.dumps(without_notes(table), sort_keys=True, default=str))
+
+
+def without_notes(value):
+    """A table or list of a file without what says where its numbers are from."""
+    if isinstance(value, dict):
+        return {key: without_notes(entry) for key, entry in value.items() if key not in ("source", "note")}
+    return [without_notes(entry) for entry in value] if isinstance(value, list) else value
 
 
 def material_files(run):

@@ -53,9 +53,9 @@ def digests_follow_the_files(work):
     run = Case(folder / "expected.toml").runs[0]
     before = provenance.inputs_of(run)
     require(set(before["materials"]) == {"own.toml", "copper.toml"} and all(before["materials"].values()), str(before))
-    (folder / "own.toml").write_text("density = 1  # said again")
+    (folder / "own.toml").write_text("source = 'a book'\ndensity = 1  # said again")
     provenance.digest_of_toml.cache_clear()
-    require(provenance.inputs_of(run) == before, "comments do not count")
+    require(provenance.inputs_of(run) == before, "comments and sources do not count")
     (folder / "own.toml").write_text("density = 2")
     provenance.digest_of_toml.cache_clear()
     after = provenance.inputs_of(run)
