@@ -19,6 +19,7 @@ from report.errors import NotARun
 from report.history import History
 from report.page import Page
 from report.run import Run
+from report.sections import Report
 from report.wall_speed import wall_speed
 
 
@@ -59,6 +60,37 @@ class Histories(unittest.TestCase):
         history = self.history("time [s]," + ",".join(phases) + "\n0,1,0,0,0,2,0,0,0\n1,1,0,0,0,1,1,0,0\n")
         figure = curves.phase_figure(types.SimpleNamespace(history=history, multiplicity=4))
         self.assertEqual([ax.get_title(loc="left") for ax in figure.axes], ["ball: 4000 g", "wall 2: 8000 g"])
+
+
+class Columns(unittest.TestCase):
+    COLUMNS = ('[{"name": "limited_domains", "unit": "1", "meaning": "times: domain limited", "limiter": "domain limited"},'
+               ' {"name": "transfer_heat", "unit": "J", "meaning": "lost", "taken_by": "transfers", "taken_to": "internal energy"}]')
+
+    def run_with(self, folder, columns):
+        folder = pathlib.Path(folder)
+        (folder / "run.toml").write_text('title = "a run"\n')
+        (folder / "history.csv").write_text("time [s],limited_domains [1],transfer_heat [J]\n0,0,0\n1,3,2.5\n")
+        if columns is not None:
+            (folder / "columns.json").write_text(columns)
+        return Run(folder, None)
+
+    def test_name_limiters_and_losses_on_the_page(self):
+        with tempfile.TemporaryDirectory() as folder:
+            report = Report(self.run_with(folder, self.COLUMNS), 50)
+            report._summary()
+            report._dissipation()
+            page = report.page.text()
+        for text in ("domain limited", "transfers", "internal energy", "2.5"):
+            self.assertIn(text, page)
+
+    def test_of_a_run_without_descriptions_name_nothing(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.assertEqual(self.run_with(folder, None).columns, [])
+
+    def test_that_describe_nothing_are_refused(self):
+        for damaged in ("[", '{"name": 1}', '[{"unit": "J"}]', '[{"name": 3}]'):
+            with tempfile.TemporaryDirectory() as folder, self.assertRaisesRegex(NotARun, "columns.json"):
+                self.run_with(folder, damaged)
 
 
 class Snapshots(unittest.TestCase):
