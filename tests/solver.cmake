@@ -1,6 +1,6 @@
 # Tests of grid, transfer, setup, solver and run.
 whipple_test(test_transfer STARTS_MPI
-  SOURCES unit/solver_grid_test.cpp unit/transfer_first_touches_test.cpp property/transfer_shape_function_test.cpp property/solver_transfer_test.cpp property/transfer_kernels_test.cpp
+  SOURCES unit/solver_grid_test.cpp unit/transfer_first_touches_test.cpp unit/transfer_sweep_test.cpp property/transfer_shape_function_test.cpp property/solver_transfer_test.cpp property/transfer_kernels_test.cpp
           property/transfer_reference_test.cpp property/transfer_dissipation_test.cpp
           verification/transfer_conduction_test.cpp
   DEPENDS whipple_transfer LABELS fast)

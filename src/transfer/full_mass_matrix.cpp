@@ -41,8 +41,12 @@ Vector3 FullMassMatrix::apply(ShapeFunction shape, const Particles& particles, g
     gather_velocity(shape, particles, grid, at_particles_);
     if (planes && l == 2) impulse -= momentum(particles, at_particles_);
     parallel::for_each(nodes.size(), [&](std::size_t i) { term_[i] = nodes[i].registers.first; });
-    momentum_to_grid(shape, particles, at_particles_, grid);
-    update.velocity_from_momentum(grid);  // sum over particles and nodes of N_i m N_j v*_j / m_i
+    clear_momentum(grid);
+    for (const Region region : {Region::border, Region::interior}) {
+      momentum_to_grid(shape, particles, at_particles_, grid, region);
+    }
+    update.solve_velocity(grid);
+    update.receive(grid);  // sum over particles and nodes of N_i m N_j v*_j / m_i
     parallel::for_each(nodes.size(), [&](std::size_t i) {
       nodes[i].registers.first = term_[i] - nodes[i].registers.first;
       nodes[i].registers.second += Lanes{1.0, 1.0, 1.0, 0.0} * nodes[i].registers.first;

@@ -79,15 +79,6 @@ std::array<double, grid::nodes_per_block> relaxation_of(const Node* nodes, const
   return beta;
 }
 
-struct Energies {
-  double before = 0.0, after = 0.0;
-  Energies& operator+=(const Energies& other) {
-    before += other.before;
-    after += other.after;
-    return *this;
-  }
-};
-
 }  // namespace
 
 void GridUpdate::remember_nodes_at_planes(const BlockGrid& grid) {
@@ -199,21 +190,13 @@ void GridUpdate::complete_sums(BlockGrid& grid, BlockGrid::Part part) {
   grid.finish_sum_to_owners(part);
 }
 
-GridBalance GridUpdate::advance(BlockGrid& grid, double dt, const Relaxation& relaxation,
-                                const std::function<void()>& at_contact) {
-  GridBalance balance = begin_advance(grid, dt, relaxation, at_contact);
-  balance.wall_impulse += finish(grid);
-  return balance;
-}
-
-GridBalance GridUpdate::begin_advance(BlockGrid& grid, double dt, const Relaxation& relaxation,
-                                      const std::function<void()>& at_contact) {
+NodeEnergies GridUpdate::solve_momentum(BlockGrid& grid, double dt, const Relaxation& relaxation) {
   const std::span<Node> nodes = grid.all_nodes();
   dt_ = dt;
   complete_sums(grid, BlockGrid::Part::both);
   mirror_contact_.lay_out(grid);
   const double rate = relaxation.kappa * dt / grid.geometry().cell_size;
-  std::vector<Energies> of_block(grid.owned_blocks());
+  std::vector<NodeEnergies> of_block(grid.owned_blocks());
   parallel::for_each(grid.owned_blocks(), [&](std::size_t b) {
     const std::size_t block = grid.owned_block(b);
     const std::size_t first = block * grid::nodes_per_block;
@@ -234,21 +217,23 @@ GridBalance GridUpdate::begin_advance(BlockGrid& grid, double dt, const Relaxati
                   d = {increment[1], increment[2], increment[3], mass_kept * mass};
       node.motion = {v, d};
       const Lanes advanced = v + d;
-      of_block[b] += Energies{0.5 * mass * sum3(v * v), 0.5 * mass * sum3(advanced * advanced)};
+      of_block[b] += NodeEnergies{0.5 * mass * sum3(v * v), 0.5 * mass * sum3(advanced * advanced)};
     }
   });
   mirror_contact_.remember(grid);
-  if (at_contact) at_contact();
+  // Sums run in the order of the blocks, where empty blocks add zero: the same bits whatever blocks happen to
+  // be active.
+  NodeEnergies energy;
+  for (const NodeEnergies& part : of_block) energy += part;
+  return energy;
+}
+
+Vector3 GridUpdate::share_step(BlockGrid& grid) {
   mirror_contact_.tell_others(grid);
   grid.begin_borrow_from_owners(BlockGrid::Part::both);
   awaiting_ = Awaiting::step;
   meet_images(grid, Nodes::others);
-
-  // Sums run in the order of the blocks, where empty blocks add zero: the same bits whatever blocks happen to
-  // be active.
-  Energies energy;
-  for (const Energies& part : of_block) energy += part;
-  return {energy.before, energy.after, wall_impulse(grid, Nodes::others)};
+  return wall_impulse(grid, Nodes::others);
 }
 
 /// Momentum that the planes gave to the real particles: equation 3.6 of docs/theory/mpm.md.
@@ -270,12 +255,7 @@ Vector3 GridUpdate::wall_impulse(const BlockGrid& grid, Nodes which) const {
   return {impulse[0], impulse[1], impulse[2]};
 }
 
-void GridUpdate::velocity_from_momentum(BlockGrid& grid) {
-  begin_velocity_from_momentum(grid);
-  finish(grid);
-}
-
-void GridUpdate::begin_velocity_from_momentum(BlockGrid& grid) {
+void GridUpdate::solve_velocity(BlockGrid& grid) {
   const std::span<Node> nodes = grid.all_nodes();
   complete_sums(grid, BlockGrid::Part::first);
   mirror_contact_.lay_out(grid);
@@ -298,7 +278,7 @@ void GridUpdate::begin_velocity_from_momentum(BlockGrid& grid) {
   meet_images_again(grid, Nodes::others);
 }
 
-Vector3 GridUpdate::finish(BlockGrid& grid) {
+Vector3 GridUpdate::receive(BlockGrid& grid) {
   const Awaiting awaited = std::exchange(awaiting_, Awaiting::nothing);
   if (awaited == Awaiting::nothing) return Vector3::Zero();
   const bool of_step = awaited == Awaiting::step;

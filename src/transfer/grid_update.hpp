@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <utility>
 #include <vector>
 
@@ -20,50 +19,47 @@ struct Relaxation {
   double fixed = -1.0;
 };
 
-/// Balance of a grid update: the contribution of this rank.
-struct GridBalance {
-  double kinetic_energy_before = 0.0;  ///< J, of the nodes
-  double kinetic_energy_after = 0.0;   ///< J, before contact
-  Vector3 wall_impulse =
-      Vector3::Zero();  ///< N s, from mirror planes and walls on the particles in this step
+/// Kinetic energy of the nodes of this rank, J.
+struct NodeEnergies {
+  double before = 0.0;  ///< of the momentum equation
+  double after = 0.0;   ///< of it, before contact
+  NodeEnergies& operator+=(const NodeEnergies& other) {
+    before += other.before;
+    after += other.after;
+    return *this;
+  }
 };
 
 /// Mirror planes, walls and the momentum equation on the nodes.
 class GridUpdate {
  public:
-  /// Folds the nodes beyond the mirror planes onto their images where material is one with its image, adds up
-  /// the parts of all ranks, solves m dv/dt = f (equation 3.4), copies the result back to the nodes beyond,
-  /// and applies the contact with the images elsewhere. Collective. Nodes hold NodeSums before it, NodeMotion
-  /// after it.
-  /// @param at_contact  called when the nodes of this rank have their step, before others learn of it: may
-  ///                    change the velocity increments of contact slots (grid::BlockGrid), where it must
-  ///                    replace NodeMotion::mass_for_contact by the heat that nodes give
-  GridBalance advance(grid::BlockGrid& grid, double dt, const Relaxation& relaxation,
-                      const std::function<void()>& at_contact = {});
+  /// Sends the owners what the border has brought, before the interior has. May be left out. Collective.
+  void send(grid::BlockGrid& grid, grid::BlockGrid::Part part);
 
-  /// Velocity of mass and momentum in `first`, in place (second pass of MUSL, full mass matrix). Material and
-  /// image are in contact as the `advance` of the same step found them to be; before it by their approach.
+  /// Folds the nodes beyond the mirror planes onto their images where material is one with its image, adds up the parts
+  /// of all ranks, and solves m dv/dt = f (equation 3.4) at the nodes of this rank: NodeSums before, NodeMotion after.
+  /// Then contact between bodies may change the increments of contact slots (grid::BlockGrid), where it must replace
+  /// NodeMotion::mass_for_contact by the heat that the nodes give. Collective.
+  NodeEnergies solve_momentum(grid::BlockGrid& grid, double dt, const Relaxation& relaxation);
+  /// Sends the step of the nodes to the ranks that use them, copies it to the nodes beyond the planes and applies the
+  /// contact with the images elsewhere. Ghost nodes (grid::BlockGrid::is_awaited) follow with `receive`. Collective.
+  /// @returns N s, impulse of mirror planes and walls on the particles, by the nodes that are not awaited
+  Vector3 share_step(grid::BlockGrid& grid);
+
+  /// Divides momentum by mass in `first`, in place (second pass of MUSL, full mass matrix), and sends the velocities as
+  /// `share_step` does. Material and image are in contact as the step found them to be; before it by their approach.
   /// Collective.
-  void velocity_from_momentum(grid::BlockGrid& grid);
+  void solve_velocity(grid::BlockGrid& grid);
+
+  /// Receives what other ranks sent of their nodes, if anything is under way: at the latest when the particles of the
+  /// border need it. Collective.
+  /// @returns N s, impulse of mirror planes and walls by these nodes; zero after `solve_velocity`
+  Vector3 receive(grid::BlockGrid& grid);
 
   /// Contact of material with its image: surfaces must be found in every step before the nodes are advanced.
   [[nodiscard]] MirrorContact& mirror_contact() { return mirror_contact_; }
   /// Heat that it made since the last call (J), of this rank.
   double take_contact_heat() { return std::exchange(contact_heat_, 0.0); }
-
-  /// @name The same in parts, so that work on the interior hides the exchange
-  /// @{
-  /// Sends the owners what the border has brought, before the interior has. May be left out.
-  void send(grid::BlockGrid& grid, grid::BlockGrid::Part part);
-  /// As `advance` and `velocity_from_momentum`, but ghost nodes (grid::BlockGrid::is_awaited) may still
-  /// be under way.
-  GridBalance begin_advance(grid::BlockGrid& grid, double dt, const Relaxation& relaxation,
-                            const std::function<void()>& at_contact = {});
-  void begin_velocity_from_momentum(grid::BlockGrid& grid);
-  /// Waits for it, before the gather of the border.
-  /// @returns N s, what the planes did there; nothing after `begin_velocity_from_momentum`
-  Vector3 finish(grid::BlockGrid& grid);
-  /// @}
 
  private:
   /// Nodes that `is_awaited` concerns, the others, or both.
