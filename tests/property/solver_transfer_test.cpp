@@ -8,10 +8,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "src/contact/grid_update.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/particles/particles.hpp"
 #include "src/transfer/grid_to_particles.hpp"
-#include "src/transfer/grid_update.hpp"
 #include "src/transfer/kernels.hpp"
 #include "src/transfer/particles_to_grid.hpp"
 #include "src/transfer/transition_nodes.hpp"
@@ -114,7 +114,7 @@ double check_energy_identities(const Relaxation& relaxation, AffineField affine,
   for (std::size_t face = 0; face < 6; ++face) meets_images = meets_images || grid.is_apart_at(face);
   bin<Shape>(grid, q);
   particles_to_grid(smoothed<Shape>(smoothing), q, grid);
-  GridUpdate update;
+  contact::GridUpdate update;
   constexpr double dt = 0.05;
   update.mirror_contact().find_surfaces(Shape::kind, q, {}, grid, dt);
   const double before = total_energy(q, Shape::kind);
@@ -209,7 +209,7 @@ TYPED_TEST(AffineTransfer, NodesMoveLikeParticlesUnderTheSameForce) {
     particles_to_grid(smoothed<TypeParam>(), particles, grid,
                       std::span(acceleration).first(particles.size()));
     if (guests) nodes_to_grid(TypeParam::kind, *guests, grid);
-    GridUpdate update;
+    contact::GridUpdate update;
     advance(update, grid, dt, {.kappa = 0.7});
     std::vector<Matrix3> gradient(particles.size());
     grid_to_particles({smoothed<TypeParam>(),

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <utility>
 
+#include "src/contact/grid_update.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/transfer/grid_to_particles.hpp"
-#include "src/transfer/grid_update.hpp"
 #include "src/transfer/kernels.hpp"
 #include "src/transfer/particles_to_grid.hpp"
 #include "src/transfer/transition_nodes.hpp"

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <map>
 
+#include "src/contact/grid_update.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/transfer/grid_to_particles.hpp"
-#include "src/transfer/grid_update.hpp"
 #include "src/transfer/particles_to_grid.hpp"
 #include "tests/property/transfer_support.hpp"
 

@@ -10,10 +10,10 @@
 #include <span>
 #include <vector>
 
+#include "src/contact/grid_update.hpp"
 #include "src/grid/block_grid.hpp"
 #include "src/particles/particles.hpp"
 #include "src/transfer/grid_to_particles.hpp"
-#include "src/transfer/grid_update.hpp"
 #include "src/transfer/particles_to_grid.hpp"
 #include "src/transfer/shape_function.hpp"
 #include "src/transfer/sweep.hpp"
@@ -65,7 +65,7 @@ struct GridBalance : NodeEnergies {
   Vector3 wall_impulse;
 };
 /// Advances the nodes of all ranks, without contact of bodies.
-inline GridBalance advance(GridUpdate& update, grid::BlockGrid& grid, double dt,
+inline GridBalance advance(contact::GridUpdate& update, grid::BlockGrid& grid, double dt,
                            const Relaxation& relaxation) {
   GridBalance balance{update.solve_momentum(grid, dt, relaxation), Vector3::Zero()};
   balance.wall_impulse = update.share_step(grid);
@@ -73,7 +73,7 @@ inline GridBalance advance(GridUpdate& update, grid::BlockGrid& grid, double dt,
   return balance;
 }
 inline GridBalance advance(grid::BlockGrid& grid, double dt, const Relaxation& relaxation) {
-  GridUpdate update;
+  contact::GridUpdate update;
   return advance(update, grid, dt, relaxation);
 }
 

@@ -3,14 +3,14 @@
 
 #include <vector>
 
+#include "src/contact/grid_update.hpp"
 #include "src/solver/loads.hpp"
 #include "src/solver/stages/activity.hpp"
 #include "src/solver/stages/drive.hpp"
+#include "src/solver/stages/full_mass_matrix.hpp"
 #include "src/solver/state.hpp"
 #include "src/transfer/conduction.hpp"
-#include "src/transfer/full_mass_matrix.hpp"
 #include "src/transfer/grid_to_particles.hpp"
-#include "src/transfer/grid_update.hpp"
 #include "src/transfer/shock_conduction.hpp"
 #include "src/transfer/sweep.hpp"
 
@@ -23,7 +23,7 @@ class Transfers {
  public:
   Transfers(State& state, const Loads& loads, const Activity& activity);
 
-  [[nodiscard]] transfer::GridUpdate& grid_update() { return grid_update_; }
+  [[nodiscard]] contact::GridUpdate& grid_update() { return grid_update_; }
 
   /// Evaluates the accelerations of particles by loads in this step, and accumulates their impulse.
   void evaluate_loads();
@@ -78,8 +78,8 @@ class Transfers {
   const Loads& loads_;
   const Activity& activity_;
   Drive drive_;
-  transfer::GridUpdate grid_update_;
-  transfer::FullMassMatrix full_mass_matrix_;
+  contact::GridUpdate grid_update_;
+  FullMassMatrix full_mass_matrix_;
   transfer::Losses losses_;
   std::vector<transfer::ShockConductivity> shock_conductivity_;  // of each body
   std::vector<Vector3> acceleration_;  // of particles by loads in this step; empty without
