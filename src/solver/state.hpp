@@ -111,6 +111,10 @@ struct State {
   [[nodiscard]] double affine_inertia() const;
   /// Returns the inertia per mass (m^2) of the affine fields that particles of this case carry; 0 without such fields.
   [[nodiscard]] double particle_affine_inertia() const;
+  /// Returns whether particles of this case carry affine fields.
+  [[nodiscard]] bool carries_affine_fields() const {
+    return cases::is_affine(setup.transfer.particle_update);
+  }
   /// Returns whether kinetic energy lost in transfers is kept as unresolved energy.
   [[nodiscard]] bool keeps_losses() const { return setup.dissipation.keeps_losses(); }
   [[nodiscard]] bool is_parallel() const { return parallel::size(communicator) > 1; }

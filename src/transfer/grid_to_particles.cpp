@@ -105,7 +105,7 @@ template <bool affine, bool planar>
       -particles.artificial_viscosity[p] * (mean[0][0] + mean[1][1] + mean[2][2]) * volume_and_time;
   const double heat_of_contact = advance.increment.value[3];  // docs/theory/contact.md, 4.6
   Booking booking{.heat = loss, .of_contact = heat_of_contact};
-  if (losses.kept) {
+  if (losses.become == LossesBecome::unresolved_energy) {
     const double divergence = l[0][0] + l[1][1] + l[2][2];
     booking = book_losses(losses, particles, p, loss, heat_of_contact, viscous_work / mass, divergence, dt);
     particles.unresolved_energy[p] += booking.kept - booking.returned;

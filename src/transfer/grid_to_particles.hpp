@@ -22,9 +22,9 @@ enum class AffineField : std::uint8_t {
 /// Settings of the gather of the symplectic scheme.
 struct ExactUpdate {
   ShapeFunctions functions;
-  double dt;                              ///< s
-  AffineField affine;                     ///< B-splines only, unless `none`
-  Losses losses;                          ///< if kept, particles carry unresolved energy and closing rate
+  double dt;           ///< s
+  AffineField affine;  ///< B-splines only, unless `none`
+  Losses losses;
   std::span<const Vector3> acceleration;  ///< by external forces, as given to `particles_to_grid`
 };
 

@@ -32,6 +32,15 @@ UpdateSettings update_settings(const State& state, std::size_t body) {
 
 namespace {
 
+/// Returns the part of the artificial viscosity of particles that heats in this case.
+HeatingViscosity heating_viscosity(const State& state) {
+  using enum HeatingViscosity;
+  if (!state.keeps_losses()) return not_distinguished;
+  const bool by_field =
+      state.particle_affine_inertia() > 0.0 && state.setup.dissipation.affine_compression > 0.0;
+  return by_field ? of_affine_field : whole;
+}
+
 /// tr C of the particles of a list, 1/s.
 std::span<const double> affine_divergence(const Particles& particles, std::span<const std::uint32_t> list) {
   thread_local std::vector<double> divergence;
@@ -101,8 +110,9 @@ void MaterialStage::begin(Energy energy, std::size_t stretches) {
   energy_ = energy;
   of_body_.clear();
   for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
-    of_body_.push_back(
-        {.settings = update_settings(state_, b), .deforms_domains = domains::follow_deformation(state_, b)});
+    UpdateSettings settings = update_settings(state_, b);
+    settings.heating = heating_viscosity(state_);
+    of_body_.push_back({.settings = settings, .deforms_domains = domains::follow_deformation(state_, b)});
   }
   sums_ = {};
   sums_.reports.resize(state_.bodies.size());
@@ -123,7 +133,6 @@ void MaterialStage::update(const transfer::Stretch& stretch) {
 /// @returns their plastic work (J), apart from the reports, which other threads add to in any order
 double MaterialStage::update(std::span<const std::uint32_t> particles, std::span<const Matrix3> gradients) {
   const Clock::time_point begin = Clock::now();
-  const bool has_affine_field = state_.keeps_losses() && state_.particle_affine_inertia() > 0.0;
   std::size_t limited = 0, held = 0;
   double plastic_work = 0.0;
   for (std::size_t first = 0, end = 0; first < particles.size(); first = end) {
@@ -135,7 +144,9 @@ double MaterialStage::update(std::span<const std::uint32_t> particles, std::span
     const bool deforms_domains = of_body_[body].deforms_domains;
     if (deforms_domains) limited += domains::deform(state_, list, of_list);
     UpdateSettings settings = of_body_[body].settings;
-    if (has_affine_field) settings.affine_divergence = affine_divergence(state_.particles, list);
+    if (settings.heating == HeatingViscosity::of_affine_field) {
+      settings.affine_divergence = affine_divergence(state_.particles, list);
+    }
     MaterialReport report =
         energy_ == Energy::by_work_identity
             ? whipple::update_material(material, state_.particles, list, of_list, settings)

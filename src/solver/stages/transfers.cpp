@@ -46,7 +46,8 @@ Transfers::Transfers(State& state, const Loads& loads, const Activity& activity)
          .linear_viscosity = viscosity.linear,
          .quadratic_viscosity = viscosity.quadratic});
   }
-  losses_ = {.kept = control.keeps_losses(),
+  losses_ = {.become = control.keeps_losses() ? transfer::LossesBecome::unresolved_energy
+                                              : transfer::LossesBecome::heat,
              .heat_share = control.heat_share,
              .allowance_length = control.allowance_time * state_.setup.domain.cell_size,
              .collision_rate = control.collision_rate,
@@ -165,7 +166,7 @@ void Transfers::fly() {
   for (const std::uint32_t p : activity_.flying()) {
     state_.particles.position[p] += state_.run.time_step * state_.particles.velocity[p];
   }
-  if (!losses_.kept) return;
+  if (losses_.become == transfer::LossesBecome::heat) return;
   for (const std::uint32_t p : activity_.flying()) state_.particles.closing_rate[p] = 0.0;
 }
 
