@@ -130,9 +130,9 @@ template <bool affine, bool planar>
 constexpr auto particle_kind = BlockGrid::Points::particles;
 
 /// Calls gather(kernels, slot, sum of the slot, gradients of its particles) for the slots of a stretch.
-template <class Shape, class Gather>
+template <class Shape, Widest widest, class Gather>
 void for_each_slot(const BlockGrid& grid, const Stretch& stretch, Gather&& gather) {
-  with_kernels<Shape>([&](auto kernels) {
+  with_kernels<Shape, widest>([&](auto kernels) {
     Matrix3* gradients = stretch.gradients.data();
     for (std::size_t i = 0; i < stretch.balances.size(); ++i) {
       const std::size_t slot = stretch.first_slot + i, size = grid.particles_in(slot).size();
@@ -150,7 +150,7 @@ void update_exactly(const ExactUpdate& update, Particles& particles, BlockGrid& 
                     const Stretch& stretch) {
   const auto& [functions, dt, field, losses, acceleration] = update;
   const bool radial = Planar<Shape> && grid.geometry().is_axisymmetric();
-  for_each_slot<Shape>(
+  for_each_slot<Shape, Widest::wide>(
       grid, stretch,
       [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance& balance, Matrix3* gradients) {
         const auto take = [&](std::size_t place, std::size_t p, const Advance<>& advance) WHIPPLE_INLINE {
@@ -177,7 +177,7 @@ void update_velocities(const RelaxedUpdate& update, Particles& particles, BlockG
   const auto& [functions, dt, relaxation, wanted, acceleration] = update;
   const bool with_gradient = wanted == Gradients::of_grid_velocity;
   const bool radial = Planar<Shape> && grid.geometry().is_axisymmetric();
-  for_each_slot<Shape>(
+  for_each_slot<Shape, Widest::narrow>(
       grid, stretch,
       [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance& balance, Matrix3* gradients) {
         const auto take = [&](std::size_t place, std::size_t p, const VelocityUpdate<>& sums) WHIPPLE_INLINE {
@@ -286,7 +286,7 @@ void gather_first(Wanted wanted, const ShapeFunctions& functions, const Particle
                   const Stretch& stretch, std::span<Vector3> velocity) {
   const bool radial = grid.geometry().is_axisymmetric();
   with_shape(functions.kind, [&]<class Shape>(Shape) {
-    for_each_slot<Shape>(
+    for_each_slot<Shape, Widest::narrow>(
         grid, stretch, [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance&, Matrix3* gradients) {
           const auto take = [&](std::size_t place, std::size_t p, const ValueAndGradient<>& sums)
                                 WHIPPLE_INLINE {
