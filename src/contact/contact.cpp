@@ -144,8 +144,7 @@ bool Contact::touch(const grid::BlockGrid& grid, std::size_t contact_slot, std::
   return !gap.normal.isZero(0.0) && distance(grid, gap) <= resting_distance * grid.geometry().cell_size;
 }
 
-Balance Contact::apply(grid::BlockGrid& grid, double dt, transfer::FirstTouches& touches,
-                       const Cracks* cracks) const {
+Balance Contact::apply(grid::BlockGrid& grid, double dt, FirstTouches& touches, const Cracks* cracks) const {
   std::vector<Balance> of_slot(grid.owned_contact_slots());
   parallel::for_each(grid.owned_contact_slots(), [&](std::size_t c) {
     Sides at_node(grid, grid.contact_slots()[c], cracks);

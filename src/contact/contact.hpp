@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "src/contact/cracks.hpp"
+#include "src/contact/first_touches.hpp"
 #include "src/contact/node_fields.hpp"
 #include "src/contact/surfaces.hpp"
 #include "src/grid/block_grid.hpp"
 #include "src/particles/particles.hpp"
-#include "src/transfer/first_touches.hpp"
 #include "src/transfer/shape_kind.hpp"
 
 /// Contact of bodies with velocity fields of their own (docs/theory/contact.md).
@@ -52,10 +52,10 @@ class Contact {
                            std::size_t first, std::size_t second) const;
 
   /// Lets the bodies act on one another at the nodes of the contact slots of this rank, by their velocities,
-  /// increments and relaxations, and leaves the heat that it makes there: what `GridUpdate::advance` calls.
+  /// increments and relaxations, and leaves the heat that it makes there: between `GridUpdate::solve_momentum` and `share_step`.
   /// @param touches  takes note of the fields that touch
   /// @param cracks   of bodies whose fields divide at them; null: of none
-  Balance apply(grid::BlockGrid& grid, double dt, transfer::FirstTouches& touches,
+  Balance apply(grid::BlockGrid& grid, double dt, FirstTouches& touches,
                 const Cracks* cracks = nullptr) const;
 
  private:

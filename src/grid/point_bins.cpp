@@ -260,16 +260,12 @@ void PointBins::release(std::span<const std::uint32_t> particles) {
   list_particles();
 }
 
-std::size_t PointBins::let_rest(int layers, const std::function<bool(std::size_t)>& is_restless) {
+std::size_t PointBins::let_rest_beyond(int layers, std::vector<std::uint64_t> awake) {
   const auto for_each_reached = [&](std::size_t s, auto&& f) {
     for_each_bit(reached_[s], [&](unsigned n) {
       if (neighbours(s)[n] != no_slot) f(static_cast<std::size_t>(neighbours(s)[n]));
     });
   };
-  std::vector<std::uint64_t> awake(slots(), 0);
-  parallel::for_each_uneven(slots(), [&](std::size_t s) {
-    awake[s] = !guests_in(s).empty() || (resting_[s] == 0 && is_restless(s)) ? 1 : 0;
-  });
   for (const std::uint32_t p : released_) awake[static_cast<std::size_t>(slot_of_particle_[p])] = 1;
   join_bits_of_ranks(awake);
   for (int layer = 0; layer < layers; ++layer) {  // what shares nodes with what is awake awakes

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "src/core/base/gaps.hpp"
+#include "src/core/parallel/threads.hpp"
 #include "src/grid/topology.hpp"
 
 namespace whipple::grid {
@@ -39,7 +40,14 @@ class PointBins : public Topology {
   /// other: those that reach nodes of blocks whose nodes an awake one reaches. Collective.
   /// @param is_restless  is_restless(slot): does something in it move? Not asked of blocks that rested before
   /// @returns number of particles of this rank at rest
-  std::size_t let_rest(int layers, const std::function<bool(std::size_t)>& is_restless);
+  template <class IsRestless>
+  std::size_t let_rest(int layers, IsRestless&& is_restless) {
+    std::vector<std::uint64_t> awake(slots(), 0);
+    parallel::for_each_uneven(slots(), [&](std::size_t s) {
+      awake[s] = !guests_in(s).empty() || (resting_[s] == 0 && is_restless(s)) ? 1 : 0;
+    });
+    return let_rest_beyond(layers, std::move(awake));
+  }
   /// No block rests any longer.
   void wake();
   /// Returns whether all particles of a chunk (from `chunk` times parallel::chunk_size on) are in inactive
@@ -113,6 +121,7 @@ class PointBins : public Topology {
   bool locate(std::span<const Vector3> position, Stencil stencil);
   [[nodiscard]] std::int32_t slot_of_neighbour(std::size_t slot, Lanes in_cells) const;
   bool locate_guests(std::span<const Vector3> guests, Stencil stencil);
+  std::size_t let_rest_beyond(int layers, std::vector<std::uint64_t> awake);
   void list_particles();
   void list_guests();
 

@@ -30,12 +30,14 @@ struct Step {
   const MaterialPoints& points;               // as they were before the step
   std::span<const Matrix3> gradient;          // of this chunk, or
   GradientComponents components;              // the same by components
-  std::span<const double> affine_divergence;  // of this chunk, or empty
+  std::span<const double> affine_divergence;  // of this chunk, for HeatingViscosity::of_affine_field
   const UpdateSettings& settings;
   Energy energy;
 
   /// Returns whether the points distinguish the viscosity that heats.
-  [[nodiscard]] bool keeps_losses() const { return !points.heating_viscosity.empty(); }
+  [[nodiscard]] bool distinguishes_heating() const {
+    return settings.heating != HeatingViscosity::not_distinguished;
+  }
 };
 
 /// Scratch of one chunk, on the stack; entry k belongs to point `index[k]`.
@@ -62,7 +64,7 @@ struct Chunk {
   Lanes old_volume, old_density;
   Lanes density;
   Lanes volume_change;      // m^3 of material, on which its pressure does work
-  Lanes heating_viscosity;  // of points with an affine field only
+  Lanes heating_viscosity;  // of steps that distinguish it only
   Kinematics motion;        // its deviator becomes the new one
   Lanes acting_pressure;    // Pa, of the end of the step, after failure
   // Scratch of the models:

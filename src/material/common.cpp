@@ -150,12 +150,15 @@ WHIPPLE_KERNEL void advance_viscosity(const Step& step, Chunk& chunk) {
   } else {
     advance([&](std::size_t k) { return settings.lengths[chunk.index[k]]; });
   }
-  if (step.keeps_losses()) {
-    if (step.affine_divergence.empty()) {
+  switch (settings.heating) {
+    case HeatingViscosity::not_distinguished:
+      break;
+    case HeatingViscosity::whole:
       chunk.heating_viscosity = chunk.artificial_viscosity;
-    } else {
+      break;
+    case HeatingViscosity::of_affine_field:
       find_heating_viscosity(step, chunk);
-    }
+      break;
   }
 }
 

@@ -28,7 +28,8 @@ inline void energy_ahead(const Step& step, Chunk& chunk, WithoutElastic without_
   const double half_step = 0.5 * step.settings.time_step;
   const SymmetricLanes& lanes = chunk.motion.deviator;
   const MatrixLanes& l = chunk.motion.gradient;
-  const Lanes& viscosity = step.keeps_losses() ? chunk.heating_viscosity : chunk.artificial_viscosity;
+  const Lanes& viscosity =
+      step.distinguishes_heating() ? chunk.heating_viscosity : chunk.artificial_viscosity;
   for (std::size_t k = 0; k < chunk.size; ++k) {
     const SymmetricTensor s = tensor(lanes, k);
     const double deviatoric = s.xx * l[0][k] + s.yy * l[4][k] + s.zz * l[8][k] + s.xy * (l[1][k] + l[3][k]) +

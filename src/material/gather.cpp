@@ -135,7 +135,7 @@ WHIPPLE_KERNEL void scatter(const Step& step, Chunk& chunk, MaterialPoints& poin
   }
   chunk.deposit(chunk.volume, points.volume);
   chunk.deposit(chunk.artificial_viscosity, points.artificial_viscosity);
-  if (step.keeps_losses()) chunk.deposit(chunk.heating_viscosity, points.heating_viscosity);
+  if (step.distinguishes_heating()) chunk.deposit(chunk.heating_viscosity, points.heating_viscosity);
   chunk.deposit(chunk.acting_pressure, points.pressure);
   chunk.deposit(chunk.plastic_strain, points.plastic_strain);
   chunk.deposit(chunk.temperature, points.temperature);

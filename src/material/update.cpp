@@ -27,7 +27,7 @@ MaterialReport update_all(const Material& material, MaterialPoints& points, std:
     chunk.find_runs();
     Step step{material, points, {}, {}, {}, settings, energy};
     std::tie(step.gradient, step.components) = gradient_of(first, chunk.size);
-    if (!settings.affine_divergence.empty() && settings.affine_compression > 0.0) {
+    if (settings.heating == HeatingViscosity::of_affine_field) {
       step.affine_divergence = settings.affine_divergence.subspan(first, chunk.size);
     }
     gather(step, chunk);

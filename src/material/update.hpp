@@ -18,6 +18,14 @@
 /// in several threads on disjoint points.
 namespace whipple {
 
+/// The part of the artificial viscosity that heats where losses are kept as unresolved energy
+/// (docs/theory/dissipation.md, eq. 6).
+enum class HeatingViscosity : std::uint8_t {
+  not_distinguished,  ///< losses become heat: points do not store such a part
+  whole,              ///< all of it heats
+  of_affine_field,    ///< the part that the affine field of a point accounts for
+};
+
 struct UpdateSettings {
   double time_step = 0.0;                ///< s
   double cell_size = 0.0;                ///< m: length of the artificial viscosity
@@ -25,11 +33,11 @@ struct UpdateSettings {
   double linear_viscosity = 0.25;        ///< c1 of q = rho l |D| (c2 l |D| + c1 c)
   double quadratic_viscosity = 1.0;      ///< c2
   double expansion_viscosity = 0.0;      ///< c1 of q = -rho l |D| c1 c in expansion
-  /// 1/s, tr C of the affine field of each point of the list, which says how much of the artificial viscosity
-  /// heats (docs/theory/dissipation.md, eq. 6); empty: all of it does
+  HeatingViscosity heating = HeatingViscosity::not_distinguished;
+  /// 1/s, tr C of the affine field of each point of the list, for `HeatingViscosity::of_affine_field`
   std::span<const double> affine_divergence = {};
   double affine_gain = 1.0;         ///< a of eq. 6
-  double affine_compression = 0.0;  ///< g of eq. 6; 0: all of it heats
+  double affine_compression = 0.0;  ///< g of eq. 6, > 0 for `HeatingViscosity::of_affine_field`
   double initial_density = 1.0;     ///< kg/m^3, of the body, from which g counts
   material::StressRotation rotation = material::StressRotation::hughes_winget;
   double time = 0.0;  ///< s, at the end of the step

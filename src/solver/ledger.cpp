@@ -101,10 +101,12 @@ Totals totals_of_range(const Particles& particles, std::size_t begin, std::size_
 }  // namespace
 
 Totals totals_of(const Particles& particles, double affine_inertia, std::vector<Totals>& of_chunk,
-                 const std::function<bool(std::size_t)>& stays) {
-  parallel::update_chunks(particles.size(), of_chunk, stays, [&](std::size_t begin, std::size_t end) {
-    return totals_of_range(particles, begin, end, affine_inertia);
-  });
+                 std::span<const std::uint8_t> stays) {
+  parallel::update_chunks(
+      particles.size(), of_chunk, [&](std::size_t chunk) { return stays[chunk] != 0; },
+      [&](std::size_t begin, std::size_t end) {
+        return totals_of_range(particles, begin, end, affine_inertia);
+      });
   Totals sum;
   for (const Totals& part : of_chunk) sum += part;
   return sum;
@@ -112,7 +114,8 @@ Totals totals_of(const Particles& particles, double affine_inertia, std::vector<
 
 Totals totals_of(const Particles& particles, double affine_inertia) {
   std::vector<Totals> of_chunk;
-  return totals_of(particles, affine_inertia, of_chunk, [](std::size_t) { return false; });
+  const std::vector<std::uint8_t> none(parallel::chunk_count(particles.size()), 0);
+  return totals_of(particles, affine_inertia, of_chunk, none);
 }
 
 void Ledger::add(const Ledger& step) {

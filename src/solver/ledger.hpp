@@ -4,7 +4,8 @@
 #include <array>
 #include <concepts>
 #include <cstddef>
-#include <functional>
+#include <cstdint>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -95,9 +96,9 @@ Totals totals_of(const Particles& particles, std::size_t p, double affine_inerti
 Totals totals_of(const Particles& particles, double affine_inertia);
 /// Sums over the particles, and takes the sums of unchanged chunks from the last call.
 /// @param of_chunk  sums of each chunk of particles, by the last call
-/// @param stays     stays(chunk): are its particles as they were then?
+/// @param stays     of each chunk: 1 if its particles are as they were then
 Totals totals_of(const Particles& particles, double affine_inertia, std::vector<Totals>& of_chunk,
-                 const std::function<bool(std::size_t)>& stays);
+                 std::span<const std::uint8_t> stays);
 
 /// Accumulates everything that enters and leaves, so that at every time
 /// energy = initial - outflow + external work, momentum = initial - outflow + impulse of walls and external

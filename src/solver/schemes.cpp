@@ -1,35 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <functional>
 #include <ranges>
+#include <string_view>
 
 #include "src/solver/carriers/domains.hpp"
 #include "src/solver/stages.hpp"
 
 /// The time steps, one function per scheme. Numbers are equations of docs/theory/mpm.md; superscripts give
-/// the time level of a quantity after the call. Ranks exchange the nodes of their borders where it says `send` and
-/// `receive`: called in the middle of a transfer, so that the interior is worked on in between.
+/// the time level of a quantity after the call. Particles are visited region by region (grid::BlockGrid::Region): those
+/// of a rank's border first when they bring something to the nodes, whose sums are sent while the interior follows, and
+/// last when they take something, so that the nodes of other ranks may arrive in between.
 namespace whipple::solver {
 namespace {
 
 using Energy = MaterialStage::Energy;
-using Take = transfer::TakeGradients;
-
-/// Sends the sums at the nodes of the border, mass, momentum and forces, to the ranks that own them.
-std::function<void()> send_sums(Stages& s) {
-  return [&s] { s.transfers.send_sums(); };
-}
-/// Sends mass and momentum only.
-std::function<void()> send_momentum(Stages& s) {
-  return [&s] { s.transfers.send_momentum(); };
-}
-/// Receives the results at the nodes of the border from the ranks that own them.
-std::function<void()> receive(Stages& s) {
-  return [&s] { s.transfers.receive(); };
-}
-/// Applies contact between bodies.
-std::function<void()> contact(Stages& s) {
-  return [&s] { s.contact.apply(); };
-}
+using transfer::Gradients;
+using transfer::Region;
+using transfer::Stretch;
+using transfer::Sweep;
 
 /// dt = the least of its bounds (6.1), then the domain of particles that are too long is divided if asked for (2.5).
 void begin_step(Stages& s, double until) {
@@ -52,9 +39,70 @@ void find_surfaces(Stages& s) {
   s.contact.find_surfaces_at_walls();
 }
 
-/// Velocity and position of particles apart from their material.
+/// (3.1)-(3.3): m, (mv) and f of particles and nodes of elements on the nodes.
+void particles_to_grid(Stages& s) {
+  s.state.profile.time("particles to grid", [&] {
+    s.transfers.clear_grid();
+    for (const Region region : {Region::border, Region::interior}) {
+      s.transfers.to_grid(region);
+      if (region == Region::border) s.transfers.send_sums();
+    }
+  });
+  s.transfers.account_for_hoops();
+}
+
+/// (5.3), (5.5): v of the nodes from m and (mv) of particles.
+void velocity_to_grid(Stages& s) {
+  s.state.profile.time("momentum to grid", [&] {
+    s.transfers.clear_momentum();
+    for (const Region region : {Region::border, Region::interior}) {
+      s.transfers.momentum_to_grid(region);
+      if (region == Region::border) s.transfers.send_momentum();
+    }
+    s.transfers.solve_velocity();
+  });
+}
+
+/// (3.4)-(3.12): v^{n+1} = v^n + dt f^n / m, contact of bodies, then with mirror planes and walls.
+void advance_grid(Stages& s) {
+  s.state.profile.time("grid", [&] {
+    s.transfers.solve_momentum();
+    s.contact.apply();
+    s.transfers.share_step();
+  });
+  s.transfers.apply_full_mass_matrix();
+}
+
+/// (5.1)-(5.2): v, x of particles apart from their material, which is strained later.
 void move_particles(Stages& s) {
-  s.state.profile.time("grid to particles", [&] { s.transfers.velocity_to_particles({}, receive(s)); });
+  s.state.profile.time("grid to particles", [&] {
+    Sweep sweep(s.state.grid);
+    for (const Region region : {Region::interior, Region::border}) {
+      if (region == Region::border) s.transfers.receive();
+      sweep.for_each_stretch(region, [&](const Stretch& stretch) {
+        s.transfers.velocity_to_particles(stretch, Gradients::none);
+      });
+    }
+    s.transfers.account_for(sweep.balance());
+    s.transfers.fly();
+  });
+}
+
+/// (5.4), (5.6): strains the material by the gradients of v on the nodes.
+void strain_particles(Stages& s) {
+  constexpr std::string_view stage = "velocity gradient";
+  s.state.profile.time(stage, [&] {
+    Sweep sweep(s.state.grid);
+    s.material.begin(Energy::by_constitutive_model, sweep.stretches());
+    for (const Region region : {Region::interior, Region::border}) {
+      if (region == Region::border) s.transfers.receive();
+      sweep.for_each_stretch(region, [&](const Stretch& stretch) {
+        s.transfers.gradient_to_particles(stretch);  // grad v
+        s.material.update(stretch);                  // by it stress, p, T, phase, e
+      });
+    }
+    s.material.end(stage);
+  });
 }
 
 /// Ledger of energy and momentum, and what the next step is bounded by.
@@ -85,16 +133,27 @@ void step_symplectic(Stages& s, double until) {
   s.elements.compute_forces();               // f^n of elements on their nodes (docs/theory/fem.md)
   bin_particles(s);                          // blocks follow the material
   conduct_heat(s);                           // e
-  s.transfers.to_grid(send_sums(s));         // (3.1)-(3.3) m, (mv)^n, f^n on nodes
+  particles_to_grid(s);                      // (3.1)-(3.3) m, (mv)^n, f^n on nodes
   find_surfaces(s);
-  s.transfers.advance_grid(contact(s));  // (3.4)-(3.5) v^{n+1} = v^n + dt f^n / m, then contact of bodies
-  s.transfers.apply_full_mass_matrix();
-  s.material.update("grid to particles", Energy::by_work_identity, [&](const Take& take) {
-    s.transfers.to_particles(
-        take, receive(s));  // (4.2)-(4.8) v, C, x, e at n+1; by grad v^{n+1} stress, p, T, phase
+  advance_grid(s);  // (3.4)-(3.12) v^{n+1}
+  constexpr std::string_view stage = "grid to particles";
+  s.state.profile.time(stage, [&] {
+    Sweep sweep(s.state.grid);
+    s.material.begin(Energy::by_work_identity, sweep.stretches());
+    for (const Region region : {Region::interior, Region::border}) {
+      if (region == Region::border) s.transfers.receive();
+      sweep.for_each_stretch(region, [&](const Stretch& stretch) {
+        s.transfers.to_particles(stretch);  // (4.2)-(4.8) v, C, x, e at n+1, grad v^{n+1}
+        s.material.update(stretch);         // by it stress, p, T, phase
+      });
+    }
+    s.transfers.account_for(sweep.balance());
+    s.transfers.to_nodes();  // the same of nodes of elements
+    s.transfers.fly();       // x of particles without a grid
+    s.material.end(stage);
   });
-  s.elements.advance();  // the same of nodes and elements
-  end_step(s);           // walls and outflow; energy and momentum
+  s.elements.advance();
+  end_step(s);  // walls and outflow; energy and momentum
 }
 
 /// Update stress first (Bardenhagen, J. Comput. Phys. 180 (2002) 383; docs/theory/mpm.md, 5).
@@ -103,14 +162,11 @@ void step_usf(Stages& s, double until) {
   bin_particles(s);
   conduct_heat(s);
   s.contact.find_surfaces_at_walls();  // not from this step, in which the grid has not been advanced
-  s.transfers.momentum_to_grid(send_momentum(s));  // (5.5) v^n on nodes
-  s.material.update("velocity gradient", Energy::by_constitutive_model, [&](const Take& take) {
-    s.transfers.gradient_to_particles(take, receive(s));  // (5.6) grad v^n, by it stress and e
-  });
-  s.transfers.to_grid(send_sums(s));  // (3.1)-(3.3) with the new stress
+  velocity_to_grid(s);                 // (5.5) v^n on nodes
+  strain_particles(s);                 // (5.6) grad v^n, by it stress and e
+  particles_to_grid(s);                // (3.1)-(3.3) with the new stress
   find_surfaces(s);
-  s.transfers.advance_grid(contact(s));  // (3.4), (5.9)
-  s.transfers.apply_full_mass_matrix();
+  advance_grid(s);    // (3.4), (5.9)
   move_particles(s);  // (5.1)-(5.2) v, x at n+1
   end_step(s);
 }
@@ -121,13 +177,23 @@ void step_usl(Stages& s, double until) {
   begin_step(s, until);  // (6.1)
   bin_particles(s);
   conduct_heat(s);
-  s.transfers.to_grid(send_sums(s));  // (3.1)-(3.3)
+  particles_to_grid(s);  // (3.1)-(3.3)
   find_surfaces(s);
-  s.transfers.advance_grid(contact(s));  // (3.4), (5.9)
-  s.transfers.apply_full_mass_matrix();
-  s.material.update("grid to particles", Energy::by_constitutive_model, [&](const Take& take) {
-    s.transfers.velocity_to_particles(
-        take, receive(s));  // (5.1)-(5.2) v, x at n+1; (5.7) by grad v^{n+1} stress, e
+  advance_grid(s);  // (3.4), (5.9)
+  constexpr std::string_view stage = "grid to particles";
+  s.state.profile.time(stage, [&] {
+    Sweep sweep(s.state.grid);
+    s.material.begin(Energy::by_constitutive_model, sweep.stretches());
+    for (const Region region : {Region::interior, Region::border}) {
+      if (region == Region::border) s.transfers.receive();
+      sweep.for_each_stretch(region, [&](const Stretch& stretch) {
+        s.transfers.velocity_to_particles(stretch, Gradients::of_grid_velocity);  // (5.1)-(5.2) v, x at n+1
+        s.material.update(stretch);  // (5.7) by grad v^{n+1} stress, e
+      });
+    }
+    s.transfers.account_for(sweep.balance());
+    s.transfers.fly();
+    s.material.end(stage);
   });
   end_step(s);
 }
@@ -138,16 +204,12 @@ void step_musl(Stages& s, double until) {
   begin_step(s, until);  // (6.1)
   bin_particles(s);
   conduct_heat(s);
-  s.transfers.to_grid(send_sums(s));  // (3.1)-(3.3)
+  particles_to_grid(s);  // (3.1)-(3.3)
   find_surfaces(s);
-  s.transfers.advance_grid(contact(s));  // (3.4), (5.9)
-  s.transfers.apply_full_mass_matrix();
-  move_particles(s);  // (5.1)-(5.2) v, x at n+1; the grid sees the places of before
-  s.transfers.momentum_to_grid(send_momentum(s));  // (5.3) grid velocity from the new v
-  s.material.update("velocity gradient", Energy::by_constitutive_model, [&](const Take& take) {
-    s.transfers.gradient_to_particles(take,
-                                      receive(s));  // (5.4) grad v at the old places, by it stress and e
-  });
+  advance_grid(s);      // (3.4), (5.9)
+  move_particles(s);    // (5.1)-(5.2) v, x at n+1; the grid still has the former positions
+  velocity_to_grid(s);  // (5.3) grid velocity from the new v
+  strain_particles(s);  // (5.4) grad v at the former positions, by it stress and e
   end_step(s);
 }
 

@@ -11,13 +11,13 @@
 
 #include "src/case/build/seeding.hpp"
 #include "src/case/case.hpp"
+#include "src/contact/first_touches.hpp"
 #include "src/core/base/words.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/grid/block_grid.hpp"
 #include "src/particles/particles.hpp"
 #include "src/solver/ledger.hpp"
 #include "src/solver/profile.hpp"
-#include "src/transfer/first_touches.hpp"
 #include "src/transfer/shape_function.hpp"
 #include "src/transfer/transition_nodes.hpp"
 
@@ -68,9 +68,9 @@ struct RunState {
       0.0;  ///< 1/s, that all but a thousandth of the material under pressure kept below
   double squeezed_beside_voids = 0.0;  ///< kg, intact, under pressure in cells that it does not fill
   double first_touch = 1e300;  ///< s, at which bodies that have not touched yet next do; 1e300: not in sight
-  transfer::FirstTouches::Words touched;  ///< what has
-  double releasable_energy = 0.0;         ///< J, that the materials could set free at the start
-  double reference_speed = 0.0;           ///< m/s, of the start: of what moved, and what that energy can make
+  contact::FirstTouches::Words touched;  ///< what has
+  double releasable_energy = 0.0;        ///< J, that the materials could set free at the start
+  double reference_speed = 0.0;          ///< m/s, of the start: of what moved, and what that energy can make
   std::int64_t step = 0;
   std::int64_t particles_at_rest = 0;  ///< of all ranks, left as they were by the last step
   Ledger ledger;
@@ -111,6 +111,10 @@ struct State {
   [[nodiscard]] double affine_inertia() const;
   /// Returns the inertia per mass (m^2) of the affine fields that particles of this case carry; 0 without such fields.
   [[nodiscard]] double particle_affine_inertia() const;
+  /// Returns whether particles of this case carry affine fields.
+  [[nodiscard]] bool carries_affine_fields() const {
+    return cases::is_affine(setup.transfer.particle_update);
+  }
   /// Returns whether kinetic energy lost in transfers is kept as unresolved energy.
   [[nodiscard]] bool keeps_losses() const { return setup.dissipation.keeps_losses(); }
   [[nodiscard]] bool is_parallel() const { return parallel::size(communicator) > 1; }

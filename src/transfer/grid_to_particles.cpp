@@ -105,7 +105,7 @@ template <bool affine, bool planar>
       -particles.artificial_viscosity[p] * (mean[0][0] + mean[1][1] + mean[2][2]) * volume_and_time;
   const double heat_of_contact = advance.increment.value[3];  // docs/theory/contact.md, 4.6
   Booking booking{.heat = loss, .of_contact = heat_of_contact};
-  if (losses.kept) {
+  if (losses.become == LossesBecome::unresolved_energy) {
     const double divergence = l[0][0] + l[1][1] + l[2][2];
     booking = book_losses(losses, particles, p, loss, heat_of_contact, viscous_work / mass, divergence, dt);
     particles.unresolved_energy[p] += booking.kept - booking.returned;
@@ -127,91 +127,35 @@ template <bool affine, bool planar>
   return balance;
 }
 
-/// Slots that follow one another and hold some `points_of_stretch` particles in all; a fuller slot is alone.
-/// Number of particles: what gather and material read and write of these, some 500 bytes of each, stays in
-/// the second-level cache.
-struct Stretch {
-  std::size_t first_slot, slots;
-};
-constexpr std::size_t points_of_stretch = 512;
-
-/// Returns the stretches of the interior, and those that contain border slots.
-std::array<std::vector<Stretch>, 2> stretches(const BlockGrid& grid) {
-  std::array<std::vector<Stretch>, 2> all;
-  Stretch stretch{0, 0};
-  std::size_t points = 0;
-  bool at_border = false;
-  const auto close = [&] {
-    if (stretch.slots > 0) all[at_border ? 1 : 0].push_back(stretch);
-  };
-  for (std::size_t slot = 0; slot < grid.slots(); ++slot) {
-    const std::size_t of_slot = grid.particles_in(slot).size();
-    if (points > 0 && points + of_slot > points_of_stretch) {
-      close();
-      stretch = {slot, 0};
-      points = 0;
-      at_border = false;
-    }
-    ++stretch.slots;
-    points += of_slot;
-    at_border = at_border || (of_slot > 0 && grid.region(slot) == BlockGrid::Region::border);
-  }
-  close();
-  return all;
-}
-
 constexpr auto particle_kind = BlockGrid::Points::particles;
 
-/// gather(kernels, slot, sum of the slot, gradients of its particles), on threads; the gradients are handed
-/// on stretch by stretch, unless nobody wants them. @returns the sum of the sums
-template <class Shape, class Gather>
-TransferBalance gather_particles(BlockGrid& grid, const TakeGradients& take,
-                                 const BeforeBorder& before_border, Gather&& gather) {
-  std::vector<TransferBalance> of_slot(grid.slots());
-  const auto [interior, border] = stretches(grid);
-  const auto gather_stretch = [&](auto kernels, const Stretch& stretch) {
-    const auto [first_slot, slots] = stretch;
-    const std::size_t begin = grid.place_of(first_slot), size = grid.place_of(first_slot + slots) - begin;
-    thread_local std::vector<Matrix3> gradients;
-    gradients.resize(std::max(gradients.size(), size));
-    for (std::size_t slot = first_slot; slot < first_slot + slots; ++slot) {
-      if (grid.particles_in(slot).empty()) continue;
-      TransferBalance balance;  // of its own: neighbours in `of_slot` share lines of the cache
-      gather(kernels, slot, balance, &gradients[grid.place_of(slot) - begin]);
-      of_slot[slot] = balance;
+/// Calls gather(kernels, slot, sum of the slot, gradients of its particles) for the slots of a stretch.
+template <class Shape, Widest widest, class Gather>
+void for_each_slot(const BlockGrid& grid, const Stretch& stretch, Gather&& gather) {
+  with_kernels<Shape, widest>([&](auto kernels) {
+    Matrix3* gradients = stretch.gradients.data();
+    for (std::size_t i = 0; i < stretch.balances.size(); ++i) {
+      const std::size_t slot = stretch.first_slot + i, size = grid.particles_in(slot).size();
+      if (size == 0) continue;
+      TransferBalance balance;  // of its own: slots of other threads share lines of the cache
+      gather(kernels, slot, balance, gradients);
+      stretch.balances[i] = balance;
+      gradients += size;
     }
-    if (!take) return;
-    const std::size_t batch =
-        kernel_set() == KernelSet::plain ? 1 : size;  // the reference knows single points only
-    for (std::size_t first = 0; first < size; first += batch) {
-      of_slot[first_slot].plastic_work += take(grid.particles_by_block().subspan(begin + first, batch),
-                                               std::span(gradients).subspan(first, batch));
-    }
-  };
-  with_kernels<Shape>([&](auto kernels) {
-    parallel::for_each_uneven(interior.size(), [&](std::size_t s) {
-      grid.progress();
-      gather_stretch(kernels, interior[s]);
-    });
-    if (before_border) before_border();
-    parallel::for_each_uneven(border.size(), [&](std::size_t s) { gather_stretch(kernels, border[s]); });
   });
-  TransferBalance sum{};
-  for (const TransferBalance& part : of_slot) sum += part;
-  return sum;
 }
 
 template <class Shape, bool affine>
-TransferBalance gather_all(double slope_smoothing, Particles& particles, BlockGrid& grid, double dt,
-                           AffineField field, const Losses& losses, const TakeGradients& take_gradients,
-                           std::span<const Vector3> acceleration, const BeforeBorder& before_border) {
+void update_exactly(const ExactUpdate& update, Particles& particles, BlockGrid& grid,
+                    const Stretch& stretch) {
+  const auto& [functions, dt, field, losses, acceleration] = update;
   const bool radial = Planar<Shape> && grid.geometry().is_axisymmetric();
-  return gather_particles<Shape>(
-      grid, take_gradients, before_border,
+  for_each_slot<Shape, Widest::wide>(
+      grid, stretch,
       [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance& balance, Matrix3* gradients) {
         const auto take = [&](std::size_t place, std::size_t p, const Advance<>& advance) WHIPPLE_INLINE {
           if (prefetches(p)) {
-            prefetch_state(particles, p + prefetch_distance);  // most of it for who takes the gradients
+            prefetch_state(particles, p + prefetch_distance);  // most of it for the material
             prefetch(p + prefetch_distance, particles.position, particles.velocity);
             if (!particles.extent.empty()) prefetch(p + prefetch_distance, particles.extent);
             if constexpr (affine) {
@@ -222,23 +166,22 @@ TransferBalance gather_all(double slope_smoothing, Particles& particles, BlockGr
           balance += update_particle<affine, Planar<Shape>>(particles, p, dt, advance, field,
                                                             gradients[place], losses, acceleration, radius);
         };
-        Kernels::template gather<Shape>(particles, grid, particle_kind, slot, slope_smoothing,
+        Kernels::template gather<Shape>(particles, grid, particle_kind, slot, functions.slope_smoothing,
                                         typename Kernels::template Transfer<affine>{field, dt}, take);
       });
 }
 
 template <class Shape>
-TransferBalance update_velocities(double slope_smoothing, Particles& particles, BlockGrid& grid, double dt,
-                                  double relaxation, const TakeGradients& take_gradients,
-                                  std::span<const Vector3> acceleration, const BeforeBorder& before_border) {
-  const bool with_gradient = static_cast<bool>(take_gradients);
+void update_velocities(const RelaxedUpdate& update, Particles& particles, BlockGrid& grid,
+                       const Stretch& stretch) {
+  const auto& [functions, dt, relaxation, wanted, acceleration] = update;
+  const bool with_gradient = wanted == Gradients::of_grid_velocity;
   const bool radial = Planar<Shape> && grid.geometry().is_axisymmetric();
-  return gather_particles<Shape>(
-      grid, take_gradients, before_border,
+  for_each_slot<Shape, Widest::narrow>(
+      grid, stretch,
       [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance& balance, Matrix3* gradients) {
-        const auto take = [&](std::size_t place, std::size_t p,
-                              const VelocityUpdate<>& update) WHIPPLE_INLINE {
-          const Lanes after = update.after.value, increment = update.increment, before = after - increment;
+        const auto take = [&](std::size_t place, std::size_t p, const VelocityUpdate<>& sums) WHIPPLE_INLINE {
+          const Lanes after = sums.after.value, increment = sums.increment, before = after - increment;
           double* const velocity = particles.velocity[p].data();
           const Lanes old = load_vector(velocity), updated = old + increment - relaxation * (old - before);
           balance.squared_change =
@@ -249,8 +192,8 @@ TransferBalance update_velocities(double slope_smoothing, Particles& particles, 
           store_vector(position, load_vector(position) + dt * after);
           particles.specific_internal_energy[p] += increment[3];  // of contact
           if (with_gradient) {
-            if (prefetches(p)) prefetch_state(particles, p);  // for who takes the gradients
-            std::array<Lanes, 3> l = update.after.gradient;
+            if (prefetches(p)) prefetch_state(particles, p);  // for the material
+            std::array<Lanes, 3> l = sums.after.gradient;
             if (radial) add_hoop_rate(l, after[1], radius);
             gradients[place] = matrix(l);
           }
@@ -258,30 +201,23 @@ TransferBalance update_velocities(double slope_smoothing, Particles& particles, 
             balance.external_work += external_work(after, increment, particles.mass[p], acceleration[p], dt);
           }
         };
-        Kernels::template gather<Shape>(particles, grid, particle_kind, slot, slope_smoothing,
+        Kernels::template gather<Shape>(particles, grid, particle_kind, slot, functions.slope_smoothing,
                                         typename Kernels::Update{}, take);
       });
 }
 
 }  // namespace
 
-TransferBalance grid_to_particles(const ShapeFunctions& functions, Particles& particles, BlockGrid& grid,
-                                  double dt, AffineField affine, const Losses& losses,
-                                  const TakeGradients& take, std::span<const Vector3> acceleration,
-                                  const BeforeBorder& before_border) {
-  using enum AffineField;
-  const double smoothing = functions.slope_smoothing;
-  return with_shape(functions.kind, [&]<class Shape>(Shape) {
-    if (affine == none) {
-      return gather_all<Shape, false>(smoothing, particles, grid, dt, none, losses, take, acceleration,
-                                      before_border);
+void grid_to_particles(const ExactUpdate& update, Particles& particles, BlockGrid& grid,
+                       const Stretch& stretch) {
+  with_shape(update.functions.kind, [&]<class Shape>(Shape) {
+    if (update.affine == AffineField::none) {
+      return update_exactly<Shape, false>(update, particles, grid, stretch);
     }
     if constexpr (CarriesAffineField<Shape>) {
-      return gather_all<Shape, true>(smoothing, particles, grid, dt, affine, losses, take, acceleration,
-                                     before_border);
+      update_exactly<Shape, true>(update, particles, grid, stretch);
     } else {
       throw InternalError("the affine transfer needs B-splines");
-      return TransferBalance{};  // the other branch deduces the type
     }
   });
 }
@@ -333,55 +269,55 @@ void grid_to_nodes(const ShapeFunctions& functions, TransitionNodes& nodes, Bloc
   });
 }
 
-TransferBalance update_velocity(const ShapeFunctions& functions, Particles& particles, BlockGrid& grid,
-                                double dt, double relaxation, const TakeGradients& take,
-                                std::span<const Vector3> acceleration, const BeforeBorder& before_border) {
-  return with_shape(functions.kind, [&]<class Shape>(Shape) {
-    return update_velocities<Shape>(functions.slope_smoothing, particles, grid, dt, relaxation, take,
-                                    acceleration, before_border);
-  });
+void update_velocity(const RelaxedUpdate& update, Particles& particles, BlockGrid& grid,
+                     const Stretch& stretch) {
+  with_shape(update.functions.kind,
+             [&]<class Shape>(Shape) { update_velocities<Shape>(update, particles, grid, stretch); });
 }
 
 namespace {
 
-/// Takes the sums of the nodes' velocities for every particle: its velocity into `velocity`, unless that is
-/// empty, else its gradient (1/s), which is handed on.
-/// @returns J, plastic work, as `take` reports it
-double gather_first(const ShapeFunctions& functions, const Particles& particles, BlockGrid& grid,
-                    std::span<Vector3> velocity, const TakeGradients& take,
-                    const BeforeBorder& before_border) {
+/// Sums of the nodes' velocities that a gather is for; one kernel serves both.
+enum class Wanted : std::uint8_t { velocity, gradient };
+
+/// Gathers the nodes' velocities for the particles of a stretch, or their gradients.
+/// @param velocity  m/s, of all particles, if it is wanted
+void gather_first(Wanted wanted, const ShapeFunctions& functions, const Particles& particles, BlockGrid& grid,
+                  const Stretch& stretch, std::span<Vector3> velocity) {
   const bool radial = grid.geometry().is_axisymmetric();
-  return with_shape(functions.kind, [&]<class Shape>(Shape) {
-    return gather_particles<Shape>(
-               grid, take, before_border,
-               [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance&, Matrix3* gradients) {
-                 const auto each = [&](std::size_t place, std::size_t p, const ValueAndGradient<>& sums)
-                                       WHIPPLE_INLINE {
-                                         if (!velocity.empty())
-                                           return store_vector(velocity[p].data(), sums.value);
-                                         if (prefetches(p))
-                                           prefetch_state(particles, p);  // for who takes the gradients
-                                         std::array<Lanes, 3> l = sums.gradient;
-                                         if (radial) add_hoop_rate(l, sums.value[1], grid.radius_at_bin(p));
-                                         gradients[place] = matrix(l);
-                                       };
-                 Kernels::template gather<Shape>(particles, grid, particle_kind, slot,
-                                                 functions.slope_smoothing, typename Kernels::First{}, each);
-               })
-        .plastic_work;
+  with_shape(functions.kind, [&]<class Shape>(Shape) {
+    for_each_slot<Shape, Widest::narrow>(
+        grid, stretch, [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance&, Matrix3* gradients) {
+          const auto take = [&](std::size_t place, std::size_t p, const ValueAndGradient<>& sums)
+                                WHIPPLE_INLINE {
+                                  if (wanted == Wanted::velocity)
+                                    return store_vector(velocity[p].data(), sums.value);
+                                  if (prefetches(p)) prefetch_state(particles, p);  // for the material
+                                  std::array<Lanes, 3> l = sums.gradient;
+                                  if (radial) add_hoop_rate(l, sums.value[1], grid.radius_at_bin(p));
+                                  gradients[place] = matrix(l);
+                                };
+          Kernels::template gather<Shape>(particles, grid, particle_kind, slot, functions.slope_smoothing,
+                                          typename Kernels::First{}, take);
+        });
   });
 }
 
 }  // namespace
 
-double gather_velocity_gradient(const ShapeFunctions& functions, const Particles& particles, BlockGrid& grid,
-                                const TakeGradients& take, const BeforeBorder& before_border) {
-  return gather_first(functions, particles, grid, {}, take, before_border);
+void gather_velocity_gradient(const ShapeFunctions& functions, const Particles& particles, BlockGrid& grid,
+                              const Stretch& stretch) {
+  gather_first(Wanted::gradient, functions, particles, grid, stretch, {});
 }
 
 void gather_velocity(ShapeFunction shape, const Particles& particles, BlockGrid& grid,
                      std::span<Vector3> velocity) {
-  gather_first(shape, particles, grid, velocity, {}, {});
+  Sweep sweep(grid);
+  for (const Region region : {Region::interior, Region::border}) {
+    sweep.for_each_stretch(region, [&](const Stretch& stretch) {
+      gather_first(Wanted::velocity, shape, particles, grid, stretch, velocity);
+    });
+  }
 }
 
 }  // namespace whipple::transfer

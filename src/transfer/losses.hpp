@@ -3,16 +3,22 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "src/particles/particles.hpp"
 
 namespace whipple::transfer {
 
-/// Destination of the kinetic energy that the transfers of a step remove from a particle
-/// (docs/theory/dissipation.md, 2).
+/// Destination of the kinetic energy that the transfers of a step remove from a particle.
+enum class LossesBecome : std::uint8_t {
+  heat,               ///< at once
+  unresolved_energy,  ///< in part, which particles carry with an allowance and a closing rate
+};
+
+/// Division of the kinetic energy that the transfers of a step remove from a particle (docs/theory/dissipation.md, 2).
 struct Losses {
-  bool kept = false;        ///< false: it is heat at once
+  LossesBecome become = LossesBecome::heat;
   double heat_share = 0.0;  ///< f: of the work of the artificial viscosity that heats
   double allowance_length =
       0.0;  ///< m, tau dx: the way of sound in which an allowance is forgotten; 0: at once

@@ -104,30 +104,25 @@ struct Momentum : OfParticles {
   }
 };
 
-/// @param at_border  called when the border has brought its part (grid::BlockGrid::Region)
+/// Adds what the points of a region bring to the nodes.
 template <class Shape, class What>
-void scatter_all(const What& what, grid::BlockGrid& grid, double slope_smoothing,
-                 const std::function<void()>& at_border = {}) {
-  const auto scatter = [&](std::size_t slot) {
+void scatter_region(const What& what, grid::BlockGrid& grid, Region region, double slope_smoothing) {
+  grid.for_each_apart(region, [&](std::size_t slot) {
     grid.progress();
     if (grid.members(What::kind, slot).empty()) return;
     with_kernels<Shape>(
         [&]<class Kernels>(Kernels) { Kernels::template scatter<Shape>(what, grid, slot, slope_smoothing); });
-  };
-  grid.for_each_apart(grid::BlockGrid::Region::border, scatter);
-  if (at_border) at_border();
-  grid.for_each_apart(grid::BlockGrid::Region::interior, scatter);
+  });
 }
 
 }  // namespace
 
 void particles_to_grid(const ShapeFunctions& functions, const Particles& particles, grid::BlockGrid& grid,
-                       std::span<const Vector3> acceleration, const std::function<void()>& at_border) {
-  grid.clear();
+                       Region region, std::span<const Vector3> acceleration) {
   with_shape(functions.kind, [&]<class Shape>(Shape) {
     const bool rings = grid.geometry().is_axisymmetric();
-    scatter_all<Shape>(Everything<Planar<Shape>>{{particles}, acceleration, rings}, grid,
-                       functions.slope_smoothing, at_border);
+    scatter_region<Shape>(Everything<Planar<Shape>>{{particles}, acceleration, rings}, grid, region,
+                          functions.slope_smoothing);
   });
 }
 
@@ -140,19 +135,22 @@ double hoop_force(const Particles& particles, const grid::BlockGrid& grid) {
   });
 }
 
-void nodes_to_grid(ShapeFunction shape, const TransitionNodes& nodes, grid::BlockGrid& grid) {
+void nodes_to_grid(ShapeFunction shape, const TransitionNodes& nodes, grid::BlockGrid& grid, Region region) {
   with_shape(shape, [&]<class Shape>(Shape) {
     if constexpr (CarriesAffineField<Shape> && !Planar<Shape>)
-      scatter_all<Shape>(OfNodes{nodes}, grid, no_slopes);
+      scatter_region<Shape>(OfNodes{nodes}, grid, region, no_slopes);
   });
 }
 
-void momentum_to_grid(ShapeFunction shape, const Particles& particles, std::span<const Vector3> velocity,
-                      grid::BlockGrid& grid, const std::function<void()>& at_border) {
+void clear_momentum(grid::BlockGrid& grid) {
   const std::span<grid::Node> nodes = grid.all_nodes();
   parallel::for_each(nodes.size(), [&](std::size_t i) { nodes[i].sums.mass_and_momentum = broadcast(0.0); });
+}
+
+void momentum_to_grid(ShapeFunction shape, const Particles& particles, std::span<const Vector3> velocity,
+                      grid::BlockGrid& grid, Region region) {
   with_shape(shape, [&]<class Shape>(Shape) {
-    scatter_all<Shape>(Momentum{{particles}, velocity}, grid, no_slopes, at_border);
+    scatter_region<Shape>(Momentum{{particles}, velocity}, grid, region, no_slopes);
   });
 }
 

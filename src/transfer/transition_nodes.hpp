@@ -33,14 +33,14 @@ struct TransitionNodes {
   void resize(std::size_t n);
 };
 
-/// Adds mass, momentum, mass-weighted sound speed and forces of the nodes to the grid, after
-/// `particles_to_grid`. B-splines only. The result is bitwise independent of the number of threads.
-void nodes_to_grid(ShapeFunction shape, const TransitionNodes& nodes, grid::BlockGrid& grid);
+/// Adds mass, momentum, mass-weighted sound speed and forces of the nodes of a region to the grid, after its particles.
+/// B-splines only. The result is bitwise independent of the number of threads.
+void nodes_to_grid(ShapeFunction shape, const TransitionNodes& nodes, grid::BlockGrid& grid, Region region);
 
 /// Velocity, affine field and position of the nodes by the transfer of the particles (docs/theory/mpm.md,
 /// equations 4.3 to 4.5, 4.8; docs/theory/afemp.md, 2), and what their elements need of the grid. B-splines
 /// only.
-/// @param affine as of `grid_to_particles`
+/// @param affine as of `ExactUpdate`
 void grid_to_nodes(const ShapeFunctions& functions, TransitionNodes& nodes, grid::BlockGrid& grid, double dt,
                    AffineField affine);
 

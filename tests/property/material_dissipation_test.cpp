@@ -97,6 +97,7 @@ double share_that_heats(double density, double of_field, std::uint8_t failed = 0
   const UpdateSettings settings{.time_step = 1e-9,
                                 .cell_size = 1e-3,
                                 .linear_viscosity = 0.0,
+                                .heating = HeatingViscosity::of_affine_field,
                                 .affine_divergence = affine,
                                 .affine_gain = 1.5,
                                 .affine_compression = 0.25,
@@ -116,6 +117,20 @@ TEST(HeatingViscosity, FollowsTheAffineFieldWhereMatterMeetsAndIsAllOfItInShocks
   EXPECT_EQ(share_that_heats(1.3 * start, 0.0), 1.0);
   EXPECT_EQ(share_that_heats(0.99 * start, 0.0), 1.0);  // thinner than at the start: gaps close
 }
+
+TEST(HeatingViscosity, IsStoredAsTheModeOfTheUpdateSaysWhateverThePointsHold) {
+  const Material material = make_material("fluid", std::make_shared<LinearInEnergy>());
+  const Matrix3 gradient = -3e4 * Matrix3::Identity();
+  for (const HeatingViscosity mode : {HeatingViscosity::not_distinguished, HeatingViscosity::whole}) {
+    MaterialPoints points = points_of(material, 1);
+    points.heating_viscosity.assign(1, -7.0);
+    update_material(material, points, 0, 1, std::span(&gradient, 1), {.time_step = 1e-9, .heating = mode});
+    EXPECT_GT(points.artificial_viscosity[0], 0.0);
+    EXPECT_EQ(points.heating_viscosity[0],
+              mode == HeatingViscosity::whole ? points.artificial_viscosity[0] : -7.0);
+  }
+}
+
 /// Steps a point through random motions, and calls check(report, points) after each of them.
 template <class Check>
 void wander(const Material& material, std::uint64_t seed, Check check) {

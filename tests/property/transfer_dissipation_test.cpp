@@ -147,8 +147,10 @@ Particles one_particle(double density, double pressure) {
   return q;
 }
 constexpr std::array initial_density = {1000.0};
-constexpr Losses losses{
-    .kept = true, .heat_share = 0.1, .collision_rate = 1.0, .initial_density = initial_density};
+constexpr Losses losses{.become = LossesBecome::unresolved_energy,
+                        .heat_share = 0.1,
+                        .collision_rate = 1.0,
+                        .initial_density = initial_density};
 
 TEST(Losses, InTightMatterHeatAsFarAsTheViscosityThatHeatsDoesWork) {
   const Particles q = one_particle(1100.0, 1e9);

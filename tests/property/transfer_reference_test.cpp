@@ -8,9 +8,9 @@
 #include <cmath>
 #include <map>
 
+#include "src/contact/grid_update.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/transfer/grid_to_particles.hpp"
-#include "src/transfer/grid_update.hpp"
 #include "src/transfer/particles_to_grid.hpp"
 #include "tests/property/transfer_support.hpp"
 
@@ -103,10 +103,10 @@ TYPED_TEST(TransferReference, PlainLoopsGiveTheSameStep) {
   grid::BlockGrid grid(geometry(), parallel::world());
   bin<TypeParam>(grid, q);
   particles_to_grid(smoothed<TypeParam>(), q, grid);
-  GridUpdate().advance(grid, dt, {.kappa = kappa});
+  advance(grid, dt, {.kappa = kappa});
   std::vector<Matrix3> gradients(q.size());
-  grid_to_particles(smoothed<TypeParam>(), q, grid, dt, affine ? AffineField::deformed : AffineField::none,
-                    {}, into(gradients));
+  grid_to_particles({smoothed<TypeParam>(), dt, affine ? AffineField::deformed : AffineField::none, {}, {}},
+                    q, grid, gradients);
 
   const auto near = [](double value, double reference, double scale) {
     return std::abs(value - reference) <= 1e-13 * (1.0 + scale + std::abs(reference));

@@ -4,14 +4,20 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <span>
 #include <vector>
 
+#include "src/contact/grid_update.hpp"
 #include "src/grid/block_grid.hpp"
 #include "src/particles/particles.hpp"
+#include "src/transfer/grid_to_particles.hpp"
+#include "src/transfer/particles_to_grid.hpp"
 #include "src/transfer/shape_function.hpp"
+#include "src/transfer/sweep.hpp"
+#include "src/transfer/transition_nodes.hpp"
 
 /// Random particles and a grid for them.
 namespace whipple::transfer {
@@ -33,12 +39,74 @@ ShapeFunctions smoothed(double smoothing = 1.3) {
   return {Shape::kind, smoothing};
 }
 
-/// Takes gradients into an array with one per particle.
-inline auto into(std::vector<Matrix3>& all) {
-  return [&all](std::span<const std::uint32_t> particles, std::span<const Matrix3> gradients) {
-    for (std::size_t k = 0; k < particles.size(); ++k) all[particles[k]] = gradients[k];
-    return 0.0;
-  };
+/// Regions in the order in which points bring something to the nodes, and in which they take something.
+constexpr std::array scatter_order = {Region::border, Region::interior};
+constexpr std::array gather_order = {Region::interior, Region::border};
+
+/// Clears the grid and adds all particles to it.
+inline void particles_to_grid(const ShapeFunctions& functions, const Particles& q, grid::BlockGrid& grid,
+                              std::span<const Vector3> acceleration = {}) {
+  grid.clear();
+  for (const Region region : scatter_order) particles_to_grid(functions, q, grid, region, acceleration);
+}
+/// Adds nodes of elements to the grid.
+inline void nodes_to_grid(ShapeFunction shape, const TransitionNodes& nodes, grid::BlockGrid& grid) {
+  for (const Region region : scatter_order) nodes_to_grid(shape, nodes, grid, region);
+}
+/// Replaces mass and momentum of the nodes.
+inline void momentum_to_grid(ShapeFunction shape, const Particles& q, std::span<const Vector3> velocity,
+                             grid::BlockGrid& grid) {
+  clear_momentum(grid);
+  for (const Region region : scatter_order) momentum_to_grid(shape, q, velocity, grid, region);
+}
+
+/// Impulse and energies of an advance of the nodes.
+struct GridBalance : NodeEnergies {
+  Vector3 wall_impulse;
+};
+/// Advances the nodes of all ranks, without contact of bodies.
+inline GridBalance advance(contact::GridUpdate& update, grid::BlockGrid& grid, double dt,
+                           const Relaxation& relaxation) {
+  GridBalance balance{update.solve_momentum(grid, dt, relaxation), Vector3::Zero()};
+  balance.wall_impulse = update.share_step(grid);
+  balance.wall_impulse += update.receive(grid);
+  return balance;
+}
+inline GridBalance advance(grid::BlockGrid& grid, double dt, const Relaxation& relaxation) {
+  contact::GridUpdate update;
+  return advance(update, grid, dt, relaxation);
+}
+
+/// Gathers for all particles.
+/// @param gather  gather(stretch)
+/// @returns sums over the particles; `gradients` with one per particle
+template <class Gather>
+TransferBalance sweep_all(grid::BlockGrid& grid, std::vector<Matrix3>& gradients, Gather&& gather) {
+  Sweep sweep(grid);
+  for (const Region region : gather_order) {
+    sweep.for_each_stretch(region, [&](const Stretch& stretch) {
+      gather(stretch);
+      for (std::size_t k = 0; k < stretch.particles.size(); ++k) {
+        gradients[stretch.particles[k]] = stretch.gradients[k];
+      }
+    });
+  }
+  return sweep.balance();
+}
+inline TransferBalance grid_to_particles(const ExactUpdate& update, Particles& q, grid::BlockGrid& grid,
+                                         std::vector<Matrix3>& gradients) {
+  return sweep_all(grid, gradients,
+                   [&](const Stretch& stretch) { grid_to_particles(update, q, grid, stretch); });
+}
+inline TransferBalance update_velocity(const RelaxedUpdate& update, Particles& q, grid::BlockGrid& grid,
+                                       std::vector<Matrix3>& gradients) {
+  return sweep_all(grid, gradients,
+                   [&](const Stretch& stretch) { update_velocity(update, q, grid, stretch); });
+}
+inline void gather_velocity_gradient(const ShapeFunctions& functions, const Particles& q,
+                                     grid::BlockGrid& grid, std::vector<Matrix3>& gradients) {
+  sweep_all(grid, gradients,
+            [&](const Stretch& stretch) { gather_velocity_gradient(functions, q, grid, stretch); });
 }
 
 /// Particles with random state between two corners; a third of them in one dense block, the rest scattered,

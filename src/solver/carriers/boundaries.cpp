@@ -97,7 +97,7 @@ void ParticleCarrier::remove_outside() {
       const Vector3 velocity = image * state_.particles.velocity[p];
       state_.booked.wall_impulse += state_.particles.mass[p] * (velocity - state_.particles.velocity[p]);
       state_.particles.velocity[p] = velocity;
-      if (!state_.particles.affine_velocity.empty()) {
+      if (state_.carries_affine_fields()) {
         state_.particles.affine_velocity[p] = image * state_.particles.affine_velocity[p] * mirror;
       }
       mirror_tensors(state_.particles, p, mirror);

@@ -62,8 +62,8 @@ std::size_t bytes_of(const Points& points) {
 }
 
 /// Visits the nodes of the elements of a body.
-inline void visit_nodes(const fem::Nodes& nodes, std::size_t body, const State& state,
-                        const std::function<void(const Point& point)>& visit) {
+template <class Visit>
+void visit_nodes(const fem::Nodes& nodes, std::size_t body, const State& state, const Visit& visit) {
   const double sound_speed = state.setup.materials[body]->reference.sound_speed;
   for (std::size_t a = 0; a < nodes.size(); ++a) {
     visit({body, nodes.position[a], nodes.velocity[a], sound_speed, false});

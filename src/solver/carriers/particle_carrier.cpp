@@ -31,18 +31,23 @@ void ParticleCarrier::complete_read(bool extent) {
   state_.find_bodies();
 }
 
-/// @param arrangement  of the particles when the values were found; set to that of now
-std::function<bool(std::size_t)> ParticleCarrier::stays_since(std::size_t& arrangement) const {
-  const grid::BlockGrid& grid = state_.grid;
-  const bool same = std::exchange(arrangement, grid.arrangement()) == grid.arrangement();
-  return [&grid, same](std::size_t chunk) { return same && grid.chunk_rests(chunk); };
+/// Returns for each chunk of particles 1 if it is at rest since its values were found.
+/// @param arrangement  of the particles then; set to that of now
+std::vector<std::uint8_t> ParticleCarrier::stays_since(std::size_t& arrangement) const {
+  const bool same = std::exchange(arrangement, state_.grid.arrangement()) == state_.grid.arrangement();
+  std::vector<std::uint8_t> stays(parallel::chunk_count(state_.particles.size()), 0);
+  if (!same) return stays;
+  parallel::for_each(stays.size(),
+                     [&](std::size_t chunk) { stays[chunk] = state_.grid.chunk_rests(chunk) ? 1 : 0; });
+  return stays;
 }
 
 double ParticleCarrier::fastest() {
   const Particles& particles = state_.particles;
   const Explosives explosives(state_);
+  const std::vector<std::uint8_t> stays = stays_since(fastest_.arrangement);
   parallel::update_chunks(
-      particles.size(), fastest_.values, stays_since(fastest_.arrangement),
+      particles.size(), fastest_.values, [&](std::size_t chunk) { return stays[chunk] != 0; },
       [&](std::size_t begin, std::size_t end) {
         double fastest = 0.0;
         for (std::size_t p = begin; p < end; ++p) {
@@ -98,14 +103,16 @@ double ParticleCarrier::largest_speed(const Vector3& frame) {
   const std::vector<Vector3>& velocity = state_.particles.velocity;
   if (frame != frame_of_speeds_) largest_squares_.arrangement = 0;
   frame_of_speeds_ = frame;
-  parallel::update_chunks(velocity.size(), largest_squares_.values, stays_since(largest_squares_.arrangement),
-                          [&](std::size_t begin, std::size_t end) {
-                            double largest = 0.0;
-                            for (std::size_t p = begin; p < end; ++p) {
-                              largest = std::max(largest, (velocity[p] - frame).squaredNorm());
-                            }
-                            return largest;
-                          });
+  const std::vector<std::uint8_t> stays = stays_since(largest_squares_.arrangement);
+  parallel::update_chunks(
+      velocity.size(), largest_squares_.values, [&](std::size_t chunk) { return stays[chunk] != 0; },
+      [&](std::size_t begin, std::size_t end) {
+        double largest = 0.0;
+        for (std::size_t p = begin; p < end; ++p) {
+          largest = std::max(largest, (velocity[p] - frame).squaredNorm());
+        }
+        return largest;
+      });
   double largest = 0.0;
   for (const double of_chunk : largest_squares_.values) largest = std::max(largest, of_chunk);
   return std::sqrt(largest);

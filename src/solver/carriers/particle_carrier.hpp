@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -53,7 +54,7 @@ class ParticleCarrier : public Carrier {
     std::vector<Value> values;
     std::size_t arrangement = 0;  // of the particles then
   };
-  [[nodiscard]] std::function<bool(std::size_t)> stays_since(std::size_t& arrangement) const;
+  [[nodiscard]] std::vector<std::uint8_t> stays_since(std::size_t& arrangement) const;
   void require_fields(bool extent) const;
   /// Removes particles, numbers ascending, and counts them as outflow.
   void remove_as_outflow(const std::vector<std::uint32_t>& leaving);

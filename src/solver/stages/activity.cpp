@@ -79,7 +79,7 @@ bool Activity::is_restless(std::size_t p) const {
   const double speed = tolerance * sound_speed;
   // The negations also catch NaN.
   if (!(state_.particles.velocity[p].cwiseAbs().maxCoeff() <= speed)) return true;
-  if (!state_.particles.affine_velocity.empty() &&
+  if (state_.carries_affine_fields() &&
       !(state_.setup.domain.cell_size * state_.particles.affine_velocity[p].cwiseAbs().maxCoeff() <= speed)) {
     return true;
   }

@@ -10,7 +10,7 @@
 
 namespace whipple::solver {
 
-ContactStage::ContactStage(State& state, Hexahedra& hexahedra, transfer::GridUpdate& grid_update)
+ContactStage::ContactStage(State& state, Hexahedra& hexahedra, contact::GridUpdate& grid_update)
     : state_(state), hexahedra_(hexahedra), with_images_(grid_update.mirror_contact()) {
   const cases::ContactControl& control = state_.setup.contact;
   const cases::ContactFields& fields = state_.setup.contact_fields;

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "src/contact/contact.hpp"
+#include "src/contact/grid_update.hpp"
 #include "src/solver/carriers/hexahedra.hpp"
 #include "src/solver/state.hpp"
 #include "src/transfer/conduction.hpp"
-#include "src/transfer/grid_update.hpp"
 
 namespace whipple::solver {
 
@@ -18,7 +18,7 @@ namespace whipple::solver {
 class ContactStage {
  public:
   /// @param grid_update  applies the contact with images
-  ContactStage(State& state, Hexahedra& hexahedra, transfer::GridUpdate& grid_update);
+  ContactStage(State& state, Hexahedra& hexahedra, contact::GridUpdate& grid_update);
 
   /// Returns whether a body is one with its image at a face, as the field that it moves in is.
   [[nodiscard]] bool is_one_with_image(std::size_t body, std::size_t face) const;
@@ -53,12 +53,12 @@ class ContactStage {
 
   State& state_;
   Hexahedra& hexahedra_;
-  transfer::MirrorContact& with_images_;
+  contact::MirrorContact& with_images_;
   std::optional<contact::Contact>
       contact_;                            // if bodies have velocity fields of their own, or divide at cracks
   std::optional<contact::Cracks> cracks_;  // of bodies that divide at them
   std::vector<std::uint8_t> field_of_body_;
-  std::optional<transfer::FirstTouches> first_touches_;
+  std::optional<contact::FirstTouches> first_touches_;
   bool surfaces_found_ = false;              // in the step under way
   std::vector<std::uint8_t> field_;          // of each particle
   std::vector<std::uint8_t> field_of_node_;  // of each node of elements that moves with the grid

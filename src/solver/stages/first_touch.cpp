@@ -8,7 +8,7 @@ namespace whipple::solver {
 namespace {
 
 /// A step that is longer than the first by no more than this counts as small.
-constexpr double tolerance = 1.01;
+constexpr double small_step_ratio = 1.01;
 
 }  // namespace
 
@@ -19,10 +19,10 @@ void ContactStage::watch_touches(double accurate_step) {
 
 void ContactStage::foresee_touches(double accurate_step) {
   if (!contact_ && !may_meet_images()) return;
-  const transfer::FirstTouches::Outcome seen = first_touches_->end_step(state_.communicator);
+  const contact::FirstTouches::Outcome seen = first_touches_->end_step(state_.communicator);
   state_.run.touched = first_touches_->words();
   const double begin = state_.run.time - state_.run.time_step;
-  const bool too_long = state_.run.time_step > tolerance * state_.setup.time.first_step * accurate_step;
+  const bool too_long = state_.run.time_step > small_step_ratio * state_.setup.time.first_step * accurate_step;
   state_.run.first_touch = seen.hard && too_long ? state_.run.time
                            : seen.next < 1e300   ? begin + seen.next
                                                  : 1e300;

@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
-#include <mutex>
+#include <numeric>
 #include <utility>
 #include <vector>
 
+#include "src/core/base/simd.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/parallel/threads.hpp"
 #include "src/solver/carriers/domains.hpp"
@@ -31,6 +31,15 @@ UpdateSettings update_settings(const State& state, std::size_t body) {
 }
 
 namespace {
+
+/// Returns the part of the artificial viscosity of particles that heats in this case.
+HeatingViscosity heating_viscosity(const State& state) {
+  using enum HeatingViscosity;
+  if (!state.keeps_losses()) return not_distinguished;
+  const bool by_field =
+      state.particle_affine_inertia() > 0.0 && state.setup.dissipation.affine_compression > 0.0;
+  return by_field ? of_affine_field : whole;
+}
 
 /// tr C of the particles of a list, 1/s.
 std::span<const double> affine_divergence(const Particles& particles, std::span<const std::uint32_t> list) {
@@ -95,83 +104,104 @@ std::string SqueezedPoints::fault(MPI_Comm communicator,
   return {};
 }
 
-void MaterialStage::update(std::string_view stage, Energy energy,
-                           const std::function<void(const transfer::TakeGradients&)>& gather) {
-  using Clock = std::chrono::steady_clock;
-  std::vector<UpdateSettings> settings;
-  for (std::size_t b = 0; b < state_.bodies.size(); ++b) settings.push_back(update_settings(state_, b));
-  std::vector<MaterialReport> reports(state_.bodies.size());
-  std::vector<std::pair<std::uint32_t, double>> dissipations;  // J, by the first particle of each list
-  std::size_t limited_domains = 0, held_pressures = 0;
-  Clock::duration in_material{};  // of all threads
-  std::mutex mutex;
-  const bool has_affine_field = state_.keeps_losses() && state_.particle_affine_inertia() > 0.0;
-  std::vector<char> deforming;
+MaterialStage::MaterialStage(State& state, const Activity& activity) : state_(state), activity_(activity) {}
+
+void MaterialStage::begin(Energy energy, std::size_t stretches) {
+  energy_ = energy;
+  of_body_.clear();
   for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
-    deforming.push_back(domains::follow_deformation(state_, b) ? 1 : 0);
+    UpdateSettings settings = update_settings(state_, b);
+    settings.heating = heating_viscosity(state_);
+    of_body_.push_back({.settings = settings, .deforms_domains = domains::follow_deformation(state_, b)});
   }
-  const std::vector<std::uint32_t>& flying = activity_.flying();
-  const auto take = [&](std::span<const std::uint32_t> particles,
-                        std::span<const Matrix3> gradients) -> double {
-    const Clock::time_point begin = Clock::now();
-    std::size_t limited = 0, held = 0;
-    double plastic_work = 0.0;  // apart from the report, which other threads add to in any order
-    for (std::size_t first = 0, end = 0; first < particles.size(); first = end) {
-      const std::uint32_t body = state_.particles.body[particles[first]];
-      for (end = first + 1; end < particles.size() && state_.particles.body[particles[end]] == body;) ++end;
-      const auto list = particles.subspan(first, end - first);
-      const auto of_list = gradients.subspan(first, end - first);
-      const Material& material = *state_.setup.materials[body];
-      if (deforming[body] != 0) limited += domains::deform(state_, list, of_list);
-      UpdateSettings of_body = settings[body];
-      if (has_affine_field) of_body.affine_divergence = affine_divergence(state_.particles, list);
-      MaterialReport report =
-          energy == Energy::by_work_identity
-              ? whipple::update_material(material, state_.particles, list, of_list, of_body)
-              : update_material_and_energy(material, state_.particles, list, of_list, of_body);
-      // Only the work identity knows the work of a stress that the constitutive model did not make.
-      if (deforming[body] != 0 && energy == Energy::by_work_identity) {
-        held += domains::hold_back_pressure(state_.particles, list, state_, body);
-      }
-      plastic_work += std::exchange(report.plastic_work, 0.0);
-      const double dissipated = std::exchange(report.dissipation, 0.0);
-      const std::lock_guard lock(mutex);
-      reports[body].merge(report);
-      if (dissipated != 0.0) dissipations.emplace_back(list.front(), dissipated);
+  sums_ = {};
+  sums_.reports.resize(state_.bodies.size());
+  sums_.plastic_work.resize(stretches);
+}
+
+void MaterialStage::update(const transfer::Stretch& stretch) {
+  // The reference knows single points only.
+  const std::size_t size = stretch.particles.size(), batch = kernel_set() == KernelSet::plain ? 1 : size;
+  double plastic_work = 0.0;
+  for (std::size_t first = 0; first < size; first += batch) {
+    plastic_work += update(stretch.particles.subspan(first, batch), stretch.gradients.subspan(first, batch));
+  }
+  sums_.plastic_work[stretch.number] = plastic_work;
+}
+
+/// Updates the material of some particles, body by body.
+/// @returns their plastic work (J), apart from the reports, which other threads add to in any order
+double MaterialStage::update(std::span<const std::uint32_t> particles, std::span<const Matrix3> gradients) {
+  const Clock::time_point begin = Clock::now();
+  std::size_t limited = 0, held = 0;
+  double plastic_work = 0.0;
+  for (std::size_t first = 0, end = 0; first < particles.size(); first = end) {
+    const std::uint32_t body = state_.particles.body[particles[first]];
+    for (end = first + 1; end < particles.size() && state_.particles.body[particles[end]] == body;) ++end;
+    const auto list = particles.subspan(first, end - first);
+    const auto of_list = gradients.subspan(first, end - first);
+    const Material& material = *state_.setup.materials[body];
+    const bool deforms_domains = of_body_[body].deforms_domains;
+    if (deforms_domains) limited += domains::deform(state_, list, of_list);
+    UpdateSettings settings = of_body_[body].settings;
+    if (settings.heating == HeatingViscosity::of_affine_field) {
+      settings.affine_divergence = affine_divergence(state_.particles, list);
     }
-    const std::lock_guard lock(mutex);
-    limited_domains += limited;
-    held_pressures += held;
-    in_material += Clock::now() - begin;
-    return plastic_work;
+    MaterialReport report =
+        energy_ == Energy::by_work_identity
+            ? whipple::update_material(material, state_.particles, list, of_list, settings)
+            : update_material_and_energy(material, state_.particles, list, of_list, settings);
+    // Only the work identity knows the work of a stress that the constitutive model did not make.
+    if (deforms_domains && energy_ == Energy::by_work_identity) {
+      held += domains::hold_back_pressure(state_.particles, list, state_, body);
+    }
+    plastic_work += std::exchange(report.plastic_work, 0.0);
+    const double dissipated = std::exchange(report.dissipation, 0.0);
+    const std::lock_guard lock(mutex_);
+    sums_.reports[body].merge(report);
+    if (dissipated != 0.0) sums_.dissipations.emplace_back(list.front(), dissipated);
+  }
+  const std::lock_guard lock(mutex_);
+  sums_.limited_domains += limited;
+  sums_.held_pressures += held;
+  sums_.in_material += Clock::now() - begin;
+  return plastic_work;
+}
+
+void MaterialStage::end(std::string_view stage) {
+  const std::vector<std::uint32_t>& flying = activity_.flying();
+  parallel::for_each_chunk(flying.size(), [&](std::size_t begin, std::size_t end) {
+    const std::vector<Matrix3> none(end - begin, Matrix3::Zero());
+    update(std::span(flying).subspan(begin, end - begin), none);  // without strain, so without plastic work
+  });
+  const std::string error = account();
+  state_.profile.reassign(stage, "material",
+                          std::chrono::duration<double>(sums_.in_material).count() / parallel::threads());
+  parallel::throw_together(state_.communicator, error);
+}
+
+/// Adds the sums of an update to what the step did.
+/// @returns an error that ends the run, or nothing. Collective.
+std::string MaterialStage::account() {
+  state_.booked.plastic_work += std::accumulate(sums_.plastic_work.begin(), sums_.plastic_work.end(), 0.0);
+  state_.booked.limited_domains += static_cast<double>(sums_.limited_domains);
+  state_.booked.held_pressures += static_cast<double>(sums_.held_pressures);
+  std::ranges::sort(sums_.dissipations);  // so that the sum does not depend on the order of threads
+  for (const auto& [first, dissipated] : sums_.dissipations) state_.booked.dissipation += dissipated;
+  SqueezedPoints squeezed(state_.bodies.size());
+  const auto describe = [&](std::size_t p, const std::string& reason) {
+    return state_.describe_particle(p, state_.run.time + state_.run.time_step, reason);
   };
   std::string error;
-  state_.profile.time(stage, [&] {
-    gather(take);
-    parallel::for_each_chunk(flying.size(), [&](std::size_t begin, std::size_t end) {
-      const std::vector<Matrix3> none(end - begin, Matrix3::Zero());
-      take(std::span(flying).subspan(begin, end - begin), none);  // without strain, so without plastic work
-    });
-    state_.booked.limited_domains += static_cast<double>(limited_domains);
-    state_.booked.held_pressures += static_cast<double>(held_pressures);
-    std::ranges::sort(dissipations);  // so that the sum does not depend on the order of threads
-    for (const auto& [first, dissipated] : dissipations) state_.booked.dissipation += dissipated;
-    SqueezedPoints squeezed(state_.bodies.size());
-    const auto describe = [&](std::size_t p, const std::string& reason) {
-      return state_.describe_particle(p, state_.run.time + state_.run.time_step, reason);
-    };
-    for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
-      state_.rates.compression = std::max(state_.rates.compression, reports[b].compression_rate);
-      const std::string of_body = book(state_, reports[b], *state_.setup.materials[b], describe);
-      if (error.empty()) error = of_body;
-      squeezed.add(b, reports[b], describe);
-    }
-    const std::string too_dense = squeezed.fault(state_.communicator, state_.setup.materials);
-    if (error.empty()) error = too_dense;
-  });
-  state_.profile.reassign(stage, "material",
-                          std::chrono::duration<double>(in_material).count() / parallel::threads());
-  parallel::throw_together(state_.communicator, error);
+  for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
+    const MaterialReport& report = sums_.reports[b];
+    state_.rates.compression = std::max(state_.rates.compression, report.compression_rate);
+    const std::string of_body = book(state_, report, *state_.setup.materials[b], describe);
+    if (error.empty()) error = of_body;
+    squeezed.add(b, report, describe);
+  }
+  const std::string too_dense = squeezed.fault(state_.communicator, state_.setup.materials);
+  return error.empty() ? too_dense : error;
 }
 
 }  // namespace whipple::solver

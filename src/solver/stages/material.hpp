@@ -3,18 +3,22 @@
 
 #include <mpi.h>
 
+#include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "src/material/update.hpp"
 #include "src/solver/stages/activity.hpp"
 #include "src/solver/state.hpp"
-#include "src/transfer/grid_to_particles.hpp"
+#include "src/transfer/sweep.hpp"
 
 /// The constitutive half of the step (docs/theory/material.md).
 namespace whipple::solver {
@@ -45,24 +49,49 @@ class SqueezedPoints {
   std::vector<std::function<std::string(const std::string& reason)>> first_;  // that tell of the first one
 };
 
-/// Constitutive update of the particles, each as soon as it has its velocity gradient.
+/// Constitutive update of the particles of a step, stretch by stretch as they get their velocity gradients: `begin`,
+/// `update` for every stretch on any thread, `end`.
 class MaterialStage {
  public:
-  MaterialStage(State& state, const Activity& activity) : state_(state), activity_(activity) {}
+  MaterialStage(State& state, const Activity& activity);
 
   /// Source of the internal energy of a particle.
-  enum class Energy { by_work_identity, by_constitutive_model };
+  enum class Energy : std::uint8_t { by_work_identity, by_constitutive_model };
 
-  /// Updates the material of all particles.
-  /// @param stage   what the time of the gather belongs to
-  /// @param gather  gather(take) hands the velocity gradients on
+  /// Begins an update of all particles on the grid.
+  /// @param stretches  number of stretches that follow
+  void begin(Energy energy, std::size_t stretches);
+  /// Updates the material of the particles of a stretch by their velocity gradients; by several threads at a time.
+  void update(const transfer::Stretch& stretch);
+  /// Updates the material of the particles that fly without the grid, hence without strain, and accounts for what the
+  /// whole update did. Moves the time that it took from a stage of the profile to "material". Collective.
   /// @throws StateError on all ranks, if a state is undefined or out of range on any
-  void update(std::string_view stage, Energy energy,
-              const std::function<void(const transfer::TakeGradients& take)>& gather);
+  void end(std::string_view stage);
 
  private:
+  using Clock = std::chrono::steady_clock;
+  /// Sums over the particles of an update, by all threads.
+  struct Sums {
+    std::vector<MaterialReport> reports;                         // of each body
+    std::vector<std::pair<std::uint32_t, double>> dissipations;  // J, by the first particle of each list
+    std::vector<double> plastic_work;                            // J, of each stretch
+    std::size_t limited_domains = 0, held_pressures = 0;
+    Clock::duration in_material{};
+  };
+  /// What a body asks of its update.
+  struct OfBody {
+    UpdateSettings settings;
+    bool deforms_domains;  // as domains::follow_deformation
+  };
+  double update(std::span<const std::uint32_t> particles, std::span<const Matrix3> gradients);
+  [[nodiscard]] std::string account();
+
   State& state_;
   const Activity& activity_;
+  Energy energy_ = Energy::by_work_identity;
+  std::vector<OfBody> of_body_;
+  Sums sums_;
+  std::mutex mutex_;  // of `sums_`
 };
 
 }  // namespace whipple::solver

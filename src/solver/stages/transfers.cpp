@@ -46,7 +46,8 @@ Transfers::Transfers(State& state, const Loads& loads, const Activity& activity)
          .linear_viscosity = viscosity.linear,
          .quadratic_viscosity = viscosity.quadratic});
   }
-  losses_ = {.kept = control.keeps_losses(),
+  losses_ = {.become = control.keeps_losses() ? transfer::LossesBecome::unresolved_energy
+                                              : transfer::LossesBecome::heat,
              .heat_share = control.heat_share,
              .allowance_length = control.allowance_time * state_.setup.domain.cell_size,
              .collision_rate = control.collision_rate,
@@ -83,36 +84,29 @@ void Transfers::conduct_heat(const transfer::TouchAtNode& touch) {
   });
 }
 
-void Transfers::to_grid(const std::function<void()>& send) {
-  state_.profile.time("particles to grid", [&] {
-    const bool with_nodes = state_.transition.size() > 0;
-    transfer::particles_to_grid(state_.functions(), state_.particles, state_.grid, acceleration_,
-                                with_nodes ? std::function<void()>() : send);
-    if (with_nodes) {
-      transfer::nodes_to_grid(state_.shape, state_.transition, state_.grid);
-      send();
-    }
-  });
-  if (state_.setup.geometry.is_axisymmetric()) {
-    state_.booked.wall_impulse[1] -=
-        state_.run.time_step * transfer::hoop_force(state_.particles, state_.grid);
+void Transfers::to_grid(transfer::Region region) {
+  transfer::particles_to_grid(state_.functions(), state_.particles, state_.grid, region, acceleration_);
+  if (state_.transition.size() > 0) {
+    transfer::nodes_to_grid(state_.shape, state_.transition, state_.grid, region);
   }
 }
 
-void Transfers::momentum_to_grid(const std::function<void()>& send) {
-  state_.profile.time("momentum to grid", [&] {
-    transfer::momentum_to_grid(state_.shape, state_.particles, state_.particles.velocity, state_.grid, send);
-    grid_update_.begin_velocity_from_momentum(state_.grid);
-  });
+void Transfers::account_for_hoops() {
+  if (!state_.setup.geometry.is_axisymmetric()) return;
+  state_.booked.wall_impulse[1] -= state_.run.time_step * transfer::hoop_force(state_.particles, state_.grid);
 }
 
-void Transfers::advance_grid(const std::function<void()>& contact) {
-  state_.profile.time("grid", [&] {
-    const transfer::GridBalance balance = grid_update_.begin_advance(
-        state_.grid, state_.run.time_step, relaxation(state_.setup.transfer), contact);
-    state_.booked.wall_impulse += balance.wall_impulse;
-  });
+void Transfers::clear_momentum() { transfer::clear_momentum(state_.grid); }
+
+void Transfers::momentum_to_grid(transfer::Region region) {
+  transfer::momentum_to_grid(state_.shape, state_.particles, state_.particles.velocity, state_.grid, region);
 }
+
+void Transfers::solve_momentum() {
+  grid_update_.solve_momentum(state_.grid, state_.run.time_step, relaxation(state_.setup.transfer));
+}
+
+void Transfers::share_step() { state_.booked.wall_impulse += grid_update_.share_step(state_.grid); }
 
 void Transfers::apply_full_mass_matrix() {
   if (state_.setup.transfer.particle_update != cases::ParticleUpdate::fmpm) return;
@@ -125,54 +119,55 @@ void Transfers::apply_full_mass_matrix() {
 }
 
 void Transfers::receive() {
-  state_.booked.wall_impulse += grid_update_.finish(state_.grid);
+  state_.booked.wall_impulse += grid_update_.receive(state_.grid);
   state_.booked.contact_heat += grid_update_.take_contact_heat();
 }
 
-void Transfers::to_particles(const transfer::TakeGradients& take, const std::function<void()>& receive) {
-  const double dt = state_.run.time_step;
-  const transfer::AffineField affine = affine_field(state_.setup.transfer);
-  const transfer::TransferBalance balance = transfer::grid_to_particles(
-      state_.functions(), state_.particles, state_.grid, dt, affine, losses_, take, acceleration_, receive);
+void Transfers::to_particles(const transfer::Stretch& stretch) {
+  transfer::grid_to_particles({.functions = state_.functions(),
+                               .dt = state_.run.time_step,
+                               .affine = affine_field(state_.setup.transfer),
+                               .losses = losses_,
+                               .acceleration = acceleration_},
+                              state_.particles, state_.grid, stretch);
+}
+
+void Transfers::velocity_to_particles(const transfer::Stretch& stretch, transfer::Gradients gradients) {
+  transfer::update_velocity({.functions = state_.functions(),
+                             .dt = state_.run.time_step,
+                             .relaxation = relaxation(state_.setup.transfer).fixed,
+                             .gradients = gradients,
+                             .acceleration = acceleration_},
+                            state_.particles, state_.grid, stretch);
+}
+
+void Transfers::gradient_to_particles(const transfer::Stretch& stretch) {
+  transfer::gather_velocity_gradient(state_.functions(), state_.particles, state_.grid, stretch);
+}
+
+void Transfers::account_for(const transfer::TransferBalance& balance) {
   Ledger& booked = state_.booked;
   booked.work += balance.work;
   booked.viscous_work += balance.viscous_work;
-  booked.plastic_work += balance.plastic_work;
   booked.transfer_heat += balance.heat;
   booked.unresolved_kept += balance.kept;
   booked.unresolved_returned += balance.returned;
   booked.external_work += balance.external_work;
   state_.rates.squared_change = balance.squared_change;
-  if (state_.transition.size() > 0) {
-    transfer::grid_to_nodes(state_.functions(), state_.transition, state_.grid, dt, affine);
-  }
-  fly();
-  if (!losses_.kept) return;
-  for (const std::uint32_t p : activity_.flying()) state_.particles.closing_rate[p] = 0.0;
 }
 
-void Transfers::velocity_to_particles(const transfer::TakeGradients& take,
-                                      const std::function<void()>& receive) {
-  const transfer::TransferBalance balance =
-      transfer::update_velocity(state_.functions(), state_.particles, state_.grid, state_.run.time_step,
-                                relaxation(state_.setup.transfer).fixed, take, acceleration_, receive);
-  state_.booked.external_work += balance.external_work;
-  state_.booked.plastic_work += balance.plastic_work;
-  state_.rates.squared_change = balance.squared_change;
-  fly();
+void Transfers::to_nodes() {
+  if (state_.transition.size() == 0) return;
+  transfer::grid_to_nodes(state_.functions(), state_.transition, state_.grid, state_.run.time_step,
+                          affine_field(state_.setup.transfer));
 }
 
-void Transfers::gradient_to_particles(const transfer::TakeGradients& take,
-                                      const std::function<void()>& receive) {
-  state_.booked.plastic_work +=
-      transfer::gather_velocity_gradient(state_.functions(), state_.particles, state_.grid, take, receive);
-}
-
-/// Moves the particles that fly without the grid.
 void Transfers::fly() {
   for (const std::uint32_t p : activity_.flying()) {
     state_.particles.position[p] += state_.run.time_step * state_.particles.velocity[p];
   }
+  if (losses_.become == transfer::LossesBecome::heat) return;
+  for (const std::uint32_t p : activity_.flying()) state_.particles.closing_rate[p] = 0.0;
 }
 
 }  // namespace whipple::solver

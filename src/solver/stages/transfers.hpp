@@ -1,29 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <functional>
 #include <vector>
 
+#include "src/contact/grid_update.hpp"
 #include "src/solver/loads.hpp"
 #include "src/solver/stages/activity.hpp"
 #include "src/solver/stages/drive.hpp"
+#include "src/solver/stages/full_mass_matrix.hpp"
 #include "src/solver/state.hpp"
 #include "src/transfer/conduction.hpp"
-#include "src/transfer/full_mass_matrix.hpp"
 #include "src/transfer/grid_to_particles.hpp"
-#include "src/transfer/grid_update.hpp"
 #include "src/transfer/shock_conduction.hpp"
+#include "src/transfer/sweep.hpp"
 
 namespace whipple::solver {
 
 /// Transfers between particles, nodes of elements and the grid, and the momentum equation on the grid
 /// (docs/theory/mpm.md, 3 to 5; docs/theory/dissipation.md). What the nodes of a rank's border receive from other ranks
-/// is under way while the interior is worked on: `send_*` starts it, `receive` waits for it.
+/// is under way while the interior is worked on: `send_*`, `share_step` and `solve_velocity` start it, `receive` waits for it.
 class Transfers {
  public:
   Transfers(State& state, const Loads& loads, const Activity& activity);
 
-  [[nodiscard]] transfer::GridUpdate& grid_update() { return grid_update_; }
+  [[nodiscard]] contact::GridUpdate& grid_update() { return grid_update_; }
 
   /// Evaluates the accelerations of particles by loads in this step, and accumulates their impulse.
   void evaluate_loads();
@@ -32,45 +32,54 @@ class Transfers {
   /// Conducts heat between particles.
   void conduct_heat(const transfer::TouchAtNode& touch);
 
-  /// Adds mass, momentum and forces of particles and nodes of elements to the grid.
-  /// @param send  called once the border has all that this rank gives to it
-  void to_grid(const std::function<void()>& send);
-  /// Adds mass and momentum of particles to the grid and divides them; the velocities of nodes are then sent to the
-  /// ranks that use them.
-  /// @param send  as of `to_grid`
-  void momentum_to_grid(const std::function<void()>& send);
-  /// Sends the sums of the border to the owners of its nodes: mass and momentum.
-  void send_momentum() { grid_update_.send(state_.grid, grid::BlockGrid::Part::first); }
-  /// Sends forces, too.
+  /// Clears the nodes, before `to_grid`.
+  void clear_grid() { state_.grid.clear(); }
+  /// Adds mass, momentum and forces of the particles and nodes of elements of a region to the grid.
+  void to_grid(transfer::Region region);
+  /// Accumulates what changes the momentum of rings: the force of their hoop stress towards the axis.
+  void account_for_hoops();
+  /// Sends the sums of the border to the owners of its nodes.
   void send_sums() { grid_update_.send(state_.grid, grid::BlockGrid::Part::both); }
 
-  /// Advances the velocities of the nodes; their results are then sent to the ranks that use them.
-  /// @param contact  called when the nodes of this rank have their velocity without contact
-  void advance_grid(const std::function<void()>& contact);
+  /// Clears mass and momentum of the nodes, before `momentum_to_grid`.
+  void clear_momentum();
+  /// Adds mass and momentum of the particles of a region to the grid.
+  void momentum_to_grid(transfer::Region region);
+  /// Sends the mass and momentum of the border to the owners of its nodes.
+  void send_momentum() { grid_update_.send(state_.grid, grid::BlockGrid::Part::first); }
+  /// Divides the momentum of the nodes by their mass and sends the velocities to the ranks that use them.
+  void solve_velocity() { grid_update_.solve_velocity(state_.grid); }
+
+  /// Advances the velocities of the nodes of this rank, without contact of bodies.
+  void solve_momentum();
+  /// Sends the step of the nodes to the ranks that use them.
+  void share_step();
   /// Inverts the full mass matrix where the case asks for it (FMPM).
   void apply_full_mass_matrix();
   /// Receives the results of nodes that other ranks own, at the latest when the particles of the border need them.
   void receive();
 
-  /// Updates velocity, affine field, energy and position of particles and nodes of elements by the grid.
-  /// @param take     gets the velocity gradients of particles, for the constitutive update
-  /// @param receive  called before the border is gathered
-  void to_particles(const transfer::TakeGradients& take, const std::function<void()>& receive);
-  /// Updates velocity and position of particles by the grid.
-  /// @param take     gets the velocity gradients, if not empty
-  void velocity_to_particles(const transfer::TakeGradients& take, const std::function<void()>& receive);
-  /// Gathers the velocity gradients only.
-  void gradient_to_particles(const transfer::TakeGradients& take, const std::function<void()>& receive);
-
- private:
+  /// Updates velocity, affine field, energy and position of the particles of a stretch by the grid; leaves their velocity
+  /// gradients in it.
+  void to_particles(const transfer::Stretch& stretch);
+  /// Updates velocity and position of the particles of a stretch by the grid; leaves what is asked for in it.
+  void velocity_to_particles(const transfer::Stretch& stretch, transfer::Gradients gradients);
+  /// Gathers the velocity gradients of the particles of a stretch.
+  void gradient_to_particles(const transfer::Stretch& stretch);
+  /// Accumulates the work and losses of a sweep, and takes the largest change of a velocity.
+  void account_for(const transfer::TransferBalance& balance);
+  /// Updates velocity, affine field and position of the nodes of elements by the grid.
+  void to_nodes();
+  /// Moves the particles that fly without the grid.
   void fly();
 
+ private:
   State& state_;
   const Loads& loads_;
   const Activity& activity_;
   Drive drive_;
-  transfer::GridUpdate grid_update_;
-  transfer::FullMassMatrix full_mass_matrix_;
+  contact::GridUpdate grid_update_;
+  FullMassMatrix full_mass_matrix_;
   transfer::Losses losses_;
   std::vector<transfer::ShockConductivity> shock_conductivity_;  // of each body
   std::vector<Vector3> acceleration_;  // of particles by loads in this step; empty without

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/transfer/mirror_contact.hpp"
+#include "src/contact/mirror_contact.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,15 +7,17 @@
 
 #include "src/core/base/vector_math.hpp"
 #include "src/core/parallel/threads.hpp"
+#include "src/transfer/momentum.hpp"
 
-namespace whipple::transfer {
+namespace whipple::contact {
 namespace {
 
 using grid::BlockGrid;
 using grid::Node;
 using grid::nodes_per_block;
+using transfer::is_among;
+using transfer::no_mass;
 
-constexpr double no_mass = 1e-300;  // kg
 /// Material that comes as near as this (cells) to a wall that it sticks to has arrived.
 constexpr double sticking_gap = 0.04;
 
@@ -202,7 +204,8 @@ Lanes MirrorContact::part_of_node(const Plane& plane, const Couple& couple, doub
 
 /// Assigns one beta to all images of a node where planes intersect: otherwise the coupling at one plane would
 /// change with the next one. (beta has no effect at nodes with an independent step.)
-void MirrorContact::join_relaxation_at_corners(std::span<Node> nodes, const Among& among) {
+void MirrorContact::join_relaxation_at_corners(BlockGrid& grid, transfer::Nodes which) {
+  const std::span<Node> nodes = grid.all_nodes();
   joint_mass_.resize(heat_.size());
   const auto mass_of = [&](std::uint32_t node) -> double& {
     return joint_mass_[place(node) / lanes_per_node];
@@ -217,7 +220,7 @@ void MirrorContact::join_relaxation_at_corners(std::span<Node> nodes, const Amon
   for (const Plane& plane : planes_) {
     for (const std::uint32_t c : plane.at_corners) {
       const Couple& couple = plane.couples[c];
-      if (couple.node == couple.mirror || !among(couple.node)) continue;
+      if (couple.node == couple.mirror || !is_among(grid, couple.node, which)) continue;
       double &mass = mass_of(couple.node), &other_mass = mass_of(couple.mirror);
       if (mass < no_mass || other_mass < no_mass) continue;
       Lanes &first = nodes[couple.node].motion.velocity_and_relaxation,
@@ -283,30 +286,31 @@ double MirrorContact::meet(const Plane& plane, const Couple& couple, std::span<N
   return share;
 }
 
-void MirrorContact::apply(BlockGrid& grid, double dt, const Among& among) {
+void MirrorContact::apply(BlockGrid& grid, double dt, transfer::Nodes which) {
   if (planes_.empty()) return;
   const std::span<Node> nodes = grid.all_nodes();
-  join_relaxation_at_corners(nodes, among);
+  join_relaxation_at_corners(grid, which);
   for (Plane& plane : planes_) {
     parallel::for_each(plane.couples.size(), [&](std::size_t i) {
-      if (among(plane.couples[i].node)) plane.share[i] = meet(plane, plane.couples[i], nodes, dt);
+      if (is_among(grid, plane.couples[i].node, which))
+        plane.share[i] = meet(plane, plane.couples[i], nodes, dt);
     });
     made_heat_ = made_heat_ || std::ranges::any_of(plane.share, [](double share) { return share > 0.0; });
   }
   for (const Couple& pair : folded_) {
-    if (among(pair.node))
+    if (is_among(grid, pair.node, which))
       heat_[place(pair.node) / lanes_per_node] = heat_[place(pair.mirror) / lanes_per_node];
   }
   shares_known_ = true;
 }
 
-void MirrorContact::apply_to_velocities(BlockGrid& grid, const Among& among) {
+void MirrorContact::apply_to_velocities(BlockGrid& grid, transfer::Nodes which) {
   const std::span<Node> nodes = grid.all_nodes();
   for (Plane& plane : planes_) {
     const Lanes mixed = reversed(plane.of), sign = 1.0 - 2.0 * mixed;
     parallel::for_each(plane.couples.size(), [&](std::size_t i) {
       const Couple& couple = plane.couples[i];
-      if (!among(couple.node)) return;
+      if (!is_among(grid, couple.node, which)) return;
       Lanes& v = nodes[couple.node].motion.velocity_and_relaxation;
       Lanes& of_mirror = nodes[couple.mirror].motion.velocity_and_relaxation;
       const double mass = v[3], other_mass = of_mirror[3];
@@ -328,4 +332,4 @@ void MirrorContact::apply_to_velocities(BlockGrid& grid, const Among& among) {
   }
 }
 
-}  // namespace whipple::transfer
+}  // namespace whipple::contact

@@ -5,15 +5,20 @@
 #include <cmath>
 #include <limits>
 
+#include "src/contact/mirror_contact.hpp"
 #include "src/core/base/vector_math.hpp"
-#include "src/transfer/mirror_contact.hpp"
 #include "src/transfer/shape_function.hpp"
 #include "src/transfer/shape_weights.hpp"
 
-namespace whipple::transfer {
+namespace whipple::contact {
 namespace {
 
 using grid::BlockGrid;
+using transfer::CarriesAffineField;
+using transfer::count_z;
+using transfer::Weights;
+using transfer::weights_at;
+using transfer::with_shape;
 
 /// Points farther than this from a plane, in cells, reach no node whose image they might meet, or are behind
 /// others that do.
@@ -124,7 +129,7 @@ void MirrorContact::extend(const Particles& particles, std::span<const Vector3> 
   });
 }
 
-void MirrorContact::find_surfaces(ShapeFunction shape, const Particles& particles,
+void MirrorContact::find_surfaces(transfer::ShapeFunction shape, const Particles& particles,
                                   std::span<const Vector3> guests, BlockGrid& grid, double dt) {
   shares_known_ = false;
   dt_ = dt;
@@ -137,4 +142,4 @@ void MirrorContact::find_surfaces(ShapeFunction shape, const Particles& particle
   grid.borrow_from_owners(extent_);
 }
 
-}  // namespace whipple::transfer
+}  // namespace whipple::contact

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/transfer/first_touches.hpp"
+#include "src/contact/first_touches.hpp"
 
 #include <algorithm>
 
 #include "src/core/parallel/mpi.hpp"
 
-namespace whipple::transfer {
+namespace whipple::contact {
 namespace {
 
 constexpr double none = 1e300, touches = 0.0;
@@ -62,4 +62,4 @@ FirstTouches::Outcome FirstTouches::end_step(MPI_Comm communicator) {
   return outcome;
 }
 
-}  // namespace whipple::transfer
+}  // namespace whipple::contact

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include "src/contact/first_touches.hpp"
 #include "src/core/parallel/mpi.hpp"
-#include "src/transfer/first_touches.hpp"
 
-namespace whipple::transfer {
+namespace whipple::contact {
 namespace {
 
 TEST(FirstTouches, TellsTheNextTouchAndForgetsWhatHasTouched) {
@@ -44,4 +44,4 @@ TEST(FirstTouches, TellsTheNextTouchAndForgetsWhatHasTouched) {
 }
 
 }  // namespace
-}  // namespace whipple::transfer
+}  // namespace whipple::contact

@@ -2,17 +2,17 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
 
+#include "src/contact/first_touches.hpp"
 #include "src/grid/block_grid.hpp"
 #include "src/particles/particles.hpp"
-#include "src/transfer/first_touches.hpp"
+#include "src/transfer/mirror_planes.hpp"
 #include "src/transfer/shape_kind.hpp"
 
-namespace whipple::transfer {
+namespace whipple::contact {
 
 /// Contact of material with its own image beyond mirror planes and walls, where it is not one with it
 /// (grid::BlockGrid::bond_at_planes): the image is another body with the reflected nodes (docs/theory/mpm.md,
@@ -22,14 +22,11 @@ namespace whipple::transfer {
 /// active, and computes the contact of the two as the others do, from what their owners tell it.
 class MirrorContact {
  public:
-  /// Predicate: a call concerns this node; equal for a node and its mirror node.
-  using Among = std::function<bool(std::uint32_t node)>;
-
   /// Computes the extent of the material at the nodes near the planes, from particles and from off-grid
   /// points, which have no thickness. Call after `bin` and `separate_fields`; does nothing where all material
   /// is continuous with its images. Collective.
-  void find_surfaces(ShapeFunction shape, const Particles& particles, std::span<const Vector3> guests,
-                     grid::BlockGrid& grid, double dt);
+  void find_surfaces(transfer::ShapeFunction shape, const Particles& particles,
+                     std::span<const Vector3> guests, grid::BlockGrid& grid, double dt);
 
   /// Tells what touches its image from now on; must outlive the calls.
   void watch(FirstTouches& touches) { touches_ = &touches; }
@@ -47,11 +44,11 @@ class MirrorContact {
   void tell_others(grid::BlockGrid& grid);
   /// Changes velocities, increments and relaxation of the nodes that touch their images, and adds the heat of
   /// that to NodeMotion::heat.
-  void apply(grid::BlockGrid& grid, double dt, const Among& among);
+  void apply(grid::BlockGrid& grid, double dt, transfer::Nodes which);
   /// Applies contact to NodeMotion::velocity, with the mass in its last lane: material and image are in
   /// contact for the fractions that `apply` found in this step, or, before it, for those that follow from
   /// their approach.
-  void apply_to_velocities(grid::BlockGrid& grid, const Among& among);
+  void apply_to_velocities(grid::BlockGrid& grid, transfer::Nodes which);
 
   [[nodiscard]] bool made_heat() const { return made_heat_; }
   /// J/kg, by the last `apply`; 0 where it does nothing.
@@ -83,7 +80,7 @@ class MirrorContact {
   [[nodiscard]] bool sticks(const Plane& plane, double gap) const;
   [[nodiscard]] static Lanes part_of_node(const Plane& plane, const Couple& couple, double mass,
                                           double other_mass);
-  void join_relaxation_at_corners(std::span<grid::Node> nodes, const Among& among);
+  void join_relaxation_at_corners(grid::BlockGrid& grid, transfer::Nodes which);
   double meet(const Plane& plane, const Couple& couple, std::span<grid::Node> nodes, double dt);
   template <class Shape>
   void extend(const Particles& particles, std::span<const Vector3> guests, grid::BlockGrid& grid);
@@ -109,4 +106,4 @@ class MirrorContact {
   double dt_ = 0.0;            // s, of this step
 };
 
-}  // namespace whipple::transfer
+}  // namespace whipple::contact

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace whipple::transfer {
+namespace whipple::contact {
 
 /// Record of which velocity fields have touched one another or a face of the domain, and forecast of the next
 /// first contact, at which the time step ends (docs/theory/mpm.md, section 6). Later contacts of the same
@@ -56,4 +56,4 @@ class FirstTouches {
   double dt_ = 0.0, least_speed_ = 0.0;
 };
 
-}  // namespace whipple::transfer
+}  // namespace whipple::contact

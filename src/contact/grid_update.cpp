@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/contact/grid_update.hpp"
+
+#include <utility>
+
+namespace whipple::contact {
+
+using grid::BlockGrid;
+using transfer::Nodes;
+
+/// Contact with the images, then the nodes beyond the planes where material is one with its image.
+void GridUpdate::meet_images(BlockGrid& grid, Nodes which) {
+  mirror_contact_.apply(grid, dt_, which);
+  transfer::MirrorPlanes::copy_back(grid, which);
+  if (!mirror_contact_.made_heat()) return;
+  planes_.add_by_mass(
+      grid, which, [&](std::uint32_t node) { return mirror_contact_.heat_at(node); }, contact_heat_);
+}
+
+/// Applies contact with mirror images again, to velocities computed from momenta.
+void GridUpdate::meet_images_again(BlockGrid& grid, Nodes which) {
+  mirror_contact_.apply_to_velocities(grid, which);
+  transfer::MirrorPlanes::copy_back(grid, which);
+}
+
+void GridUpdate::send(BlockGrid& grid, BlockGrid::Part part) {
+  if (part == BlockGrid::Part::both) planes_.remember(grid, Nodes::awaited);
+  if (grid.awaits()) transfer::MirrorPlanes::fold(grid, Nodes::awaited, part);
+  grid.begin_sum_to_owners(part);
+  sent_ = true;
+}
+
+/// Mass, momentum and perhaps force of all ranks on the nodes of this one, planes folded.
+void GridUpdate::complete_sums(BlockGrid& grid, BlockGrid::Part part) {
+  if (!sent_) send(grid, part);
+  sent_ = false;
+  if (part == BlockGrid::Part::both) planes_.remember(grid, Nodes::others);
+  transfer::MirrorPlanes::fold(grid, Nodes::others, part);
+  grid.finish_sum_to_owners(part);
+}
+
+transfer::NodeEnergies GridUpdate::solve_momentum(BlockGrid& grid, double dt,
+                                                  const transfer::Relaxation& relaxation) {
+  dt_ = dt;
+  complete_sums(grid, BlockGrid::Part::both);
+  mirror_contact_.lay_out(grid);
+  const transfer::NodeEnergies energies =
+      transfer::solve_momentum(grid, dt, relaxation, [&](std::size_t block) {
+        return grid.is_contact_block(block) || mirror_contact_.concerns_block(block);
+      });
+  mirror_contact_.remember(grid);
+  return energies;
+}
+
+Vector3 GridUpdate::share_step(BlockGrid& grid) {
+  mirror_contact_.tell_others(grid);
+  grid.begin_borrow_from_owners(BlockGrid::Part::both);
+  awaiting_ = Awaiting::step;
+  meet_images(grid, Nodes::others);
+  return planes_.impulse(grid, Nodes::others, dt_);
+}
+
+void GridUpdate::solve_velocity(BlockGrid& grid) {
+  complete_sums(grid, BlockGrid::Part::first);
+  mirror_contact_.lay_out(grid);
+  transfer::solve_velocity(grid, [&](std::size_t block) { return mirror_contact_.concerns_block(block); });
+  grid.begin_borrow_from_owners(BlockGrid::Part::first);
+  awaiting_ = Awaiting::velocity;
+  meet_images_again(grid, Nodes::others);
+}
+
+Vector3 GridUpdate::receive(BlockGrid& grid) {
+  const Awaiting awaited = std::exchange(awaiting_, Awaiting::nothing);
+  if (awaited == Awaiting::nothing) return Vector3::Zero();
+  const bool of_step = awaited == Awaiting::step;
+  grid.finish_borrow_from_owners(of_step ? BlockGrid::Part::both : BlockGrid::Part::first);
+  if (!grid.awaits()) return Vector3::Zero();
+  if (!of_step) {
+    meet_images_again(grid, Nodes::awaited);
+    return Vector3::Zero();
+  }
+  meet_images(grid, Nodes::awaited);
+  return planes_.impulse(grid, Nodes::awaited, dt_);
+}
+
+}  // namespace whipple::contact

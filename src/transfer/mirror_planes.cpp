@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/transfer/mirror_planes.hpp"
+
+#include <algorithm>
+#include <span>
+
+#include "src/core/base/vector_math.hpp"
+#include "src/core/parallel/threads.hpp"
+
+namespace whipple::transfer {
+namespace {
+
+using grid::BlockGrid;
+using grid::Node;
+
+/// Sign of the components under reflection, for a vector in lanes 1 to 3 (P2G form) or 0 to 2 (velocity
+/// form).
+Lanes reflection(const grid::MirrorPlane& plane, int first_lane) {
+  Lanes sign = broadcast(1.0);
+  for (int c = 0; c < 3; ++c) {
+    if (plane.kind == grid::Boundary::no_slip || c == plane.axis) sign[first_lane + c] = -1.0;
+  }
+  return sign;
+}
+
+/// The image of a particle brings to node j what the particle brings to the mirror node of j, with the
+/// reflected vector. Real particles only were transferred, so what they brought beyond the plane is folded to
+/// the inside.
+void fold_node(Node& image, const Node& outside, Lanes sign, BlockGrid::Part part) {
+  image.registers.first += sign * outside.registers.first;
+  if (part == BlockGrid::Part::both) image.registers.second += sign * outside.registers.second;
+}
+
+/// On a plane a vector is its own image: the reversed components vanish. Mass and force would double alike.
+void restrict_to_plane(Node& node, Lanes sign, BlockGrid::Part part) {
+  const Lanes keep = 0.5 * (broadcast(1.0) + sign);
+  node.registers.first *= keep;
+  if (part == BlockGrid::Part::both) node.registers.second *= keep;
+}
+
+/// Returns whether the step of a node is exactly that of the contributions of this rank's particles alone.
+bool is_result_of(const Node& node, const Node& brought, double dt) {
+  const double mass = brought.sums.mass();
+  const Lanes velocity = brought.sums.mass_and_momentum / mass,
+              increment = brought.sums.sound_and_force * (dt / mass);
+  for (int c = 0; c < 3; ++c) {
+    if (velocity[c + 1] != node.motion.velocity_and_relaxation[c] ||
+        increment[c + 1] != node.motion.increment_and_heat[c])
+      return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void MirrorPlanes::find_nodes(const BlockGrid& grid) {
+  if (layout_ == grid.layout()) return;
+  layout_ = grid.layout();
+  std::vector<std::uint64_t> nodes;  // twice its number, and 1 if it is only an image
+  const auto add = [&](std::uint32_t node, std::uint64_t only_image) {
+    nodes.push_back(2 * static_cast<std::uint64_t>(node) + only_image);
+  };
+  for (const grid::MirrorPlane& plane : grid.mirror_planes()) {
+    // Where material meets its image as another body it may not do so yet.
+    for (const grid::MirrorPair& pair : plane.pairs_apart) add(pair.outside, 1);
+    for (const std::uint32_t on_plane : plane.on_plane_apart) add(on_plane, 1);
+    for (const grid::MirrorPair& pair : plane.pairs) add(pair.outside, 0);
+    // Another rank may be the one that folds onto them.
+    for (const std::uint32_t near : plane.near) add(near, 1);
+    for (const std::uint32_t on_plane : plane.on_plane) add(on_plane, 0);
+  }
+  std::ranges::sort(nodes);  // what is more than an image comes first
+  nodes_.clear();
+  may_be_unchanged_.clear();
+  for (const std::uint64_t entry : nodes) {
+    const auto node = static_cast<std::uint32_t>(entry / 2);
+    if (!nodes_.empty() && nodes_.back() == node) continue;
+    nodes_.push_back(node);
+    may_be_unchanged_.push_back(static_cast<std::uint8_t>(entry % 2));
+  }
+}
+
+void MirrorPlanes::remember(const BlockGrid& grid, Nodes which) {
+  find_nodes(grid);
+  before_.resize(nodes_.size());
+  parallel::for_each(nodes_.size(), [&](std::size_t i) {
+    if (is_among(grid, nodes_[i], which)) before_[i] = grid.all_nodes()[nodes_[i]];
+  });
+}
+
+/// Folds every plane and restricts the nodes on it, where material is one with its image.
+void MirrorPlanes::fold(BlockGrid& grid, Nodes which, BlockGrid::Part part) {
+  const std::span<Node> nodes = grid.all_nodes();
+  for (const grid::MirrorPlane& plane : grid.mirror_planes()) {
+    const Lanes sign = reflection(plane, 1);
+    parallel::for_each(plane.pairs.size(), [&](std::size_t i) {
+      const grid::MirrorPair& pair = plane.pairs[i];
+      if (!is_among(grid, pair.image, which)) return;
+      fold_node(nodes[pair.image], nodes[pair.outside], sign, part);
+    });
+  }
+  // After all folds, because between two planes one cell apart each folds onto the nodes of the other.
+  for (const grid::MirrorPlane& plane : grid.mirror_planes()) {
+    const Lanes sign = reflection(plane, 1);
+    parallel::for_each(plane.on_plane.size(), [&](std::size_t i) {
+      const std::uint32_t node = plane.on_plane[i];
+      if (is_among(grid, node, which)) restrict_to_plane(nodes[node], sign, part);
+    });
+  }
+}
+
+/// Velocities beyond the planes are the reflected ones; reverse order, so that corners come out right.
+void MirrorPlanes::copy_back(BlockGrid& grid, Nodes which) {
+  const std::span<Node> nodes = grid.all_nodes();
+  const auto planes = grid.mirror_planes();
+  for (std::size_t n = planes.size(); n-- > 0;) {
+    const grid::MirrorPlane& plane = planes[n];
+    const Lanes sign = reflection(plane, 0);
+    parallel::for_each(plane.pairs.size(), [&](std::size_t i) {
+      const grid::MirrorPair& pair = plane.pairs[i];
+      if (!is_among(grid, pair.image, which)) return;
+      nodes[pair.outside].registers.first = sign * nodes[pair.image].registers.first;
+      nodes[pair.outside].registers.second = sign * nodes[pair.image].registers.second;
+    });
+  }
+}
+
+/// Momentum that the planes gave to the real particles: equation 3.6 of docs/theory/mpm.md.
+Vector3 MirrorPlanes::impulse(const BlockGrid& grid, Nodes which, double dt) const {
+  Lanes impulse = broadcast(0.0);
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if (!is_among(grid, nodes_[i], which)) continue;
+    const Node& real = before_[i];
+    const Node& node = grid.all_nodes()[nodes_[i]];
+    const double mass = real.sums.mass();
+    // A node that received nothing in the fold is not changed by the planes: only its round-off would count.
+    // (What arrives may be a force without any mass to speak of, at the edge of a kernel.)
+    if (may_be_unchanged_[i] != 0 && is_result_of(node, real, dt)) continue;
+    const Vector3 momentum = real.sums.momentum(), force = real.sums.force();
+    const Lanes p = {momentum[0], momentum[1], momentum[2], 0.0}, f = {force[0], force[1], force[2], 0.0};
+    const Lanes v = node.motion.velocity_and_relaxation;
+    impulse += mass * node.motion.increment_and_heat - dt * f - node.motion.relaxation() * (p - mass * v);
+  }
+  return {impulse[0], impulse[1], impulse[2]};
+}
+
+}  // namespace whipple::transfer

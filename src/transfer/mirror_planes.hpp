@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "src/grid/block_grid.hpp"
+
+namespace whipple::transfer {
+
+/// Nodes that an exchange between ranks divides: those that await results of other ranks
+/// (grid::BlockGrid::is_awaited), the others, or all.
+enum class Nodes : std::uint8_t { awaited, others, all };
+
+/// Returns whether a node is among them; the same for a node and its mirror node.
+inline bool is_among(const grid::BlockGrid& grid, std::uint32_t node, Nodes nodes) {
+  return nodes == Nodes::all || grid.is_awaited(node) == (nodes == Nodes::awaited);
+}
+
+/// Mirror planes and walls where material is one with its image (docs/theory/mpm.md, 3): what particles brought beyond a
+/// plane is folded to the inside, and velocities are copied back. Elsewhere material meets its image in contact
+/// (contact::MirrorContact).
+class MirrorPlanes {
+ public:
+  /// Keeps what the particles of this rank brought to the nodes near the planes, before it is folded.
+  void remember(const grid::BlockGrid& grid, Nodes which);
+  /// Folds every plane and restricts the nodes on it.
+  static void fold(grid::BlockGrid& grid, Nodes which, grid::BlockGrid::Part part);
+  /// Sets the velocities beyond the planes to the reflected ones.
+  static void copy_back(grid::BlockGrid& grid, Nodes which);
+  /// Returns the impulse (N s) that the planes gave to the particles of this rank in a step (3.6), after it.
+  [[nodiscard]] Vector3 impulse(const grid::BlockGrid& grid, Nodes which, double dt) const;
+  /// Adds to a sum, node by node, the mass that particles brought times value(node).
+  template <class Value>
+  void add_by_mass(const grid::BlockGrid& grid, Nodes which, const Value& value, double& sum) const {
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      if (is_among(grid, nodes_[i], which)) sum += before_[i].sums.mass() * value(nodes_[i]);
+    }
+  }
+
+ private:
+  void find_nodes(const grid::BlockGrid& grid);
+
+  std::vector<std::uint32_t> nodes_;  // that the planes may change, ascending
+  std::vector<std::uint8_t>
+      may_be_unchanged_;  // of each: it is only an image, which may have received nothing
+  std::size_t layout_ = static_cast<std::size_t>(-1);  // of the grid that they belong to
+  std::vector<grid::Node> before_;                     // their content before the fold
+};
+
+}  // namespace whipple::transfer
