@@ -26,8 +26,12 @@ ParameterTable<ContactControl> ContactControl::parameters() {
       real("explosive_friction", &ContactControl::explosive_friction, "", range::non_negative(),
            "the same of an explosive that burns, on whatever its products slide")
           .optional(),
-      boolean("gap_test", &ContactControl::gap_test,
-              "contact where the surfaces touch; false: wherever both bodies reach a node")
+      real("crack_friction", &ContactControl::crack_friction, "", range::non_negative(),
+           "the same of the faces of a crack (failure.cracks = \"fields\")")
+          .optional(),
+      boolean(
+          "gap_test", &ContactControl::gap_test,
+          "contact where the surfaces touch; false: wherever both bodies, or faces of a crack, reach a node")
           .optional(),
       real("gap", &ContactControl::gap, "", range::between(-1.0, 2.0),
            "gap (in cells) below which surfaces are in contact")

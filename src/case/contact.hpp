@@ -27,6 +27,7 @@ struct ContactControl {
   contact::Normal normal = contact::Normal::separating;
   double friction = 0.3;
   double explosive_friction = 0.0;
+  double crack_friction = 0.3;
   bool gap_test = true;
   double gap = 0.0;  ///< in cells
   bool everywhere = false;

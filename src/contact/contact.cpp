@@ -116,9 +116,9 @@ void choose(Response response, const std::vector<Side>& sides, Least&& least,
 
 }  // namespace
 
-/// Distance of the surfaces of two fields beyond what counts as touching.
-double Contact::distance(const grid::BlockGrid& grid, const Surfaces::Gap& gap) const {
-  return settings_.gap_test ? std::max(gap.width - settings_.gap * grid.geometry().cell_size, 0.0) : 0.0;
+/// Distance of two surfaces with a gap (m) beyond what counts as touching.
+double Contact::distance(const grid::BlockGrid& grid, double gap) const {
+  return settings_.gap_test ? std::max(gap - settings_.gap * grid.geometry().cell_size, 0.0) : 0.0;
 }
 
 double Contact::friction_between(unsigned first, unsigned second) const {
@@ -141,7 +141,7 @@ bool Contact::touch(const grid::BlockGrid& grid, std::size_t contact_slot, std::
   const std::size_t pair =
       pair_index(std::min(a, b), std::max(a, b), static_cast<std::size_t>(std::popcount(bodies)));
   const Surfaces::Gap gap = surfaces_.at(contact_slot, pair, node);
-  return !gap.normal.isZero(0.0) && distance(grid, gap) <= resting_distance * grid.geometry().cell_size;
+  return !gap.normal.isZero(0.0) && distance(grid, gap.width) <= resting_distance * grid.geometry().cell_size;
 }
 
 Balance Contact::apply(grid::BlockGrid& grid, double dt, FirstTouches& touches, const Cracks* cracks) const {
@@ -168,14 +168,18 @@ Balance Contact::apply(grid::BlockGrid& grid, double dt, FirstTouches& touches, 
         for (std::size_t b = a + 1; b < sides.size(); ++b) {
           if (sides[a].mass < no_mass || sides[b].mass < no_mass) continue;
           const std::size_t of_a = at_node.body(a), of_b = at_node.body(b);
-          if (of_a == of_b) {  // faces of a crack, which touch without friction (K6)
-            meetings.push_back({a, b, at_node.axis(a), 0.0, 1.0, 0.0});
+          if (of_a == of_b) {  // faces of a crack
+            const Cracks::Crack& crack = at_node.crack(a);
+            const double open = distance(grid, crack.gap);
+            meetings.push_back({a, b, crack.axis, open,
+                                Pressing::share(sides[a], sides[b], crack.axis, open, dt),
+                                settings_.crack_friction});
             continue;
           }
           const Surfaces::Gap gap = surfaces_.at(c, pair_index(of_a, of_b, at_node.bodies()), i);
           if (gap.normal.isZero(0.0)) continue;
           among_bodies = true;
-          const double open = distance(grid, gap);
+          const double open = distance(grid, gap.width);
           touches.see(field(a), field(b), open, gap.normal.dot(sides[a].after() - sides[b].after()));
           meetings.push_back({a, b, gap.normal, open,
                               Pressing::share(sides[a], sides[b], gap.normal, open, dt),

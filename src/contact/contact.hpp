@@ -27,9 +27,10 @@ struct Settings {
   Normal normal = Normal::separating;
   double friction = 0.3;  ///< Coulomb's coefficient
   std::vector<double> friction_of_field =
-      {};                ///< of each velocity field, if they differ: of two the lesser one acts
-  bool gap_test = true;  ///< only surfaces that touch, or would within the step
-  double gap = 0.0;      ///< in cells: surfaces nearer than that touch
+      {};                       ///< of each velocity field, if they differ: of two the lesser one acts
+  double crack_friction = 0.3;  ///< of the faces of a crack
+  bool gap_test = true;         ///< only surfaces that touch, or would within the step
+  double gap = 0.0;             ///< in cells: surfaces nearer than that touch
   /// 1/s, of each velocity field: where it relaxes more slowly, its material is too loose to move as one with
   /// what it meets, and impulses stop it; empty: never
   std::vector<double> least_relaxation_rate;
@@ -60,7 +61,7 @@ class Contact {
 
  private:
   [[nodiscard]] double friction_between(unsigned first, unsigned second) const;
-  [[nodiscard]] double distance(const grid::BlockGrid& grid, const Surfaces::Gap& gap) const;
+  [[nodiscard]] double distance(const grid::BlockGrid& grid, double gap) const;
 
   Settings settings_;
   Surfaces surfaces_;

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
+#include "src/contact/half_thickness.hpp"
 #include "src/contact/node_fields.hpp"
 #include "src/contact/places.hpp"
 #include "src/core/parallel/mpi.hpp"
@@ -22,13 +24,16 @@ constexpr double least_damage = 0.02;    ///< of a node with a crack
 /// Fraction of the directions along the two greatest axes that is along the first: damage of one particle is a peak and
 /// no ridge, and would part sound material.
 constexpr double least_anisotropy = 0.7;
-constexpr unsigned no_sector = 255;
+constexpr unsigned no_sector = 255, undecided = 254;  // undecided: reaches damaged nodes
 
 /// Returns the sector of a direction: of eight around the z axis, or of those of the six faces and eight corners of a cube.
 unsigned sector_of(const Vector3& n, bool planar) {
-  if (planar) {
-    const double turns = std::atan2(n.y(), n.x()) / (2.0 * std::numbers::pi) + 1.0;
-    return static_cast<unsigned>(std::floor(turns * 8.0 + 0.5)) % 8U;
+  if (planar) {  // 0 to 7 from the x axis on, each 45 degrees wide; this runs for all particles near cracks
+    constexpr double tangent = std::numbers::sqrt2 - 1.0;  // of half of that
+    const double x = std::abs(n.x()), y = std::abs(n.y());
+    if (y < tangent * x) return n.x() > 0.0 ? 0U : 4U;
+    if (x < tangent * y) return n.y() > 0.0 ? 2U : 6U;
+    return n.x() > 0.0 ? (n.y() > 0.0 ? 1U : 7U) : (n.y() > 0.0 ? 3U : 5U);
   }
   Eigen::Index axis = 0;
   const double to_face = n.cwiseAbs().maxCoeff(&axis);
@@ -64,18 +69,36 @@ void for_each_place_of(unsigned body, std::span<const std::uint8_t> body_of, con
   });
 }
 
-/// Returns the axis of the greatest of the summed squares of directions; zero if they are not anisotropic.
-Vector3 axis_of(const Lanes* sums) {
+/// Eigenvector of the greatest eigenvalue of a symmetric matrix, the greatest and the next one.
+struct Principal {
+  Vector3 axis;
+  double greatest, next;
+};
+
+/// Of a matrix in the plane of x and y.
+Principal principal_in_plane(double xx, double yy, double xy) {
+  const double mean = 0.5 * (xx + yy), half = 0.5 * (xx - yy), radius = std::hypot(half, xy);
+  const Vector3 axis = half >= 0.0 ? Vector3(half + radius, xy, 0.0) : Vector3(xy, radius - half, 0.0);
+  return {axis.stableNormalized(), mean + radius, std::max(mean - radius, 0.0)};
+}
+
+Principal principal(const Lanes* sums) {
   Matrix3 t;
   t << sums[0][0], sums[0][3], sums[1][1], sums[0][3], sums[0][1], sums[1][0], sums[1][1], sums[1][0],
       sums[0][2];
   Eigen::SelfAdjointEigenSolver<Matrix3> solver;
   solver.computeDirect(t);
-  const double greatest = solver.eigenvalues()[2], next = std::max(solver.eigenvalues()[1], 0.0);
-  if (!(greatest > 0.0) || greatest < least_anisotropy * (greatest + next)) return Vector3::Zero();
-  const Vector3 axis = solver.eigenvectors().col(2);
+  return {solver.eigenvectors().col(2), solver.eigenvalues()[2], std::max(solver.eigenvalues()[1], 0.0)};
+}
+
+/// Returns the axis of the greatest of the summed squares of directions; zero if they are not anisotropic.
+Vector3 axis_of(const Lanes* sums, bool planar) {
+  const Principal found = planar ? principal_in_plane(sums[0][0], sums[0][1], sums[0][3]) : principal(sums);
+  if (!(found.greatest > 0.0) || found.greatest < least_anisotropy * (found.greatest + found.next)) {
+    return Vector3::Zero();
+  }
   // Which side is A must not depend on round-off: no direction of the grid is across this one.
-  return axis.dot(Vector3(1.0, 0.7, 0.4)) < 0.0 ? Vector3(-axis) : axis;
+  return found.axis.dot(Vector3(1.0, 0.7, 0.4)) < 0.0 ? Vector3(-found.axis) : found.axis;
 }
 
 constexpr std::size_t lanes_of_directions = 2, lanes_of_part = 2;
@@ -86,8 +109,8 @@ constexpr std::size_t lanes_of_directions = 2, lanes_of_part = 2;
 /// @param bit   bit(part): of its field
 /// @returns axis and side B; a zero axis where there is none
 template <class Bit>
-Cracks::Crack ridge(const Lanes* sums, std::size_t parts, double tolerance, Bit&& bit) {
-  const Vector3 axis = axis_of(sums);
+Cracks::Crack ridge(const Lanes* sums, std::size_t parts, bool planar, double tolerance, Bit&& bit) {
+  const Vector3 axis = axis_of(sums, planar);
   if (axis.isZero(0.0)) return {axis, 0};
   const Lanes* const of_parts = sums + lanes_of_directions;
   const auto mass = [&](std::size_t k) { return of_parts[lanes_of_part * k][0]; };
@@ -137,14 +160,14 @@ std::array<std::uint8_t, grid::maximum_fields> SectorFields::wholes() const {
   return whole;
 }
 
-void Cracks::Values::lay_out(const Nodes& nodes, std::size_t lanes_per_node) {
+void Cracks::Values::lay_out(const Nodes& nodes, std::size_t lanes_per_node, Lanes initial) {
   lanes = lanes_per_node;
   of.begin.assign(1, 0);
   for (const std::uint64_t mask : nodes) {
     of.begin.push_back(of.begin.back() +
                        static_cast<std::uint32_t>(lanes * static_cast<std::size_t>(std::popcount(mask))));
   }
-  of.values.assign(of.begin.back(), Lanes{});
+  of.values.assign(of.begin.back(), initial);
 }
 
 std::optional<Cracks::Crack> Cracks::at(unsigned body, std::size_t slot, std::size_t node) const {
@@ -153,7 +176,9 @@ std::optional<Cracks::Crack> Cracks::at(unsigned body, std::size_t slot, std::si
     if (fields_.cracked()[n] != body || found.nodes.empty()) continue;
     if ((found.nodes[slot] >> node & 1U) == 0) return std::nullopt;
     const Lanes* lanes = found.cracks.at(found.laid_out, slot, node);
-    return Crack{vector(lanes[0]), std::bit_cast<std::uint64_t>(double{lanes[0][3]})};
+    const Lanes extents = *found.extents.at(found.laid_out, slot, node);
+    return Crack{vector(lanes[0]), std::bit_cast<std::uint64_t>(double{lanes[0][3]}),
+                 -extents[0] - extents[1]};
   }
   return std::nullopt;
 }
@@ -216,7 +241,11 @@ void Cracks::find_in(std::size_t number, const Particles& particles, const Eleme
   join(damaged);
   Values damage;
   damage.lay_out(damaged, 1);
+  direction_.resize(particles.size());  // of those that reach damaged nodes
+  sector_.assign(particles.size(), static_cast<std::uint8_t>(no_sector));
   visit(damaged, every, [&](std::uint32_t p) {
+    direction_[p].setZero();
+    sector_[p] = static_cast<std::uint8_t>(undecided);
     const Lanes brought = particles.mass[p] * Lanes{1.0, particles.failed[p] != 0 ? 1.0 : 0.0, 0.0, 0.0};
     return [&, brought](const Place& place) {
       *damage.at(damaged, place.contact_slot, place.node) += place.weight * brought;
@@ -238,8 +267,6 @@ void Cracks::find_in(std::size_t number, const Particles& particles, const Eleme
   join(candidates);
 
   // (K2) directions to the crack
-  direction_.assign(particles.size(), Vector3::Zero());
-  sector_.assign(particles.size(), static_cast<std::uint8_t>(no_sector));
   visit(damaged, every, [&](std::uint32_t p) {
     return [&, p](const Place& place) {
       direction_[p] +=
@@ -248,12 +275,14 @@ void Cracks::find_in(std::size_t number, const Particles& particles, const Eleme
   });
   const double cell_size = grid.geometry().cell_size;
   parallel::for_each(particles.size(), [&](std::size_t p) {
+    if (sector_[p] != undecided) return;
     const double norm = direction_[p].norm();
     if (norm * cell_size > least_gradient) {
       direction_[p] /= norm;
       sector_[p] = static_cast<std::uint8_t>(sector_of(direction_[p], planar));
     } else {
       direction_[p].setZero();
+      sector_[p] = static_cast<std::uint8_t>(no_sector);
     }
   });
 
@@ -292,8 +321,8 @@ void Cracks::find_in(std::size_t number, const Particles& particles, const Eleme
   found.laid_out = candidates;
   found.cracks.lay_out(candidates, 1);
   for_each_owned(candidates, [&](std::size_t slot, unsigned node) {
-    const Crack crack =
-        ridge(sums.at(candidates, slot, node), parts, grid.geometry().tolerance(), [&](std::size_t part) {
+    const Crack crack = ridge(
+        sums.at(candidates, slot, node), parts, planar, grid.geometry().tolerance(), [&](std::size_t part) {
           const unsigned of_part = part == 0 ? body : fields_.field(number, static_cast<unsigned>(part) - 1);
           return std::uint64_t{1} << of_part;
         });
@@ -303,14 +332,31 @@ void Cracks::find_in(std::size_t number, const Particles& particles, const Eleme
         Lanes{crack.axis[0], crack.axis[1], crack.axis[2], std::bit_cast<double>(crack.side_b)};
   });
   join(found.nodes);
+  if (grid.is_shared()) grid.borrow_from_owners(found.cracks.of);
 
-  // Particles that reach no crack need no field of their own.
-  visit(
-      found.nodes, [&](std::uint32_t p) { return sector_[p] != no_sector; },
-      [&](std::uint32_t p) {
-        field[p] = static_cast<std::uint8_t>(fields_.field(number, sector_[p]));
-        return [](const Place&) {};
-      });
+  // Fields of the particles that reach a crack, others need none of their own; and (6) how far its faces reach.
+  found.extents.lay_out(candidates, 1, broadcast(-std::numeric_limits<double>::infinity()));
+  const auto extend = [&](const Place& place, unsigned of_point, double largest,
+                          auto&& half_thickness_along) {
+    const Lanes crack = *found.cracks.at(candidates, place.contact_slot, place.node);
+    const Vector3 axis = vector(crack);
+    const bool on_b = (std::bit_cast<std::uint64_t>(double{crack[3]}) >> of_point & 1U) != 0;
+    const double along = (on_b ? -1.0 : 1.0) * axis.dot(place.distance);
+    Lanes& extents = *found.extents.at(candidates, place.contact_slot, place.node);
+    const int lane = on_b ? 1 : 0;
+    if (along + largest <= extents[lane]) return;
+    extents[lane] = std::max(extents[lane], along + half_thickness_along(place.sign.cwiseProduct(axis)));
+  };
+  visit(found.nodes, every, [&](std::uint32_t p) {
+    if (sector_[p] != no_sector) field[p] = static_cast<std::uint8_t>(fields_.field(number, sector_[p]));
+    return [&, half = HalfThickness(grid.geometry(), particles, p), of_point = field[p]](const Place& place) {
+      extend(place, of_point, half.largest(), [&](const Vector3& n) { return half.along(n); });
+    };
+  });
+  visit_elements(found.nodes, [&](std::uint32_t) {
+    return [&](const Place& place) { extend(place, body, 0.0, [](const Vector3&) { return 0.0; }); };
+  });
+  if (grid.is_shared()) grid.maximum_to_owners(found.extents.of);
 }
 
 }  // namespace whipple::contact

@@ -52,6 +52,7 @@ class Cracks {
   struct Crack {
     Vector3 axis;          ///< unit vector from side A to side B
     std::uint64_t side_b;  ///< bit per field of the body on side B
+    double gap = 0.0;      ///< m, between its faces along the axis; negative where they overlap
   };
 
   [[nodiscard]] const SectorFields& fields() const { return fields_; }
@@ -75,7 +76,7 @@ class Cracks {
   struct Values {
     grid::SlotValues of;
     std::size_t lanes = 1;
-    void lay_out(const Nodes& nodes, std::size_t lanes_per_node);
+    void lay_out(const Nodes& nodes, std::size_t lanes_per_node, Lanes initial = Lanes{});
     [[nodiscard]] Lanes* at(const Nodes& nodes, std::size_t slot, std::size_t node) {
       const std::uint64_t before = nodes[slot] & ((std::uint64_t{1} << node) - 1);
       return &of.values[of.begin[slot] + lanes * static_cast<std::size_t>(std::popcount(before))];
@@ -89,6 +90,7 @@ class Cracks {
     Nodes nodes;     // with a crack
     Nodes laid_out;  // with values
     Values cracks;   // axis; side B
+    Values extents;  // m, from the node: of side A along the axis, of side B against it
   };
 
   template <class Shape>

@@ -23,7 +23,7 @@ Sides::Sides(grid::BlockGrid& grid, std::uint32_t slot, const Cracks* cracks)
 void Sides::go_to(std::size_t node) {
   sides_.clear();
   body_.clear();
-  axis_.clear();
+  crack_.clear();
   joints_.clear();
   joined_.clear();
   for (std::size_t body = 0; body < fields_.size(); ++body) {
@@ -48,13 +48,13 @@ void Sides::go_to(std::size_t node) {
     for (std::size_t k = 0; k < 2; ++k) {
       if (count[k] > 0) join(std::span(parts[k]).first(count[k]), body);
     }
-    if (count[0] > 0 && count[1] > 0) axis_[sides_.size() - 2] = crack->axis;
+    if (count[0] > 0 && count[1] > 0) crack_[sides_.size() - 2] = *crack;
   }
 }
 
 void Sides::join(std::span<grid::Node* const> parts, std::size_t body) {
   body_.push_back(body);
-  axis_.push_back(Vector3::Zero());
+  crack_.push_back({Vector3::Zero(), 0});
   grid::Node* node = parts.front();
   if (parts.size() > 1) {
     double mass = 0.0, logarithm = 0.0;

@@ -27,8 +27,8 @@ class Sides {
   /// Returns the field of a body of the slot.
   [[nodiscard]] unsigned field(std::size_t body) const { return fields_[body]; }
   [[nodiscard]] std::size_t bodies() const { return fields_.size(); }
-  /// Returns the axis of the crack between a side and the next, of the same body.
-  [[nodiscard]] const Vector3& axis(std::size_t side) const { return axis_[side]; }
+  /// Returns the crack between a side and the next, of the same body.
+  [[nodiscard]] const Cracks::Crack& crack(std::size_t side) const { return crack_[side]; }
   /// Gives the fields of every side its motion and its heat.
   void spread();
 
@@ -41,8 +41,8 @@ class Sides {
   std::vector<unsigned> fields_;      // of each body, whole
   std::vector<std::uint64_t> parts_;  // of each body: bit per field of it that reaches the slot
   std::vector<Side> sides_;
-  std::vector<std::size_t> body_;  // of each side
-  std::vector<Vector3> axis_;      // of each side
+  std::vector<std::size_t> body_;     // of each side
+  std::vector<Cracks::Crack> crack_;  // behind each side
   /// Fields that move as one.
   struct Joint {
     std::size_t side;

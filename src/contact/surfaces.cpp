@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "src/contact/half_thickness.hpp"
 #include "src/contact/parting.hpp"
 #include "src/contact/places.hpp"
 #include "src/core/parallel/threads.hpp"
@@ -63,52 +64,7 @@ void for_each_pair(std::size_t bodies, Function&& f) {
   }
 }
 
-/// Components of up to four normals, one in each lane; those that a pair does not need repeat its first.
-struct Normals {
-  Lanes x, y, z;
-};
 constexpr std::size_t lanes_of_normals = 3, lanes_of_extents = 2;
-
-/// Distance from the centre of a particle to its surface along unit vectors: of its box of the beginning (or
-/// of its followed domain), scaled to its present volume.
-class HalfThickness {
- public:
-  WHIPPLE_INLINE HalfThickness(const grid::Geometry& geometry, const Particles& particles, std::size_t p)
-      : extent_(particles.extent[p].matrix()) {
-    if (geometry.is_planar()) {
-      set_planar(geometry, particles, p);
-      return;
-    }
-    const double box = 8.0 * std::sqrt(std::max(extent_.determinant(), 0.0));
-    const double volume = particles.volume[p] + particles.void_volume[p];
-    scale_ = std::cbrt(box > 0.0 ? volume / box : volume);
-    if (!(box > 0.0)) extent_ = 0.25 * Matrix3::Identity();
-    largest_ = scale_ * std::sqrt(std::max(extent_.trace(), 0.0));
-  }
-  /// Not less than along any direction.
-  [[nodiscard]] double largest() const { return largest_; }
-  [[nodiscard]] WHIPPLE_INLINE Lanes along(const Normals& n) const {
-    const Matrix3& e = extent_;
-    const Lanes square = n.x * (e(0, 0) * n.x + 2.0 * (e(0, 1) * n.y + e(0, 2) * n.z)) +
-                         n.y * (e(1, 1) * n.y + 2.0 * e(1, 2) * n.z) + e(2, 2) * n.z * n.z;
-    return scale_ * sqrt(maximum(square, Lanes{}));
-  }
-
- private:
-  void set_planar(const grid::Geometry& geometry, const Particles& particles, std::size_t p) {
-    extent_.row(2).setZero();
-    extent_.col(2).setZero();
-    const double box = 4.0 * std::sqrt(std::max(extent_.topLeftCorner<2, 2>().determinant(), 0.0));
-    const double area =
-        (particles.volume[p] + particles.void_volume[p]) / geometry.depth(particles.position[p]);
-    scale_ = std::sqrt(box > 0.0 ? area / box : area);
-    if (!(box > 0.0)) extent_ = Vector3(0.25, 0.25, 0.0).asDiagonal();
-    largest_ = scale_ * std::sqrt(std::max(extent_.trace(), 0.0));
-  }
-
-  Matrix3 extent_;
-  double scale_, largest_;
-};
 
 /// Logistic regression of two sets of particles, class -1 and +1, on their positions about a node in cells
 /// and a constant: the plane of greatest likelihood, with a small penalty on the steepness that a gap would

@@ -21,6 +21,9 @@ TEST(CrackRanks, AgreeWithOneRank) {
     advance_on_root(alone, end);
     advance_on_root(whole, end);
     expect_agreement(together, alone, 1e-9);
+    const Totals totals = together.totals();
+    EXPECT_LT(together.state().ledger.momentum_error(totals), 1e-12);
+    EXPECT_LT(std::abs(together.state().ledger.energy_error(totals)), 1e-12);
     if (!is_root()) continue;
     EXPECT_GT(verification::largest_distance(alone.particles(), whole.particles()), 1e-6);  // cracks part
     EXPECT_TRUE(std::ranges::any_of(alone.particles().failed, [](std::uint8_t code) { return code != 0; }));

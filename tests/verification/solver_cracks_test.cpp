@@ -22,26 +22,41 @@ namespace {
 using solver::Simulation;
 using namespace verification;
 
+/// How the halves of a block are made and move.
+struct Problem {
+  std::string dimension;
+  std::string cracks = "fields";
+  double speed = 0.0;                    ///< v, m/s
+  std::string right_half = "particles";  ///< discretization
+  double gap = 0.0;                      ///< mm, between the column and the right half
+  double slide = 0.0;                    ///< m/s, of the right half along z
+  std::string contact = "";              ///< lines of that table
+};
+
 /// Two halves of an elastic block with a failed column of particles between them, that move with -v and v.
 class Halves {
  public:
-  /// @param right_of  discretization of the right half
-  Halves(const std::string& dimension, const std::string& cracks, double speed,
-         const std::string& right_of = "particles")
+  explicit Halves(const Problem& problem)
       : simulation_([&] {
+          const bool in_space = problem.dimension == "3d";
           const cases::Case setup = cases::read_case_text(
               fmt::format("[domain]\ndimension = \"{}\"\nlower = [-0.012, 0{}]\nupper = [0.012, 0.006{}]\n"
-                          "cell_size = 0.001\nboundary = {{ y_lower = \"symmetry\" }}\n[time]\nend = 4e-6\n",
-                          dimension, dimension == "3d" ? ", -0.003" : "",
-                          dimension == "3d" ? ", 0.003" : "") +
-                  part("left", -8.0, -0.25, -speed) + "failure = { cracks = \"" + cracks + "\" }\n" +
-                  part("column", -0.25, 0.25, -speed) + part("right", 0.25, 8.25, speed) +
-                  "discretization = { method = \"" + right_of + "\" }\n",
+                          "cell_size = 0.001\nboundary = {{ y_lower = \"symmetry\" }}\n[time]\nend = 4e-6\n"
+                          "[contact]\n{}\n",
+                          problem.dimension, in_space ? ", -0.003" : "", in_space ? ", 0.003" : "",
+                          problem.contact) +
+                  part("left", -8.0, -0.25, {-problem.speed, 0.0, 0.0}) + "failure = { cracks = \"" +
+                  problem.cracks + "\" }\n" + part("column", -0.25, 0.25, {-problem.speed, 0.0, 0.0}) +
+                  part("right", 0.25 + problem.gap, 8.25 + problem.gap, {problem.speed, 0.0, problem.slide}) +
+                  "discretization = { method = \"" + problem.right_half + "\" }\n",
               "halves.toml");
           const Simulation seeded(setup, parallel::world());
           Particles particles = *seeded.contents().particles;
           for (std::size_t p = 0; p < particles.size(); ++p) {
-            if (particles.body[p] == 1) particles.failed[p] = 1;
+            // Across a gap there is a failed row on either face: a single one could go with either.
+            const bool faces_gap = problem.gap > 0.0 && particles.body[p] == 2 &&
+                                   particles.position[p].x() < 1e-3 * (0.6 + problem.gap);
+            if (particles.body[p] == 1 || faces_gap) particles.failed[p] = 1;
           }
           return Simulation(setup, std::move(particles), seeded.state(), parallel::world(), seeded.meshes());
         }()) {}
@@ -78,11 +93,11 @@ class Halves {
   }
 
  private:
-  static std::string part(const char* name, double from, double to, double speed) {
+  static std::string part(const char* name, double from, double to, const Vector3& velocity) {
     return fmt::format(
-        "[[body]]\nname = \"{}\"\nmaterial = \"{}\"\ncontact_group = \"block\"\nvelocity = [{}, 0, 0]\n"
+        "[[body]]\nname = \"{}\"\nmaterial = \"{}\"\ncontact_group = \"block\"\nvelocity = [{}, {}, {}]\n"
         "shape = {{ box = {{ lower = [{}, 0, -0.002], upper = [{}, 0.004, 0.002] }} }}\n",
-        name, elastic_aluminium(), speed, 1e-3 * from, 1e-3 * to);
+        name, elastic_aluminium(), velocity.x(), velocity.y(), velocity.z(), 1e-3 * from, 1e-3 * to);
   }
   Simulation simulation_;
 };
@@ -91,7 +106,8 @@ class CracksInDimension : public testing::TestWithParam<const char*> {};
 
 TEST_P(CracksInDimension, PartWithoutAnImpulse) {
   constexpr double speed = 100.0;
-  Halves apart(GetParam(), "fields", speed), whole(GetParam(), "none", speed);
+  Halves apart({.dimension = GetParam(), .speed = speed});
+  Halves whole({.dimension = GetParam(), .cracks = "none", .speed = speed});
   for (int step = 0; step < 40; ++step) apart.simulation().advance(1.0);
   for (int step = 0; step < 40; ++step) whole.simulation().advance(1.0);
   EXPECT_LT(apart.deviation(0, -speed), 1e-9 * speed);
@@ -101,7 +117,8 @@ TEST_P(CracksInDimension, PartWithoutAnImpulse) {
 
 TEST(Cracks, PartElementsFromParticles) {
   constexpr double speed = 100.0;
-  Halves apart("3d", "fields", speed, "finite_elements"), whole("3d", "none", speed, "finite_elements");
+  Halves apart({.dimension = "3d", .speed = speed, .right_half = "finite_elements"});
+  Halves whole({.dimension = "3d", .cracks = "none", .speed = speed, .right_half = "finite_elements"});
   for (int step = 0; step < 40; ++step) apart.simulation().advance(1.0);
   for (int step = 0; step < 40; ++step) whole.simulation().advance(1.0);
   // Exact it is not: where damage is below its least value there are nodes that both sides reach a little.
@@ -112,7 +129,8 @@ TEST(Cracks, PartElementsFromParticles) {
 
 TEST_P(CracksInDimension, PressLikeOneField) {
   constexpr double speed = -100.0;
-  Halves apart(GetParam(), "fields", speed), whole(GetParam(), "none", speed);
+  Halves apart({.dimension = GetParam(), .speed = speed});
+  Halves whole({.dimension = GetParam(), .cracks = "none", .speed = speed});
   EnergyWatch watch;
   run_to(apart.simulation(), 1.5e-6, std::ref(watch));
   run_to(whole.simulation(), 1.5e-6);
@@ -120,6 +138,42 @@ TEST_P(CracksInDimension, PressLikeOneField) {
   // Half of the block has given its momentum to the wave.
   EXPECT_GT(whole.mean_speed(2), 0.5 * speed);
   EXPECT_NEAR(apart.mean_speed(2), whole.mean_speed(2), 0.02 * std::abs(speed));
+}
+
+// Column and right half are half a cell apart, which closes after 2.5 us.
+TEST_P(CracksInDimension, DoNotPressBeforeTheyTouch) {
+  constexpr double speed = -100.0;
+  Halves faces({.dimension = GetParam(), .speed = speed, .gap = 0.5});
+  Halves early({.dimension = GetParam(), .speed = speed, .gap = 0.5, .contact = "gap_test = false"});
+  EnergyWatch watch;
+  run_to(faces.simulation(), 2.4e-6, std::ref(watch));
+  run_to(early.simulation(), 2.4e-6);
+  EXPECT_LT(faces.deviation(2, speed), 1e-9 * std::abs(speed));
+  EXPECT_GT(early.deviation(2, speed), 0.1 * std::abs(speed));
+  run_to(faces.simulation(), 4e-6, std::ref(watch));
+  EXPECT_GT(faces.mean_speed(2), 0.6 * speed);
+  EXPECT_LT(watch.worst, 1e-12);
+  EXPECT_LT(faces.simulation().state().ledger.momentum_error(faces.simulation().totals()), 1e-12);
+}
+
+// Pressed together while one face slides: friction is at most its coefficient times the normal impulse.
+TEST(Cracks, FacesRubOnOneAnother) {
+  const auto ledger_with = [](const std::string& contact) {
+    Halves halves({.dimension = "3d", .speed = -100.0, .slide = 100.0, .contact = contact});
+    EnergyWatch watch;
+    run_to(halves.simulation(), 1.5e-6, std::ref(watch));
+    EXPECT_LT(watch.worst, 1e-12);
+    return halves.simulation().state().ledger;
+  };
+  const auto smooth = ledger_with("crack_friction = 0.0"), rough = ledger_with("crack_friction = 0.2"),
+             usual = ledger_with("");
+  EXPECT_EQ(smooth.friction_impulse, 0.0);
+  EXPECT_GT(rough.friction_heat, 0.0);
+  // Where they stick it is less.
+  EXPECT_LE(rough.friction_impulse, 0.2 * rough.contact_impulse);
+  EXPECT_GT(rough.friction_impulse, 0.16 * rough.contact_impulse);
+  EXPECT_LE(usual.friction_impulse, 0.3 * usual.contact_impulse);
+  EXPECT_GT(usual.friction_impulse, 1.1 * rough.friction_impulse);
 }
 
 INSTANTIATE_TEST_SUITE_P(Dimensions, CracksInDimension, testing::Values("plane_strain", "3d"));

@@ -95,7 +95,8 @@ bool follow_deformation(const State& state, std::size_t body) {
 
 bool are_needed(const State& state, bool may_meet_images) {
   bool any = state.setup.transfer.shape_function == transfer::ShapeFunction::gimp ||
-             state.setup.contact_fields.several() || may_meet_images;
+             state.setup.contact_fields.several() || !state.setup.contact_fields.cracked.empty() ||
+             may_meet_images;
   for (std::size_t b = 0; b < state.setup.bodies.size(); ++b) any = any || follow_deformation(state, b);
   return any;
 }

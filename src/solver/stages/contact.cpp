@@ -28,6 +28,7 @@ ContactStage::ContactStage(State& state, Hexahedra& hexahedra, contact::GridUpda
                           .normal = control.normal,
                           .friction = control.friction,
                           .friction_of_field = friction_of_fields(),
+                          .crack_friction = control.crack_friction,
                           .gap_test = control.gap_test,
                           .gap = control.gap,
                           .least_relaxation_rate = least_relaxation_rates()});
