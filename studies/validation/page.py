@@ -71,8 +71,9 @@ def verdicts(case, origin):
 
 
 def counted(marks):
-    """3 agrees, 2 **differs**"""
-    return ", ".join(f"{marks.count(mark)} {marked(mark)}" for mark in CHECKED if mark in marks)
+    """3 agree, 2 **differ**"""
+    plural = {bands.AGREES: "agree", bands.DIFFERS: "**differ**", bands.NOT_FOUND: "**not found**"}
+    return ", ".join(f"{marks.count(mark)} {plural.get(mark, mark)}" for mark in CHECKED if mark in marks)
 
 
 def figure(case, origin):
