@@ -73,7 +73,7 @@ def verdicts(case, origin):
 def counted(marks):
     """3 agree, 2 **differ**"""
     plural = {bands.AGREES: "agree", bands.DIFFERS: "**differ**", bands.NOT_FOUND: "**not found**"}
-    return ", ".join(f"{marks.count(mark)} {plural.get(mark, mark)}" for mark in CHECKED if mark in marks)
+    return ", ".join(f"{n} {marked(mark) if n == 1 else plural.get(mark, mark)}" for mark in CHECKED if (n := marks.count(mark)))
 
 
 def figure(case, origin):
