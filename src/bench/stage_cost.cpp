@@ -25,8 +25,7 @@ constexpr double bytes_of(std::vector<Values> MaterialPoints::*...) {
 using M = MaterialPoints;
 using P = Particles;
 
-constexpr double place =
-    bytes_of(&P::position) + sizeof(std::uint32_t);  // with the entry in the block's list
+constexpr double place = bytes_of(&P::position) + sizeof(std::uint32_t);  // and its entry in the block's list
 constexpr double stress = bytes_of(&M::deviatoric_stress, &M::pressure, &M::artificial_viscosity, &M::volume);
 constexpr double node = sizeof(grid::Node);
 
