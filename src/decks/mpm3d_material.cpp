@@ -74,8 +74,8 @@ class MaterialBuilder {
     toml_.text_entry("source", source(statement));
   }
 
-  /// Writes the heat capacity of `john` and `jcf`; for other kinds, which have none, that of a similar library
-  /// material.
+  /// Writes the heat capacity of `john` and `jcf`; for other kinds, which give none, that of the library material of
+  /// the nearest density.
   void heat_capacity(const char* model) {
     if (material_.kind == "john" || material_.kind == "jcf") {
       quantity("heat_capacity", n_[11], dimension::heat_capacity);

@@ -27,11 +27,11 @@ class ElementSeries {
   /// @throws InputError if a field is unknown
   explicit ElementSeries(SeriesOptions options, MPI_Comm communicator = MPI_COMM_SELF);
 
-  /// Restarts the series as `Series::restart`.
+  /// Restarts and writes the series as `Series` does. Collective.
   void restart(double time) { series_.restart(time); }
   std::filesystem::path write(std::span<const fem::Mesh> meshes, std::span<const fem::Bars> bars,
                               double time);
-  /// Prepares a snapshot as `ParticleSeries::prepare`.
+  /// Prepares a snapshot as `ParticleSeries::prepare` does.
   [[nodiscard]] std::function<void()> prepare(std::span<const fem::Mesh> meshes,
                                               std::span<const fem::Bars> bars, double time);
   [[nodiscard]] std::size_t size() const { return series_.size(); }

@@ -36,7 +36,7 @@ class ParticleSeries {
   /// @throws InputError if a field is unknown
   explicit ParticleSeries(SeriesOptions options, MPI_Comm communicator = MPI_COMM_WORLD);
 
-  /// Restarts the series and writes the particles of this rank, as `Series`. Collective.
+  /// Restarts the series and writes the particles of this rank, as `Series` does. Collective.
   void restart(double time) { series_.restart(time); }
   std::filesystem::path write(const Particles& particles, double time);
   /// Copies the current values and returns a function that writes them, once, on any thread, while the particles move

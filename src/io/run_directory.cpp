@@ -86,7 +86,8 @@ bool holds_anything(const fs::path& folder) {
   });
 }
 
-/// Checks that files can be written, by writing one: permission bits do not include read-only file systems and quotas.
+/// Checks that files can be written, by writing one: permission bits do not reveal read-only file systems or
+/// quotas.
 void require_writable(const fs::path& folder) {
   const fs::path probe = folder / fmt::format(".writable.{}.partial", ::getpid());
   const int file = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);

@@ -107,7 +107,7 @@ const std::array admissible = {
     Admissible{"touched", {.lower = 0.0, .upper = 4294967295.0}},  // halves of words
 };
 
-/// Returns the admissible range of a field: any finite number unless the table says otherwise.
+/// Returns the admissible range of a field: any finite number unless the table restricts it.
 Range range_of(std::string_view name) {
   const auto found = std::ranges::find(admissible, name, &Admissible::field);
   return found == admissible.end() ? Range{} : found->range;
