@@ -76,8 +76,7 @@ void run_export(const ExportOptions& options) {
     if (const fs::path beside = analysis::elements_file(entry); fs::exists(beside))
       elements.emplace_back(beside, entry.time);
   }
-  for (const Snapshots* series :
-       {&particles, &elements}) {  // wrong fields are rejected before any file is written
+  for (const Snapshots* series : {&particles, &elements}) {  // wrong fields are rejected before writing
     if (!series->empty())
       static_cast<void>(
           io::read_snapshot_table(series->front().first, series->front().second, options.fields));
