@@ -22,7 +22,7 @@ struct AnalyseOptions {
   AnalysisWords words;
 };
 
-/// A length > 0; 0 for an empty text.
+/// Converts the text of an option to a length > 0; returns 0 for an empty text.
 double length(const std::string& text, const char* option) {
   return text.empty() ? 0.0 : option_quantity(option, text, "m", range::positive());
 }

@@ -10,7 +10,7 @@
 
 namespace whipple::app {
 
-/// The options of the analysis as words, shared by `analyse` and `report`.
+/// Holds the options of the analysis as text, shared by `analyse` and `report`.
 struct AnalysisWords {
   bool by_distance = false;
   std::string axis, link, witness, loads, diameter_at, peak_decay, pixel, spot = "1 mm";
@@ -23,11 +23,11 @@ struct AnalysisWords {
 void add_analysis_options(CLI::App& command, AnalysisWords& words);
 
 /// Measures the run and writes the tables into `output`.
-/// @throws InputError if a word is no quantity, or as analysis::analyse
+/// @throws InputError if an option is not a quantity, or as analysis::analyse
 void run_analysis(const std::filesystem::path& run, const AnalysisWords& words,
                   const std::filesystem::path& output);
 
-/// `whipple analyse`: measures of a run as CSV and HDF5.
+/// Adds `whipple analyse`: measures of a run as CSV and HDF5.
 void add_analyse_command(CLI::App& app);
 
 }  // namespace whipple::app

@@ -40,14 +40,15 @@ struct BenchOptions {
   bool laws = false;
   std::string json;
   std::string compare;
-  std::string worker;  // the file that one measurement goes to
+  std::string worker;  // file to which one measurement is written
 };
 
 bench::Length length(const BenchOptions& options) {
   return options.whole ? bench::Length::whole : options.quick ? bench::Length::quick : bench::Length::normal;
 }
 
-/// The ranks that measure: each problem has processes of its own, so that its peak memory is its own.
+/// Measures one problem on the ranks of this process. Each problem runs in separate processes, so that its peak memory
+/// is measured separately.
 void run_worker(const BenchOptions& options) {
   const Measurement measurement = bench::measure(bench::find_problem(options.problems.front()),
                                                  options.threads.front(), length(options), parallel::world());
@@ -59,7 +60,7 @@ void run_worker(const BenchOptions& options) {
 Measurement measure_in_own_processes(const BenchOptions& options, const std::string& problem, int ranks,
                                      int threads) {
   const fs::path file = fs::temp_directory_path() / fmt::format("whipple_bench_{}.json", getpid());
-  // This executable itself, whatever its name: copies of it are compared with one another.
+  // This executable under its current name: copies of it are compared with one another.
   std::vector<std::string> program = {process::own_executable().filename().string(),
                                       "bench",
                                       problem,
@@ -78,7 +79,7 @@ Measurement measure_in_own_processes(const BenchOptions& options, const std::str
 
 std::string percent(double part, double whole) { return fmt::format("{:.0f} %", 100.0 * part / whole); }
 
-/// Stages beside what memory and arithmetic units of these cores would need at least.
+/// Prints the stages compared with the minimum time set by memory bandwidth and arithmetic units of these cores.
 void print(const Measurement& m) {
   fmt::print("\n{}: {}\n{} particles, of which {:.0f} % are at rest, {} steps, {} ranks x {} threads; ",
              m.problem, bench::find_problem(m.problem).what, m.particles, 100.0 * m.share_at_rest, m.steps,
@@ -109,8 +110,8 @@ void print(const Measurement& m) {
       1e-9 * m.machine.bandwidth, 1e-9 * m.machine.arithmetic);
 }
 
-/// How a problem gains by cores: speed over that of its first configuration, per core of it, and per what the
-/// reference kernel, whose threads share nothing, gains on the same cores.
+/// Prints how each problem scales with cores: the speed-up relative to its first configuration, per core, and relative
+/// to the speed-up of the reference kernel, whose threads share no data, on the same cores.
 void print_scaling(const std::vector<Measurement>& all) {
   std::vector<std::vector<std::string>> rows = {{"problem", "ranks", "threads", "ns/particle", "speed-up",
                                                  "efficiency", "kernel's speed-up", "of the kernel's"}};
@@ -137,7 +138,7 @@ std::vector<Measurement> read_measurements(const fs::path& file) {
   }
 }
 
-/// Ratios of times, plain and with each time in units of what the machine could do beside it.
+/// Prints ratios of times, plain and normalised by the machine performance measured in the same session.
 void print_comparison(const std::vector<Measurement>& now, const std::vector<Measurement>& before,
                       const std::string& file) {
   std::vector<std::vector<std::string>> rows = {{"problem", "ranks", "threads", "before", "now",
@@ -175,7 +176,7 @@ nlohmann::json to_json(const std::vector<Measurement>& all, const BenchOptions& 
           {"measurements", measurements}};
 }
 
-/// Laws of strength and failure in multiples of Johnson-Cook, as a table of the manual.
+/// Prints the cost of the strength and failure laws in multiples of Johnson-Cook, as a table of the manual.
 void print_laws(bool quick) {
   fmt::print("| law | kind | ns per point and step | multiple of johnson_cook (half of the rounds) |\n");
   fmt::print("| --- | --- | --- | --- |\n");

@@ -5,7 +5,7 @@
 
 namespace whipple::app {
 
-/// whipple bench: nanoseconds per particle and step, by stage, beside the machine's memory bandwidth.
+/// Adds `whipple bench`: nanoseconds per particle and step, by stage, compared with the machine's memory bandwidth.
 void add_bench_command(CLI::App& app);
 
 }  // namespace whipple::app

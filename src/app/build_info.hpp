@@ -8,7 +8,7 @@ namespace whipple::app {
 /// Describes the sources and the compiler of this executable.
 struct BuildInfo {
   std::string version;
-  std::string revision;  ///< git commit, "+changes" if files differed from it, "unknown" outside of git
+  std::string revision;  ///< git commit, "+changes" if files differed from it, "unknown" outside git
   std::string source_folder;
   std::string build_type;
   std::string compiler;

@@ -21,7 +21,7 @@ namespace {
 
 using Lines = std::vector<std::vector<std::string>>;
 
-/// Adds the sources of a table, of the tables in it, and of the lists that material files have.
+/// Adds the sources of a table, of its subtables, and of the lists in material files.
 void add_sources(Lines& lines, input::Table table, const std::string& name) {
   struct Remarks {
     std::string source;
@@ -40,7 +40,7 @@ void add_sources(Lines& lines, input::Table table, const std::string& name) {
   }
 }
 
-/// The materials of a run, or the one material of this name.
+/// Returns the materials of a run, or the single material of this name.
 std::vector<std::filesystem::path> materials_of(const std::filesystem::path& name) {
   if (!std::filesystem::exists(name / "run.toml")) return {find_material(name)};
   input::Document document =
@@ -69,7 +69,7 @@ std::string sources_of(const std::filesystem::path& file) {
   return fmt::format("\n{}\n{}", file.string(), text_table(lines, "l"));
 }
 
-/// The words of CITATION.cff.
+/// Prints the entries of CITATION.cff.
 void print_program() {
   constexpr const char* title =
       "whipple: equations of state from molecular dynamics, and the material point method for hypervelocity "

@@ -5,7 +5,7 @@
 
 namespace whipple::app {
 
-/// `whipple cite`: how to cite the program, and the sources of material constants.
+/// Adds `whipple cite`: how to cite the program, and the sources of material constants.
 void add_cite_command(CLI::App& app);
 
 }  // namespace whipple::app

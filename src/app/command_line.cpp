@@ -14,7 +14,7 @@
 namespace whipple::app {
 namespace {
 
-/// The outermost command with arguments that nobody took, or else the innermost that the arguments reached.
+/// Returns the outermost command with unconsumed arguments, or otherwise the innermost command that was parsed.
 const CLI::App& faulty(const CLI::App& app) {
   const CLI::App* command = &app;
   while (command->remaining(false).empty() && !command->get_subcommands().empty()) {
@@ -23,7 +23,7 @@ const CLI::App& faulty(const CLI::App& app) {
   return *command;
 }
 
-/// "whipple eos hugoniot"
+/// Returns the name of a command with those of its parents, "whipple eos hugoniot".
 std::string full_name(const CLI::App& command) {
   const CLI::App* parent = command.get_parent();
   return parent == nullptr ? command.get_name() : full_name(*parent) + " " + command.get_name();
@@ -47,7 +47,7 @@ std::vector<std::string> subcommand_names(const CLI::App& command) {
 
 std::string list(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ", ")); }
 
-/// Explains the fault of an argument that no option and no subcommand took.
+/// Returns the error message for an argument that no option and no subcommand accepts.
 std::string unexpected(const CLI::App& command, const std::string& argument) {
   if (argument.starts_with('-')) {
     const std::vector<std::string> names = option_names(command);

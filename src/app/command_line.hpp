@@ -8,7 +8,7 @@
 
 namespace whipple::app {
 
-/// Adds --quiet and --verbose to a command and to all its subcommands that do not pass their arguments on.
+/// Adds --quiet and --verbose to a command and to all its subcommands except those that pass their arguments on.
 void add_verbosity(CLI::App& command);
 
 /// Adds an option whose value is a word of an enumeration.
@@ -22,7 +22,7 @@ CLI::Option* add_word_option(CLI::App& command, const std::string& names, Enum& 
 }
 
 /// Parses the command line and runs the subcommand that it names.
-/// @returns the exit code; a command ends with a code of its own by throwing CLI::RuntimeError(code)
+/// @returns the exit code; a command selects another one by throwing CLI::RuntimeError(code)
 /// @throws InputError if the arguments are wrong, with the nearest subcommand or option
 int run_command_line(CLI::App& app, int argc, char** argv);
 

@@ -48,11 +48,11 @@ struct CompareOptions {
   bool force = false;
 };
 
-/// How a kind is printed.
+/// Describes how experiments of a kind are printed.
 struct Style {
   const char* kind;
   const char* deviation;  ///< unit of the deviations
-  double deviation_size;  ///< of that unit in SI or percent
+  double deviation_size;  ///< value of that unit in SI or percent
   eos::curves::Column abscissa, ordinate;
 };
 
@@ -85,7 +85,7 @@ Style style(const Experiment& experiment) {
   throw InternalError("unknown kind of experiment");
 }
 
-/// " 298 K" or " 300 ... 1500 K" of isotherms; nothing of other kinds.
+/// Returns the temperatures of isotherms, " 298 K" or " 300 ... 1500 K"; empty for other kinds.
 std::string temperatures_of(const Experiment& experiment) {
   if (experiment.kind != ExperimentKind::isotherm) return "";
   if (std::isfinite(experiment.temperature)) return fmt::format(" {:g} K", experiment.temperature);
@@ -100,7 +100,7 @@ struct Row {
   Comparison comparison;
 };
 
-/// "line 4", "lines 2, 5-9".
+/// Formats line numbers as ranges: "line 4", "lines 2, 5-9".
 std::string line_ranges(std::vector<int> lines) {
   std::ranges::sort(lines);
   const auto repeated = std::ranges::unique(lines);
@@ -175,7 +175,7 @@ std::string csv_text(const std::vector<Row>& rows) {
   return file.str();
 }
 
-/// JSON has no NaN: a point out of range becomes null.
+/// Converts values to JSON, which has no NaN: out-of-range points become null.
 nlohmann::json numbers(const std::vector<double>& values, double size) {
   nlohmann::json list = nlohmann::json::array();
   for (const double value : values) {
@@ -184,8 +184,9 @@ nlohmann::json numbers(const std::vector<double>& values, double size) {
   return list;
 }
 
-/// Points for curves through a number of groups of measured ones: those of one initial density, or of one isotherm.
-/// Groups are parted by a point without a value; more groups than can be told apart in a figure have no curves.
+/// Returns the points of curves through groups of measured points: those of one initial density, or of one isotherm.
+/// Groups are separated by a point without a value. Groups that are too many to be distinguished in a figure have no
+/// curves.
 eos::experiments::CurvePoints curve_points(const Material& material, const Experiment& experiment,
                                            int count) {
   constexpr std::size_t most_groups = 12;
@@ -211,8 +212,8 @@ eos::experiments::CurvePoints curve_points(const Material& material, const Exper
   return points;
 }
 
-/// Limits of the 95 % band of a fitted material at some points: the material's own curve and two standard deviations
-/// of its samples about it; no value where half of the samples have none.
+/// Computes the limits of the 95 % band of a fitted material at some points: the curve of the material plus and minus
+/// two standard deviations of its samples; no value where half of the samples have none.
 std::pair<std::vector<double>, std::vector<double>> band(const Row& row, const MaterialSamples& samples,
                                                          const std::vector<double>& central,
                                                          const eos::experiments::CurvePoints& points) {
@@ -270,7 +271,7 @@ void draw(const std::vector<Row>& rows, const DrawnMaterials& drawn, const std::
     }
     panels.back()["materials"].push_back(std::move(entry));
   }
-  // Names of files need not be UTF-8.
+  // File names need not be UTF-8.
   process::draw_json("scripts/plot_compare.py",
                      panels.dump(1, ' ', false, nlohmann::json::error_handler_t::replace), path);
 }
@@ -298,8 +299,8 @@ void run(const CompareOptions& options) {
   std::vector<Row> rows;
   for (const Experiment& experiment : experiments) {
     for (const Material& material : materials) {
-      // The data of copper are not for what the data of aluminium are for; a material that none of the data
-      // name is compared with all.
+      // A file for one material is compared only with that material: copper data are not compared with aluminium. A
+      // material that no file names is compared with all files.
       const bool of_others = std::ranges::any_of(experiments, [&](const Experiment& other) {
         return !other.material.empty() && belongs_to(other, material);
       });

@@ -5,7 +5,8 @@
 
 namespace whipple::app {
 
-/// `whipple compare MATERIAL.toml... --with FILE.csv...`: measured Hugoniots and isotherms against materials.
+/// Adds `whipple compare MATERIAL.toml... --with FILE.csv...`: comparison of materials with measured Hugoniots and
+/// isotherms.
 void add_compare_command(CLI::App& app);
 
 }  // namespace whipple::app

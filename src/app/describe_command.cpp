@@ -27,13 +27,13 @@
 namespace whipple::app {
 namespace {
 
-/// A part of the inputs: its text, for all of it (empty name) or for one entry.
+/// Describes a part of the inputs: its text, for the whole part (empty name) or for one entry.
 struct Topic {
   std::string name;
   std::string title;
   std::function<std::string(const std::string&)> text;
-  std::function<std::vector<std::string>()> entries;  ///< names that `text` knows; none: one text only
-  std::string (*schema)() = nullptr;  ///< JSON schema of the files; null: the topic is a part of a file
+  std::function<std::vector<std::string>()> entries;  ///< names that `text` accepts; none: one text only
+  std::string (*schema)() = nullptr;  ///< JSON schema of the files; null: the topic is part of a file
 };
 
 template <class Entry>
@@ -98,7 +98,7 @@ std::string block(const std::string& text) {
   return fmt::format("```text\n{}{}```\n\n", text, text.ends_with('\n') ? "" : "\n");
 }
 
-/// docs/manual/input_reference.md
+/// Returns the text of docs/manual/input_reference.md.
 std::string manual() {
   std::string page =
       "# Input reference\n\n"
@@ -123,7 +123,7 @@ struct DescribeOptions {
   bool json_schema = false;
 };
 
-/// Returns the schema of the files of a topic, or that of case files.
+/// Returns the schema of the files of a topic; by default that of case files.
 std::string schema_of(const DescribeOptions& options) {
   const Topic& topic = find_topic(options.topic.empty() ? "case" : options.topic);
   if (topic.schema == nullptr || !options.name.empty()) {

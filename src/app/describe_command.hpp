@@ -5,7 +5,7 @@
 
 namespace whipple::app {
 
-/// `whipple describe`: every key of the inputs with unit, range, default and meaning.
+/// Adds `whipple describe`: every key of the inputs with unit, range, default and meaning.
 void add_describe_command(CLI::App& app);
 
 }  // namespace whipple::app

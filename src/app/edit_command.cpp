@@ -47,7 +47,7 @@ void edit(const EditOptions& options) {
       throw InputError(
           fmt::format("{}: error: was changed by another program meanwhile: nothing written", options.file));
     }
-    // A link stays one: the file that it names is written, and keeps its permissions.
+    // A symbolic link is preserved: its target is written and keeps its permissions.
     const std::filesystem::path file = std::filesystem::canonical(options.file);
     const std::filesystem::perms permissions = std::filesystem::status(file).permissions();
     write_text_atomically(file, text);

@@ -5,7 +5,7 @@
 
 namespace whipple::app {
 
-/// `whipple edit`: changes values in the text of a case file.
+/// Adds `whipple edit`: changes values in the text of a case file.
 void add_edit_command(CLI::App& app);
 
 }  // namespace whipple::app

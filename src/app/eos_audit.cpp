@@ -18,7 +18,7 @@ namespace {
 using eos::Audit;
 using Lines = std::vector<std::vector<std::string>>;
 
-/// "name 1.234 unit", or nothing for a quantity that the model does not carry.
+/// Formats a quantity as "name 1.234 unit,"; empty if the model does not provide it.
 std::string written(const char* name, double value, double size, const char* unit) {
   if (std::isnan(value)) return {};
   return fmt::format(" {} {:.5g}{}{},", name, value / size, *unit == '\0' ? "" : " ", unit);

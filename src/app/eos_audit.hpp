@@ -6,7 +6,7 @@
 
 namespace whipple::app {
 
-/// Prints what an audit of the equation of state found, the range in which it is valid and the verdict.
+/// Prints the findings of an audit of the equation of state, its range of validity and the verdict.
 /// @throws InputError with the findings if it is not usable
 void print_audit(const Material& material, eos::AuditDepth depth);
 

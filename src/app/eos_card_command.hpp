@@ -5,7 +5,7 @@
 
 namespace whipple::app {
 
-/// `whipple eos card MATERIAL --format ls-dyna`: the equation of state as a card of another program.
+/// Adds `whipple eos card MATERIAL --format ls-dyna`: the equation of state as a card of another program.
 void add_eos_card(CLI::App& eos_command);
 
 }  // namespace whipple::app

@@ -44,20 +44,20 @@ using eos::curves::LineStyle;
 using eos::curves::Series;
 using eos::curves::Subjects;
 
-/// Where a table goes besides the terminal.
+/// Describes the outputs of a table in addition to the terminal.
 struct Output {
   std::string csv;
   std::string plot;
   std::string x, y;                  ///< columns of the figure
   std::string logarithmic;           ///< "x", "y", "xy" or nothing
   std::vector<std::string> overlay;  ///< measurements
-  bool json = false;                 ///< the table as JSON to standard output, and nothing else
+  bool json = false;                 ///< print the table as JSON to standard output, and nothing else
   bool force = false;
 
   [[nodiscard]] bool alone() const { return json || is_standard_output(csv); }
 };
 
-/// Draws from the covariance of a fitted material.
+/// Holds the options for samples drawn from the covariance of a fitted material.
 struct SampleOptions {
   int count = 0;
   std::uint64_t seed = 1;
@@ -78,7 +78,7 @@ Subjects read_subjects(const std::vector<std::string>& names) {
   return subjects_of(materials);
 }
 
-/// One column of a table over another, a curve for each material.
+/// Plots one column of a table against another, with one curve for each material.
 Figure figure_of(const CurveTable& table, const Output& output) {
   const std::size_t x = column_index(table, output.x), y = column_index(table, output.y);
   Figure figure;
@@ -117,8 +117,8 @@ void warn_of_ends(const CurveTable& table) {
   }
 }
 
-/// A model answers wherever its formulas hold; what it says of hotter material than it describes is no
-/// answer.
+/// Warns of states above the maximum temperature of the audit: a model returns values wherever its formulas are
+/// defined, also where they are not valid.
 void warn_beyond_audit(const CurveTable& table, const Subjects& subjects) {
   const auto column = std::ranges::find(table.columns, "T_K", &Column::name);
   if (column == table.columns.end() || table.series.size() != subjects.size()) return;
@@ -136,7 +136,7 @@ void warn_beyond_audit(const CurveTable& table, const Subjects& subjects) {
   }
 }
 
-/// The figure of a sampled Hugoniot: the curves of the materials themselves, the fitted one with its 95 % band.
+/// Makes the figure of a sampled Hugoniot: the curves of all materials, and the 95 % band of the fitted one.
 Figure figure_with_band(const Request& request, const Subjects& subjects, std::size_t fitted,
                         const eos::curves::SampledHugoniot& sampled, const eos::curves::CurveRange& range) {
   constexpr double half_width = eos::experiments::half_width_95;
@@ -159,7 +159,7 @@ Figure figure_with_band(const Request& request, const Subjects& subjects, std::s
   return figure;
 }
 
-/// The scatter of Hugoniots of a fitted material; further materials are drawn beside it.
+/// Prints and draws the scatter of the Hugoniots of a fitted material; further materials are drawn for comparison.
 void run_samples(const Request& request) {
   std::vector<Material> materials;
   for (const std::string& name : request.materials) materials.push_back(read_material(name));

@@ -5,8 +5,8 @@
 
 namespace whipple::app {
 
-/// `whipple eos state|hugoniot|isotherm|isentrope|release|melt|dome|cold|match|audit|plot MATERIAL...`:
-/// states and curves of equations of state, as tables with units, CSV or figures.
+/// Adds `whipple eos state|hugoniot|isotherm|isentrope|release|melt|dome|cold|match|audit|plot MATERIAL...`: states and
+/// curves of equations of state, as tables with units, CSV or figures.
 void add_eos_command(CLI::App& app);
 
 }  // namespace whipple::app

@@ -28,7 +28,7 @@ nlohmann::json numbers(const std::vector<double>& values) {
   return list;
 }
 
-/// The word of scripts/plot_curves.py.
+/// Returns the name of a line style in scripts/plot_curves.py.
 const char* word_of(LineStyle style) {
   switch (style) {
     case LineStyle::solid:
@@ -76,7 +76,7 @@ std::filesystem::path find_experiment(const std::string& name) {
     try {
       return process::find_data(std::filesystem::path("eos/data") / file);
     } catch (const InputError&) {
-      // Reported below, with the folders in the user's words.
+      // Reported below, with the folders as the user wrote them.
     }
   }
   throw InputError(
@@ -114,7 +114,7 @@ void draw(const Figure& figure, const std::filesystem::path& path) {
       {"curves", lines(figure.curves)},
       {"points", lines(figure.points)},
       {"bands", bands}};
-  // Names of files need not be UTF-8.
+  // File names need not be UTF-8.
   process::draw_json("scripts/plot_curves.py",
                      description.dump(1, ' ', false, nlohmann::json::error_handler_t::replace), path);
   log::info("written: {}", path.string());

@@ -7,7 +7,7 @@
 
 #include "eos/curves/diagrams.hpp"
 
-/// Figures of `whipple eos`, drawn by scripts/plot_curves.py (PNG, PDF or SVG by the ending of the file).
+/// Implements the figures of `whipple eos`, drawn by scripts/plot_curves.py (PNG, PDF or SVG, by file extension).
 namespace whipple::app {
 
 /// Finds a table of measurements: a path, or a bare file name of those that come with the program (eos/data).
@@ -15,8 +15,8 @@ namespace whipple::app {
 std::filesystem::path find_experiment(const std::string& name);
 
 /// Adds measurements of the two quantities of the axes as points.
-/// @param experiments  as of `find_experiment`
-/// @throws InputError if a file has not the columns
+/// @param experiments  paths or names as for `find_experiment`
+/// @throws InputError if a file lacks the columns
 void add_measurements(eos::curves::Figure& figure, const std::vector<std::string>& experiments);
 
 /// Draws a figure into a file.

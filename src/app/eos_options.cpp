@@ -67,7 +67,7 @@ eos::curves::StateQuery state_query(const EosOptions& o) {
 
 namespace {
 
-/// A column of a list of states.
+/// Describes a column of a list of states.
 struct StateColumn {
   const char* name;
   const char* unit;
@@ -81,7 +81,7 @@ constexpr std::array<StateColumn, 5> state_columns = {{
     {"entropy", "J/(kg K)", &eos::curves::StateQuery::entropy},
 }};
 
-/// A column with the unit that the file gives its numbers.
+/// Holds a column with the unit that the file gives for it.
 struct StatedColumn {
   const StateColumn* column;
   std::string unit;

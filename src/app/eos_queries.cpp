@@ -14,7 +14,7 @@ using eos::curves::CurveTable;
 using eos::curves::Subjects;
 using eos::curves::Variable;
 
-/// The option of a quantity.
+/// Describes the command-line option of a quantity.
 struct QuantityOption {
   EosQuantity quantity;
   const char* name;

@@ -8,10 +8,10 @@
 #include "src/app/eos_options.hpp"
 #include "src/app/eos_remarks.hpp"
 
-/// The subcommands of `whipple eos` that print a table: states and curves.
+/// Defines the subcommands of `whipple eos` that print a table: states and curves.
 namespace whipple::app {
 
-/// Quantities of the command line that a subcommand may take.
+/// Lists the quantities of the command line that a subcommand may accept.
 enum class EosQuantity {
   density,
   temperature,
@@ -28,7 +28,7 @@ enum class EosQuantity {
   volume,
 };
 
-/// One subcommand: which quantities it takes and what it computes.
+/// Describes one subcommand: the quantities that it accepts and the table that it computes.
 struct EosQuery {
   const char* name;
   const char* summary;
@@ -38,7 +38,7 @@ struct EosQuery {
   eos::curves::CurveTable (*table)(const EosOptions&, const eos::curves::Subjects&);
   Remarks (*remarks)(const EosOptions&, const eos::curves::Subjects&);  ///< may be null
   const char* example;
-  bool as_list = false;       ///< printed one quantity a line
+  bool as_list = false;       ///< print one quantity per line
   bool with_samples = false;  ///< can be repeated for samples of a fitted material
 };
 

@@ -8,8 +8,8 @@
 #include "src/app/eos_options.hpp"
 #include "src/material/material_samples.hpp"
 
-/// Lines of text below the tables of `whipple eos`: limits, thresholds, points of a curve that it is remarkable for.
-/// Nothing where a model does not know it.
+/// Computes lines of text below the tables of `whipple eos`: limits, thresholds and special points of a curve; empty
+/// where a model does not provide them.
 namespace whipple::app {
 
 using Remarks = std::vector<std::string>;
@@ -21,13 +21,15 @@ Remarks cold_remarks(const EosOptions& options, const eos::curves::Subjects& sub
 Remarks melt_remarks(const EosOptions& options, const eos::curves::Subjects& subjects);
 Remarks dome_remarks(const EosOptions& options, const eos::curves::Subjects& subjects);
 Remarks match_remarks(const EosOptions& options, const eos::curves::Subjects& subjects);
-/// What the samples of a material are drawn from, and which defaults are the same in all of them.
+/// Describes the distribution from which the samples of a material are drawn, and the defaults that are the same in all
+/// samples.
 Remarks drawn_remarks(const MaterialSamples& drawn);
-/// Of the option that selects the errors.
+/// Holds the help text of the option that selects the errors.
 inline constexpr const char* tier_help =
     "Errors that the constants are drawn from: noise alone, of the fit and its defaults, over the "
     "potentials, or all";
 
+/// Describes the result of sampling a Hugoniot.
 /// @param samples  number of samples drawn
 Remarks sample_remarks(const eos::curves::SampledHugoniot& sampled, std::size_t samples);
 

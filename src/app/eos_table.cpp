@@ -34,14 +34,14 @@ std::string text(const Cell& cell, double size, int digits) {
   return std::isnan(value) ? "-" : fmt::format("{:.{}g}", value, digits);
 }
 
-/// Round-off about zero (the pressure of a state at rest) prints as 0; the CSV keeps every digit.
+/// Formats a cell. Round-off near zero (the pressure of a state at rest) is printed as 0; the CSV keeps every digit.
 std::string printed(const Cell& cell, double size, double greatest) {
   const double* number = std::get_if<double>(&cell);
   const bool nothing = number != nullptr && std::abs(*number) < std::max(1e-11 * greatest, 1e-12 * size);
   return nothing ? "0" : text(cell, size, 6);
 }
 
-/// Largest size of the numbers of a column; columns without known value are negative.
+/// Returns the maximum magnitude of the numbers of a column; negative if no value is known.
 double greatest(const CurveTable& table, std::size_t column) {
   double result = -1;
   for (const Series& series : table.series) {
@@ -69,7 +69,7 @@ void print(const CurveTable& table) {
     sizes.push_back(greatest(table, i));
     if (!column.in_curves || sizes.back() < 0) continue;
     shown.push_back(i);
-    // "P_GPa" prints as P over GPa; a name without unit stands alone.
+    // "P_GPa" is printed as P above GPa; a name without a unit is printed alone.
     lines[0].push_back(
         column.name.substr(0, column.unit.empty() ? column.name.size() : column.name.find('_')));
     lines[1].push_back(column.unit);

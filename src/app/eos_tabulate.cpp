@@ -33,7 +33,7 @@ struct TabulateOptions {
   bool force = false;
 };
 
-/// A request with the range that the user asked for.
+/// Builds a request with the range given by the user.
 template <class Request>
 Request ranged(const TabulateOptions& o) {
   Request request;

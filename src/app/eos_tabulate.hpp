@@ -5,7 +5,7 @@
 
 namespace whipple::app {
 
-/// `whipple eos table MATERIAL -o FILE`: a complete model as a table of its entropy, verified against the
+/// Adds `whipple eos table MATERIAL -o FILE`: writes a complete model as a table of its entropy, verified against the
 /// model.
 void add_eos_tabulate(CLI::App& eos_command);
 

@@ -37,7 +37,7 @@ struct ExportOptions {
   bool last = false;
 };
 
-/// The index of a series of VTU files with their times, for ParaView.
+/// Returns the index of a series of VTU files with their times, for ParaView.
 std::string index_text(const std::vector<std::pair<std::string, double>>& files) {
   std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
   for (const auto& [name, time] : files)
@@ -45,7 +45,7 @@ std::string index_text(const std::vector<std::pair<std::string, double>>& files)
   return text + "</Collection>\n</VTKFile>\n";
 }
 
-/// Exports the files of one kind. Returns their number.
+/// Exports the files of one kind and returns their number.
 std::size_t export_series(const Snapshots& snapshots, const ExportOptions& options) {
   std::vector<std::pair<std::string, double>> written;
   for (const auto& [file, time] : snapshots) {
@@ -76,7 +76,7 @@ void run_export(const ExportOptions& options) {
     if (const fs::path beside = analysis::elements_file(entry); fs::exists(beside))
       elements.emplace_back(beside, entry.time);
   }
-  for (const Snapshots* series : {&particles, &elements}) {  // wrong fields are refused before a file is made
+  for (const Snapshots* series : {&particles, &elements}) {  // wrong fields are rejected before writing
     if (!series->empty())
       static_cast<void>(
           io::read_snapshot_table(series->front().first, series->front().second, options.fields));

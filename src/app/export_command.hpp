@@ -5,7 +5,7 @@
 
 namespace whipple::app {
 
-/// `whipple export`: snapshots of a run as files of VTK or CSV.
+/// Adds `whipple export`: exports snapshots of a run as VTK or CSV files.
 void add_export_command(CLI::App& app);
 
 }  // namespace whipple::app

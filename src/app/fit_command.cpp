@@ -12,7 +12,7 @@ namespace whipple::app {
 void add_fit_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "fit", "Fit the constants of an equation of state to a store of molecular-dynamics results");
-  // All arguments, --help among them, belong to whipple-fit, which knows them.
+  // All arguments, including --help, are passed on to whipple-fit.
   command->set_help_flag();
   command->allow_extras();
   command->prefix_command();

@@ -5,7 +5,7 @@
 
 namespace whipple::app {
 
-/// `whipple fit`: starts whipple-fit, the executable that links GSL.
+/// Adds `whipple fit`: starts whipple-fit, the executable that links GSL.
 void add_fit_command(CLI::App& app);
 
 }  // namespace whipple::app

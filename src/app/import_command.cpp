@@ -28,7 +28,7 @@ struct Arguments {
   bool allow_missing = false, case_only = false, same_method = false, old_mass = false;
 };
 
-/// The choice that an option names.
+/// Returns the choice that the text of an option names.
 template <class Choice>
 Choice word(const char* option, const std::string& text) {
   if (const std::optional<Choice> choice = value_of<Choice>(text)) return *choice;
@@ -71,7 +71,7 @@ void require_complete(const fs::path& deck, const decks::Import& import) {
   throw InputError(std::move(faults));
 }
 
-/// Reads the case as `whipple run` will; its faults are named by the place where the user will look for it.
+/// Reads the case as `whipple run` will; errors name the final location of the files instead of the temporary one.
 void require_readable(const decks::CaseFolder& written, const fs::path& folder) {
   try {
     static_cast<void>(cases::read_case(written.case_file(), {}));

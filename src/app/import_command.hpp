@@ -5,7 +5,7 @@
 
 namespace whipple::app {
 
-/// `whipple import`: a case with its materials from the input deck of another code.
+/// Adds `whipple import`: converts the input deck of another code to a case with its materials.
 void add_import_command(CLI::App& app);
 
 }  // namespace whipple::app

@@ -39,18 +39,18 @@
 
 namespace {
 
-/// How threads wait for one another is read by libgomp when it is loaded, before `main`: the program starts
-/// itself again. Threads that wait in a loop keep those they wait for from the cores of a shared machine, and
-/// a run takes several times as long.
+/// Sets passive waiting of threads. libgomp reads this setting when it is loaded, before `main`, so the program
+/// restarts itself. Threads that busy-wait occupy the cores that other threads need on a shared machine, and a run
+/// takes several times as long.
 void wait_passively(char** arguments) {
   if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;
   setenv("OMP_WAIT_POLICY", "passive", 1);
   std::error_code fault;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", fault);
-  execv(program.c_str(), arguments);  // if that fails, the program goes on as it is
+  execv(program.c_str(), arguments);  // on failure the program continues unchanged
 }
 
-/// Subcommands with threads.
+/// Returns whether a subcommand uses threads.
 bool has_threads(std::string_view command) {
   constexpr std::array<std::string_view, 6> commands = {"run", "check", "analyse", "report", "view", "bench"};
   return std::ranges::find(commands, command) != commands.end();
@@ -58,7 +58,7 @@ bool has_threads(std::string_view command) {
 
 int whipple_main(int argc, char** argv) {
   using namespace whipple::app;
-  // The equations of state know of no other program: what simulates crystals for them is this one's choice.
+  // The equations of state do not depend on any other program: the source of crystal simulations is injected here.
   whipple::eos::set_isochore_source(whipple::md::worker_source);
   CLI::App app{
       "From atoms to debris clouds: equations of state from molecular dynamics, and the material point\n"
@@ -96,7 +96,7 @@ int whipple_main(int argc, char** argv) {
   return run_command_line(app, argc, argv);
 }
 
-/// "whipple help run" is "whipple run --help".
+/// Rewrites "whipple help run" as "whipple run --help".
 std::vector<char*> arguments_of(int argc, char** argv) {
   static char help[] = "--help";
   std::vector<char*> arguments(argv, argv + argc);
@@ -113,11 +113,12 @@ std::vector<char*> arguments_of(int argc, char** argv) {
 int main(int argc, char** argv) {
   if (argc > 1 && has_threads(argv[1])) wait_passively(argv);
   std::signal(SIGXFSZ,
-              SIG_IGN);  // the greatest size of a file is met as an error of writing, as a full disk is
-  // Large arrays go back to the system when they are freed. Left to itself, glibc raises this limit up to 32
-  // MB and keeps their holes: a tenth more memory in a cloud of 140,000 particles.
+              SIG_IGN);  // the maximum file size is reported as a write error, like a full disk
+  // Large arrays are returned to the system when they are freed. By default, glibc raises this threshold up to 32 MB
+  // and keeps the freed gaps, which costs a tenth more memory in a cloud of 140,000 particles.
   mallopt(M_MMAP_THRESHOLD, 4 << 20);
-  // Smaller ones stay: every step takes and frees some, and new pages cost more than what is done with them.
+  // Smaller arrays are kept: every step allocates and frees some, and mapping new pages costs more than the work on
+  // them.
   mallopt(M_TRIM_THRESHOLD, 32 << 20);
   std::vector<char*> arguments = arguments_of(argc, argv);
   return whipple::run_guarded("whipple", whipple_main, static_cast<int>(arguments.size()) - 1,

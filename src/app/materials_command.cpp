@@ -50,8 +50,8 @@ std::string lower(std::string text) {
   return text;
 }
 
-/// The materials with all words in their names, groups or notes, then those that hold them in their sources, models or
-/// comments only.
+/// Lists the materials with all words in their names, groups or notes, then those with the words only in their sources,
+/// models or comments.
 void search_materials(const std::vector<std::string>& words) {
   const auto holds = [&](const std::string& text) {
     return std::ranges::all_of(words,
@@ -81,7 +81,7 @@ void search_materials(const std::vector<std::string>& words) {
   print(cited);
 }
 
-/// The file itself, which holds constants and sources, and where its equation of state is valid.
+/// Prints the file, which contains constants and sources, and the range of validity of its equation of state.
 void show_material(const std::string& name) {
   const Material material = read_material(name);
   fmt::print("# {}\n{}\n", material.file.string(), read_text(material.file));

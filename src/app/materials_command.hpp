@@ -5,7 +5,7 @@
 
 namespace whipple::app {
 
-/// `whipple materials`: the files of the material library.
+/// Adds `whipple materials`: lists, searches and prints the files of the material library.
 void add_materials_command(CLI::App& app);
 
 }  // namespace whipple::app

@@ -37,7 +37,7 @@ std::string range(double from, double to) {
                            : (std::isfinite(from) ? fmt::format("{:.0f}", from) : std::string("-"));
 }
 
-/// Returns the text of a curve, or nothing where the model is not valid.
+/// Returns the value of a curve, or nothing where the model is not valid.
 template <class Curve>
 auto if_defined(const Curve& curve) -> std::optional<decltype(curve())> {
   try {
@@ -116,7 +116,7 @@ Row row_of_explosive(const std::string& name, const Material& material) {
           material.source};
 }
 
-/// One table: its head and its rows.
+/// Holds one table: its header and its rows.
 struct Table {
   std::string title;
   const Row& head;
@@ -124,7 +124,7 @@ struct Table {
   std::vector<Row> rows = {};
 };
 
-/// Metals with melting or boiling apart from those without.
+/// Returns whether a material has melting or boiling; others are listed separately.
 bool has_phases(const eos::EquationOfState& eos) {
   return eos.vapour_dome() != nullptr ||
          if_defined([&] { return eos::melting_point(eos, 0.0); }).value_or(std::nullopt);

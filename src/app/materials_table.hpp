@@ -5,8 +5,8 @@
 
 namespace whipple::app {
 
-/// The library as Markdown tables, one per group: what each material's equation of state says about rest,
-/// melting, boiling, shocks and release, beside the measured melting and boiling points of its file.
+/// Returns the library as Markdown tables, one per group: state at rest, melting, boiling, shocks and release by the
+/// equation of state of each material, compared with the measured melting and boiling points of its file.
 /// @throws InputError if a file of the library cannot be read
 std::string library_as_markdown();
 

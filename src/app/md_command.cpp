@@ -30,16 +30,17 @@ struct MdOptions {
   bool adaptive = false;
 };
 
-/// Exit code of a process that a signal ended, as a shell and mpirun return it, less the number of the signal.
+/// Defines the exit code of a process terminated by a signal, as returned by a shell and mpirun, less the signal
+/// number.
 constexpr int killed_code = 128;
 
-/// The physical cores, or as many of them as make whole teams of a point's ranks.
+/// Returns the number of physical cores, rounded down to a multiple of the ranks per point (at least one team).
 int usual_ranks(const std::string& plan) {
   const int team = static_cast<int>(md::read_plan(plan).ranks_per_point);
   return std::max(1, process::physical_cores() / team) * team;
 }
 
-/// Computes what is missing of a plan.
+/// Computes the missing points of a plan.
 int compute(const MdOptions& options, const std::string& plan, int ranks) {
   const log::Level level = log::level();
   std::vector<std::string> program = {"whipple-md", plan};
@@ -47,9 +48,8 @@ int compute(const MdOptions& options, const std::string& plan, int ranks) {
   if (options.retry_failed) program.emplace_back("--retry-failed");
   if (level == log::Level::quiet) program.emplace_back("--quiet");
   if (level == log::Level::verbose) program.emplace_back("--verbose");
-  // Ranks share no state but the queue of points: each runs one thread. A rank that is killed (by the system,
-  // for memory) takes the others along; what was finished is in the store, and another call goes on with the
-  // rest.
+  // Ranks share no state except the queue of points; each runs one thread. If a rank is killed (by the system, for
+  // memory), all ranks end. Finished points are in the store, and another call computes the rest.
   constexpr int most_calls = 3;
   for (int call = 1;; ++call) {
     const int code = process::mpirun(ranks, program, {{"OMP_NUM_THREADS", "1"}});
@@ -60,7 +60,7 @@ int compute(const MdOptions& options, const std::string& plan, int ranks) {
   }
 }
 
-/// Rounds of proposal (whipple-fit) and computation (whipple-md) until the proposer has no more points.
+/// Alternates between proposal (whipple-fit) and computation (whipple-md) until no further points are proposed.
 int run_adaptive(MdOptions options, int ranks) {
   const std::filesystem::path plan = options.plan;
   if (options.store.empty()) options.store = plan.stem().string() + ".md.h5";
@@ -85,7 +85,7 @@ int run_adaptive(MdOptions options, int ranks) {
     former = text;
     const int computed = compute(options, round.string(), ranks);
     std::filesystem::remove(round);
-    // A point that failed is in the store, and the next proposal does without it.
+    // A failed point is in the store, and the next proposal omits it.
     if (computed != 0 && computed != static_cast<int>(ExitCode::state)) return computed;
   }
 }

@@ -5,7 +5,7 @@
 
 namespace whipple::app {
 
-/// `whipple md`: starts whipple-md, the executable that links LAMMPS, on several ranks.
+/// Adds `whipple md`: starts whipple-md, the executable that links LAMMPS, on several ranks.
 void add_md_command(CLI::App& app);
 
 }  // namespace whipple::app

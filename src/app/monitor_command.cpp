@@ -46,7 +46,7 @@ void monitor_runs(const MonitorOptions& options) {
   };
   monitor::Handler handler(std::move(folder), access, process::find_data("web/monitor"),
                            process::find_data("web/viewer"), cases, start);
-  // The key stands behind the mark #, which browsers do not send.
+  // The key is in the fragment of the URL (after #), which browsers do not send.
   fmt::print("Open http://{}/#{} in a browser of this machine; Ctrl-C ends the monitor, not the runs.\n",
              access.host, access.token);
   std::fflush(stdout);

@@ -5,7 +5,7 @@
 
 namespace whipple::app {
 
-/// Adds `whipple monitor`: runs in the browser, while they go on and afterwards.
+/// Adds `whipple monitor`: shows runs in the browser, both active and finished ones.
 void add_monitor_command(CLI::App& app);
 
 }  // namespace whipple::app

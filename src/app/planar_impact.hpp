@@ -7,11 +7,11 @@
 
 namespace whipple::app {
 
-/// Computes what a planar impact of the fastest body of a case on each other one would do, from their equations of state
-/// alone: a list of {projectile, target, velocity (m/s, along the axis), pressure (Pa), interface_velocity,
+/// Computes the planar impact of the fastest body of a case on each other body from their equations of state alone.
+/// Returns a list of {projectile, target, velocity (m/s, along the axis), pressure (Pa), interface_velocity,
 /// free_surface_velocity (m/s, of the target; null without one), states: [{body, material, shocked: {...}, released:
 /// {...} or null}]} with density (kg/m^3), temperature (K), melted_fraction, vaporised_fraction. Bodies of the same
-/// material count once. Empty where nothing moves; what a model refuses is left out.
+/// material count once. The list is empty if nothing moves; impacts outside the range of a model are omitted.
 /// @param axis  of the impact: 0, 1, 2
 nlohmann::json planar_impacts(const cases::Case& setup, int axis);
 

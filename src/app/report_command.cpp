@@ -33,13 +33,13 @@ struct ReportOptions {
   double view_megabytes = 4.0;
 };
 
-/// Writes view.html for the page, if it can be made of this run. Returns its path, empty without one.
+/// Writes view.html for the page if the run allows it. Returns its path, empty if it was not written.
 std::string write_view(const analysis::Run& run, double megabytes, const std::filesystem::path& output) {
   if (megabytes <= 0.0) return "";
   try {
     view::PageOptions options;
     options.most_bytes = 1e6 * megabytes;
-    options.bits = 8;  // what colours show; the page of `whipple view` has 16
+    options.bits = 8;  // the resolution of the colour map; the page of `whipple view` has 16
     const std::filesystem::path file = output / "view.html";
     io::write_text_atomically(file, view::make_page(run, options, process::find_data("web/viewer")).html);
     return file.string();
@@ -49,7 +49,7 @@ std::string write_view(const analysis::Run& run, double megabytes, const std::fi
   }
 }
 
-/// planar_impact.json, for the page.
+/// Writes planar_impact.json for the page.
 void write_planar_impacts(const analysis::Run& run, const std::filesystem::path& output) {
   const int axis = analysis::find_frame(run, analysis::read_snapshot(run.snapshots.front())).axis;
   const cases::Case setup = cases::read_case(run.folder / "run.toml", {});
@@ -58,14 +58,14 @@ void write_planar_impacts(const analysis::Run& run, const std::filesystem::path&
       planar_impacts(setup, axis).dump(1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
-/// Measures a run and draws its views. Returns the page of the view in three dimensions, empty without one.
+/// Measures a run and draws its views. Returns the path of the three-dimensional view, empty without one.
 std::string measure(const std::string& folder, const ReportOptions& options,
                     const std::filesystem::path& output, bool with_view) {
   const analysis::Run run = analysis::read_run(folder);
-  if (run.snapshots.empty()) return "";  // it has its input and history to show
+  if (run.snapshots.empty()) return "";  // the report shows its input and history only
   AnalysisWords words = options.analysis;
   log::info("{}: measures and views of {} snapshots", folder, run.snapshots.size());
-  constexpr double panel_width = 4.5;  // inches, somewhat more than that of one of several panels
+  constexpr double panel_width = 4.5;  // inches, slightly more than the width of one of several panels
   words.views.columns = static_cast<std::size_t>(std::lround(panel_width * options.dots_per_inch));
   run_analysis(folder, words, output);
   write_planar_impacts(run, output);

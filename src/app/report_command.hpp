@@ -5,7 +5,7 @@
 
 namespace whipple::app {
 
-/// `whipple report`: figures and tables of a run directory (the Python package report).
+/// Adds `whipple report`: figures and tables of a run directory (the Python package report).
 void add_report_command(CLI::App& app);
 
 }  // namespace whipple::app

@@ -114,18 +114,18 @@ int run_on_ranks(const Arguments& arguments) {
   if (arguments.force) program.emplace_back("--force");
   if (log::level() == log::Level::quiet) program.emplace_back("--quiet");
   if (log::level() == log::Level::verbose) program.emplace_back("--verbose");
-  // Ranks that wait for one another end themselves; the launcher gives them time to do so.
+  // Ranks that wait for one another terminate themselves; the launcher allows them the time to do so.
   constexpr double margin = 60.0;  // s
   return process::mpirun(arguments.ranks, program, {}, run::SignalControl::longest_end + margin);
 }
 
-/// Runs the case on the ranks that this process belongs to.
+/// Runs the case on the ranks of this process.
 int run_here(const Arguments& arguments) {
   try {
     if (arguments.device == Device::reference) kernel_set() = KernelSet::plain;
     return run::run_case(run_options(arguments), parallel::world());
   } catch (const std::exception& error) {
-    log::record_error(error.what());  // also into log.txt, if the run directory is there
+    log::record_error(error.what());  // also to log.txt, if the run directory exists
     if (parallel::size(parallel::world()) > 1) {
       parallel::end_all_ranks(parallel::world(), message_for_user("whipple", error),
                               static_cast<int>(exit_code(error)));
@@ -134,7 +134,7 @@ int run_here(const Arguments& arguments) {
   }
 }
 
-/// Writes a page that shows the bodies of a case as a run starts with them: the first snapshot of a run of one tiny step.
+/// Writes a page that shows the initial bodies of a case: the first snapshot of a run of one very small step.
 void write_preview(const Arguments& arguments, const std::string& page_file) {
   const TemporaryFolder folder;
   run::RunOptions options = run_options(arguments);
@@ -154,6 +154,7 @@ void write_preview(const Arguments& arguments, const std::string& page_file) {
              page.one_of == 1 ? "all particles" : fmt::format("about one of {} particles", page.one_of));
 }
 
+/// Checks that a path is not a folder.
 /// @throws InputError for a folder, with the case file in it
 void require_case_file(const std::filesystem::path& path) {
   if (!std::filesystem::is_directory(path)) return;

@@ -5,9 +5,9 @@
 
 namespace whipple::app {
 
-/// whipple run: simulates a case, or goes on with an interrupted run.
+/// Adds `whipple run`: simulates a case, or continues an interrupted run.
 void add_run_command(CLI::App& app);
-/// whipple check: validates a case and says what would run.
+/// Adds `whipple check`: validates a case and describes what would run.
 void add_check_command(CLI::App& app);
 
 }  // namespace whipple::app

@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What there is to know of a run: its status, or why that cannot be read.
+/// Holds the status of a run, or the reason why it cannot be read.
 struct Found {
   fs::path run;
   std::optional<run::RunStatus> status;
@@ -45,7 +45,7 @@ std::vector<Found> statuses_below(const fs::path& folder) {
   return found;
 }
 
-/// Prints the states of runs as one list, each with its folder; names of folders and messages may be no UTF-8.
+/// Prints the states of runs as one list, each with its folder; folder names and messages need not be UTF-8.
 void print_as_json(const std::vector<Found>& runs) {
   using nlohmann::json;
   json list = json::array();
@@ -78,6 +78,7 @@ void print_as_table(const std::vector<Found>& runs) {
   fmt::print("{}", text_table(rows, "llrrrrrl"));
 }
 
+/// Prints the states of the runs in a folder.
 /// @throws InputError after all runs were printed, if the status of one cannot be read
 void print_status(const fs::path& folder, bool json) {
   const std::vector<Found> runs = statuses_below(folder);

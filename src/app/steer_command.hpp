@@ -5,9 +5,9 @@
 
 namespace whipple::app {
 
-/// whipple steer: asks something of a run that goes on.
+/// Adds `whipple steer`: sends a request to an active run.
 void add_steer_command(CLI::App& app);
-/// whipple status: says how far runs are.
+/// Adds `whipple status`: prints the progress of runs.
 void add_status_command(CLI::App& app);
 
 }  // namespace whipple::app

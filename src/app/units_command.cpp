@@ -13,7 +13,7 @@
 namespace whipple::app {
 namespace {
 
-/// A kind of quantity of the inputs, with examples of what is accepted for it.
+/// Describes a kind of quantity of the inputs, with accepted examples.
 struct Quantity {
   std::string name;
   std::string si_unit;
@@ -65,7 +65,7 @@ void print_in_si(const std::string& text) {
       fmt::print("{} ({})\n", units::format_quantity(value, quantity.si_unit), quantity.name);
       return;
     } catch (const InputError&) {
-      // of another kind
+      // a quantity of another kind
     }
   }
   throw InputError(fmt::format(

@@ -5,7 +5,7 @@
 
 namespace whipple::app {
 
-/// `whipple units`: accepted units with examples, and the conversion of a quantity.
+/// Adds `whipple units`: lists the accepted units with examples, and converts quantities.
 void add_units_command(CLI::App& app);
 
 }  // namespace whipple::app

@@ -17,7 +17,7 @@ namespace whipple::app {
 namespace {
 
 std::string mpi_version() {
-  // Open MPI, not only the standard that it implements; callable before MPI_Init.
+  // The version of Open MPI, not only that of the MPI standard; callable before MPI_Init.
   std::array<char, MPI_MAX_LIBRARY_VERSION_STRING> text{};
   int length = 0;
   MPI_Get_library_version(text.data(), &length);

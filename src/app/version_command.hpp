@@ -5,7 +5,7 @@
 
 namespace whipple::app {
 
-/// `whipple version`: version, revision, compiler and the libraries with their versions.
+/// Adds `whipple version`: prints version, revision, compiler and the libraries with their versions.
 void add_version_command(CLI::App& app);
 
 }  // namespace whipple::app

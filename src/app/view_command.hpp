@@ -5,7 +5,7 @@
 
 namespace whipple::app {
 
-/// Adds `whipple view`: a run in three dimensions, as one page for the browser.
+/// Adds `whipple view`: writes a run in three dimensions as one page for the browser.
 void add_view_command(CLI::App& app);
 
 }  // namespace whipple::app

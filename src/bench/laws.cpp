@@ -26,8 +26,8 @@ constexpr int steps_per_round = 4;
 struct Law {
   const char* name;
   const char* kind;
-  /// Tables beside those of copper. The constants serve for time only: those of the library where it has the law, else
-  /// of the size of copper's.
+  /// Holds tables that are added to those of copper. The constants serve for timing only: those of the library if it
+  /// has the law, otherwise of the magnitude of copper's.
   const char* tables;
 };
 
@@ -85,14 +85,14 @@ constexpr Law laws[] = {
      "0.25\n"},
 };
 
-/// Returns s that this thread has computed, whatever else the machine does meanwhile.
+/// Returns the processor time of this thread (s), independent of the load of the machine.
 double processor_time() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// Points in alternating flow, and the time that their update takes.
+/// Holds points in alternating flow and measures the time of their update.
 class Flow {
  public:
   Flow(const Law& law, Material material) : law_(law), material_(std::move(material)) {
@@ -100,7 +100,7 @@ class Flow {
     std::ranges::fill(points_.mass, 1e-6);
     initialise(material_, points_, 0, point_count);
   }
-  /// Returns ns of a point and step.
+  /// Returns the time per point and step in ns.
   double time(const std::vector<Matrix3>& forward, const std::vector<Matrix3>& back) {
     const UpdateSettings settings{.time_step = 1e-7, .cell_size = 1e-3};
     const double begin = processor_time();
@@ -149,7 +149,7 @@ std::vector<LawMeasurement> measure_laws(int rounds) {
 
   std::vector<Flow> flows;
   for (const Law& law : laws) {
-    flows.emplace_back(law, material_with(law)).time(forward, back);  // once, to warm up
+    flows.emplace_back(law, material_with(law)).time(forward, back);  // once, for warm-up
   }
   std::vector<std::vector<double>> times(flows.size()), multiples(flows.size());
   for (int round = 0; round < rounds; ++round) {

@@ -4,21 +4,22 @@
 #include <string>
 #include <vector>
 
-/// Cost of the laws of strength and failure of metals, beside one another on one equation of state.
+/// Measures the cost of the strength and failure laws of metals, compared on one equation of state.
 namespace whipple::bench {
 
-/// Time of the constitutive update of yielding metal with a law.
+/// Holds the time of the constitutive update of yielding metal with one law.
 struct LawMeasurement {
   std::string name;          ///< of the law
-  std::string kind;          ///< "strength", or "failure" beside Johnson-Cook strength
-  double nanoseconds = 0.0;  ///< of a point and step, median of the rounds
-  /// Over that of Johnson-Cook strength without failure in the same round: median, and the quarter of the rounds below
-  /// and above.
+  std::string kind;          ///< "strength", or "failure" in addition to Johnson-Cook strength
+  double nanoseconds = 0.0;  ///< per point and step, median of the rounds
+  /// Holds the ratio to the time of Johnson-Cook strength without failure in the same round: median, and the lower and
+  /// upper quartiles of the rounds.
   double multiple = 0.0, low = 0.0, high = 0.0;
 };
 
-/// Times the laws of metals on one thread, in processor time, one after the other in each of some rounds, so that all see the same machine.
-/// Random deviatoric flow of 32768 points of copper (Mie-Grueneisen) that alternates in sign: all yield in most steps.
+/// Times the laws of metals on one thread, in processor time. Each round times all laws one after the other, so that
+/// all are measured under the same conditions. Random deviatoric flow of 32768 points of copper (Mie-Grueneisen)
+/// alternates in sign: all points yield in most steps.
 std::vector<LawMeasurement> measure_laws(int rounds);
 
 }  // namespace whipple::bench

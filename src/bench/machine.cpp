@@ -30,7 +30,7 @@ double best_seconds(Work&& work) {
   return best;
 }
 
-/// Bytes per second of the STREAM triad (McCalpin, IEEE TCCA Newsletter, 1995): two arrays read, one written.
+/// Measures bytes per second of the STREAM triad (McCalpin, IEEE TCCA Newsletter, 1995): two arrays read, one written.
 double triad() {
   constexpr std::size_t n = std::size_t{1} << 24;
   std::vector<double> a(n, 0.0), b(n, 1.0), c(n, 2.0);
@@ -40,7 +40,7 @@ double triad() {
   return 3.0 * sizeof(double) * static_cast<double>(n) / seconds;
 }
 
-/// Flops per second of independent chains, enough of them to hide the latency of a multiply-add (four cycles
+/// Measures flops per second of independent chains, enough of them to hide the latency of a multiply-add (four cycles
 /// on two units).
 double multiply_adds(int threads) {
   constexpr int chains = 12;
@@ -65,8 +65,8 @@ double multiply_adds(int threads) {
   return 2.0 * 4.0 * chains * static_cast<double>(rounds) * threads / seconds;
 }
 
-/// Cores may differ in speed, and what else the machine does may slow some of them: what all of them could do
-/// is the sum of their rates.
+/// Measures the reference kernel on all threads. Cores may differ in speed, and other processes may slow some of them:
+/// the rate of the machine is the sum of the rates of the threads.
 double reference_kernel(int threads) {
   std::vector<double> seconds(static_cast<std::size_t>(threads));
   parallel::for_each(seconds.size(),

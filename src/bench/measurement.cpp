@@ -23,7 +23,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t parts = 5;  // of the timed steps; the best one counts
+constexpr std::size_t parts = 5;  // of the timed steps; the fastest part is reported
 
 double peak_memory() {
   rusage usage{};
@@ -31,19 +31,19 @@ double peak_memory() {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
-/// All material flies on without forces (see Problem::thinning).
+/// Moves all material without forces (see Problem::thinning).
 solver::Simulation thinned(const cases::Case& setup, const solver::Simulation& formed, double time) {
   Particles particles = formed.particles();
   for (std::size_t p = 0; p < particles.size(); ++p) particles.position[p] += time * particles.velocity[p];
   return {setup, std::move(particles), formed.state(), formed.communicator()};
 }
 
-/// Particles and elements of all ranks: what the time of a step is divided by.
+/// Counts the particles and elements of all ranks, by which the time of a step is divided.
 double point_count(const solver::Simulation& simulation) {
   return static_cast<double>(simulation.particle_count() + simulation.element_count());
 }
 
-/// Nodes of the grid of all ranks.
+/// Counts the grid nodes of all ranks.
 double node_count(const solver::Simulation& simulation) {
   std::array<double, 1> nodes = {static_cast<double>(simulation.grid().slots()) * grid::nodes_per_block};
   parallel::sum(simulation.communicator(), nodes);
@@ -52,7 +52,7 @@ double node_count(const solver::Simulation& simulation) {
 
 struct Part {
   double particle_steps = 0.0;
-  double at_rest = 0.0;                                          // of them
+  double at_rest = 0.0;                                          // inactive particle steps
   double nanoseconds = std::numeric_limits<double>::infinity();  // per particle and step
   std::vector<solver::Profile::Stage> stages;
 };

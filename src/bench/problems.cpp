@@ -13,13 +13,13 @@ namespace {
 
 using Overrides = std::vector<std::pair<std::string, std::string>>;
 
-/// Options that most peers compute with, to which their published speeds refer.
+/// Selects the options used by most peer codes, to which their published speeds refer.
 const Overrides linear_musl = {{"time.scheme", "musl"},
                                {"transfer.particle_update", "flip"},
                                {"transfer.shape_function", "linear"},
                                {"output.maximum_energy_error", "1"}};
 
-/// The quarter model of the case as the whole sphere and plate: 138,278 particles in the peer's input.
+/// Extends the quarter model of the case to the whole sphere and plate: 138,278 particles in the peer's input.
 const Overrides whole_model = {{"domain.lower", "['-80.56 mm', '-118.72 mm', '-118.72 mm']"},
                                {"domain.boundary.y_lower", "outflow"},
                                {"domain.boundary.z_lower", "outflow"}};
@@ -27,8 +27,8 @@ const Overrides whole_model = {{"domain.lower", "['-80.56 mm', '-118.72 mm', '-1
 const Overrides johnson_cook_bar = {{"domain.cell_size", "0.475 mm"},
                                     {"body.0.material", "copper_johnson_cook.toml"}};
 
-/// A block of 20 x 20 x 42 mm of the column of the case, of which 40 mm are explosive, which burns through during the
-/// steps before, or the metal that it drives, which flies so that none of it is at rest.
+/// Selects a block of 20 x 20 x 42 mm from the column of the case, 40 mm of it explosive, which burns completely during
+/// the preliminary steps. The remaining metal moves, so that no material is inactive.
 const Overrides explosive_block = {
     {"domain.cell_size", "1 mm"},
     {"domain.upper", "['20 mm', '20 mm', '120 mm']"},
@@ -91,7 +91,7 @@ std::vector<Problem> all_problems() {
        .overrides = {{"body.0.equation_of_state", "table"}, {"body.1.equation_of_state", "table"}},
        .steps_before = 100,
        .steps = 100},
-      // Finer ones reach the same depth of penetration after as many more steps.
+      // Finer grids reach the same depth of penetration after proportionally more steps.
       {.name = "lead_impact_million",
        .what = "lead_impact with half the cell size: eight times the particles",
        .case_file = lead,

@@ -8,8 +8,7 @@
 
 namespace whipple::bench {
 
-/// A case of the project as a problem to time. The steps before the timed ones bring it into the state of
-/// interest.
+/// Describes a case of the project as a benchmark problem. The preliminary steps bring it to the state of interest.
 struct Problem {
   std::string name;
   std::string what;
@@ -17,14 +16,15 @@ struct Problem {
   std::vector<std::pair<std::string, std::string>> overrides;
   int steps_before = 0;
   int steps = 0;  ///< five parts, in each of which the particles are sorted once (not with --quick)
-  /// s: after the first steps all material flies on for so long without forces, so that a cloud gets as thin as
-  /// late ones are without the cost of getting there; 0: none
+  /// Sets the time (s) for which all material moves without forces after the preliminary steps, so that a cloud becomes
+  /// as thin as late ones without the cost of computing it; 0: none.
   double thinning = 0.0;
-  bool only_by_name = false;  ///< needs gigabytes and minutes: not one of those that are timed unasked
+  bool only_by_name = false;  ///< needs gigabytes and minutes: not included in the default problems
 };
 
 const std::vector<Problem>& problems();
 
+/// Returns the problem of a name.
 /// @throws InputError that lists the names
 const Problem& find_problem(std::string_view name);
 

@@ -51,7 +51,7 @@ ReferenceKernel::ReferenceKernel(int edge)
   }
 }
 
-/// f(nodes of the cell, i slowest; its first particle; its lower corner)
+/// Calls f(nodes of the cell, i slowest; its first particle; its lower corner) for each cell.
 template <class Function>
 void ReferenceKernel::for_each_cell(Function&& f) {
   std::size_t first = 0;
@@ -74,7 +74,7 @@ void ReferenceKernel::particles_to_grid() {
                   z_slope = {-1, 1, -1, 1};
   for_each_cell([&](const std::array<Node*, 8>& corner, std::size_t first,
                     const std::array<double, 3>& lower) {
-    // Mass, momentum, force of the nodes with i = 0 and i = 1 in the lanes.
+    // The lanes hold mass, momentum and force of the nodes with i = 0 and i = 1.
     std::array<std::array<Lanes, 7>, 2> sum{};
     for (std::size_t p = first; p < first + per_cell; ++p) {
       const double fx = (field_[x][p] - lower[0]) / cell, fy = (field_[y][p] - lower[1]) / cell,
@@ -121,7 +121,7 @@ void ReferenceKernel::advance_grid() {
 void ReferenceKernel::grid_to_particles() {
   for_each_cell([&](const std::array<Node*, 8>& corner, std::size_t first,
                     const std::array<double, 3>& lower) {
-    // Differences along x are those of all particles of the cell.
+    // The differences along x are common to all particles of the cell.
     std::array<Node, 4> low, rise;
     for (std::size_t n = 0; n < 4; ++n) {
       for (std::size_t h = 0; h < 2; ++h) {
@@ -153,7 +153,7 @@ void ReferenceKernel::grid_to_particles() {
   });
 }
 
-/// Four particles; gradient row by row.
+/// Updates the stress of four particles; the gradient is given row by row.
 inline void ReferenceKernel::update_stress(std::size_t first, const std::array<Lanes, 9>& l) {
   const auto of = [&](Field f) { return load(&field_[f][first]); };
   const auto put = [&](Field f, Lanes value) { store(&field_[f][first], value); };

@@ -9,31 +9,30 @@
 
 namespace whipple::bench {
 
-/// The least that a step of the material point method does, written by hand for one problem, to lay times of
-/// the code beside: a dense block of metal, eight particles in each cell and sorted by cell, linear
-/// functions, FLIP, update stress last; Johnson-Cook strength with rate and temperature, Mie-Grueneisen with
-/// implicit energy, artificial viscosity, Jaumann rate. No body, block, boundary, failure, phase, ledger,
-/// error or sort. Particles to grid run over the nodes of a cell in the lanes, grid to particles over its
-/// particles.
+/// Implements the minimum work of a step of the material point method, hand-written for one problem as a reference for
+/// times of the code: a dense block of metal, eight particles in each cell and sorted by cell, linear functions, FLIP,
+/// update stress last; Johnson-Cook strength with rate and temperature, Mie-Grueneisen with implicit energy, artificial
+/// viscosity, Jaumann rate. It has no bodies, blocks, boundaries, failure, phases, ledger, error checks or sorting. The
+/// particle-to-grid transfer is vectorised over the nodes of a cell, the grid-to-particle transfer over its particles.
 class ReferenceKernel {
  public:
-  /// A cube of so many cells along each edge, at rest but for a smooth velocity field.
+  /// Creates a cube with `edge` cells along each edge, at rest except for a smooth velocity field.
   explicit ReferenceKernel(int edge);
 
-  /// One step; particles must not move by more than a quarter of a cell in all.
+  /// Computes one step; the total displacement of particles must not exceed a quarter of a cell.
   void step();
 
   [[nodiscard]] std::size_t particles() const { return field_[0].size(); }
   [[nodiscard]] double mass() const;
-  /// N s, component 0 to 2.
+  /// Returns the momentum in N s, component 0 to 2.
   [[nodiscard]] double momentum(int component) const;
-  /// J, of the particles.
+  /// Returns the kinetic energy of the particles in J.
   [[nodiscard]] double kinetic_energy() const;
   [[nodiscard]] double internal_energy() const;
   [[nodiscard]] double largest_plastic_strain() const;
 
  private:
-  /// 18 numbers of a particle.
+  /// Lists the 18 numbers of a particle.
   enum Field : std::size_t {
     x,
     y,
@@ -56,7 +55,7 @@ class ReferenceKernel {
     fields
   };
   struct alignas(64) Node {
-    std::array<Lanes, 2> half;  ///< mass and momentum, force; then velocity and its increment
+    std::array<Lanes, 2> half;  ///< mass and momentum, force; later velocity and its increment
   };
   static constexpr std::size_t per_cell = 8;
 
@@ -77,8 +76,8 @@ class ReferenceKernel {
   std::vector<Node> nodes_;
 };
 
-/// Seconds per particle and step of the kernel with a quarter of a million particles on one thread, best of
-/// several.
+/// Returns the time (s) per particle and step of the kernel with a quarter of a million particles on one thread, best
+/// of several runs.
 double measure_reference_kernel();
 
 }  // namespace whipple::bench

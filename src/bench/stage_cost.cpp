@@ -29,28 +29,28 @@ constexpr double place = bytes_of(&P::position) + sizeof(std::uint32_t);  // and
 constexpr double stress = bytes_of(&M::deviatoric_stress, &M::pressure, &M::artificial_viscosity, &M::volume);
 constexpr double node = sizeof(grid::Node);
 
-/// Read and written by the constitutive update.
+/// Sums the bytes read and written by the constitutive update.
 constexpr double material_state = bytes_of(
     &M::volume, &M::void_volume, &M::specific_internal_energy, &M::pressure, &M::artificial_viscosity,
     &M::deviatoric_stress, &M::temperature, &M::sound_speed, &M::plastic_strain, &M::melted_fraction,
     &M::vaporised_fraction, &M::failed, &M::maximum_pressure, &M::maximum_temperature, &M::melting_time);
 
-/// One multiplication and one addition per component of a vector of four.
+/// Counts one multiplication and one addition per component of a vector of four.
 constexpr double multiply_add = 2.0 * 4.0;
 
-/// Sums over n x n x n nodes that factorise: `inner` multiply-adds of vectors per node, `row` per row of
-/// nodes, and the weights of three directions.
+/// Counts the flops of factorised sums over n x n x n nodes: `inner` multiply-adds of vectors per node, `row` per row
+/// of nodes, and the weights of three directions.
 double sums(double n, double inner, double row) {
   constexpr double weights = 15.0;  // value, derivative and distance of one node in one direction
   return multiply_add * (n * n * n * inner + n * n * row) + 3.0 * n * weights;
 }
 
-/// Properties of a problem on which the cost of a stage depends.
+/// Holds the properties of a problem on which the cost of a stage depends.
 struct Method {
-  double reach;  ///< nodes that a particle reaches per direction
+  double reach;  ///< nodes per direction in the support of a particle
   bool affine;
   bool exact_energy;
-  double nodes;  ///< per particle, of the active blocks
+  double nodes;  ///< per particle, in the active blocks
 
   [[nodiscard]] double affine_bytes() const { return affine ? bytes_of(&P::affine_velocity) : 0.0; }
   [[nodiscard]] double node_bytes() const { return node * nodes; }

@@ -99,7 +99,7 @@ class CaseWriter {
       toml_.entry("snapshot_every", units_.quantity(model_.snapshots, dimension::time));
   }
 
-  /// How the material of a part is made.
+  /// Lists the discretisations of a part.
   enum class Method { elements, adaptive, particles, lattice };
   struct Body {
     Id id = 0;
@@ -110,7 +110,7 @@ class CaseWriter {
     std::string shape;  ///< of points
     std::vector<Id> nodes;
     HeldPart held;
-    std::string group;  ///< of contact; empty: its own
+    std::string group;  ///< contact group; empty: a separate one
   };
 
   /// Reads materials and geometry of all parts.
@@ -179,7 +179,8 @@ class CaseWriter {
     bodies_.push_back(std::move(body));
   }
 
-  /// Solid elements: as they are; as elements that become particles where the material fails or flows; as particles.
+  /// Converts solid elements: to elements; to elements that become particles where the material fails or flows; or to
+  /// particles.
   bool solids(Body& body) {
     const Part& part = *body.part;
     body.mesh = mesh_of(model_, part);
@@ -222,7 +223,7 @@ class CaseWriter {
     return true;
   }
 
-  /// SPH elements on a cubic lattice: boxes.
+  /// Converts SPH elements on a cubic lattice to boxes.
   bool lattice(Body& body) {
     const Part& part = *body.part;
     body.method = Method::lattice;
@@ -230,7 +231,7 @@ class CaseWriter {
     double least = 0.0, greatest = 0.0, total = 0.0;
     for (const SphPoint& point : part.points) {
       const double mass =
-          point.mass < 0.0 ? -point.mass * body.material.density : point.mass;  // negative: its volume
+          point.mass < 0.0 ? -point.mass * body.material.density : point.mass;  // negative: volume
       least = places.empty() ? mass : std::min(least, mass);
       greatest = std::max(greatest, mass);
       total += mass;
@@ -264,7 +265,7 @@ class CaseWriter {
                               static_cast<double>(count), units_.in_si(mass, {.mass = 1})});
   }
 
-  /// Nodes that are held: planes of symmetry of the domain, then conditions of nodes of elements.
+  /// Converts constrained nodes: first symmetry planes of the domain, then nodal boundary conditions of elements.
   void constrain() {
     if (model_.held.empty()) return;
     std::vector<HeldPart> parts;
@@ -302,7 +303,7 @@ class CaseWriter {
     }
   }
 
-  /// Parts with nodes in common are bonded: bodies of one group of contact.
+  /// Bonds parts with common nodes: their bodies form one contact group.
   void join() {
     if (!model_.friction) return;  // all bodies share one field
     std::map<Id, std::size_t> owner;
@@ -381,7 +382,7 @@ class CaseWriter {
     }
   }
 
-  /// Nodes of *DATABASE_HISTORY_NODE.
+  /// Writes the nodes of *DATABASE_HISTORY_NODE as gauges.
   std::string gauges() {
     TomlText text;
     std::set<Id> given, of_bodies;
@@ -402,7 +403,8 @@ class CaseWriter {
     return given.empty() ? std::string() : "\n" + text.text();
   }
 
-  /// The last velocity that all nodes of a part get; what only some of them get is missing.
+  /// Returns the last velocity assigned to all nodes of a part; velocities of only some of the nodes are reported as
+  /// missing.
   Vector3 velocity_of(Id id, const std::set<Id>& members, const std::vector<Start>& all_starts) {
     Vector3 velocity = Vector3::Zero();
     std::map<std::array<double, 3>, std::set<Id>> one_by_one;
@@ -436,7 +438,8 @@ class CaseWriter {
     return velocity;
   }
 
-  /// The deck has no grid: room around all bodies for the way of the fastest one, at most twice their extent.
+  /// Sizes the domain, as the deck has no grid: the bodies plus the path of the fastest one, at most twice their
+  /// extent.
   std::string domain() {
     const double extent = (upper_ - lower_).maxCoeff();
     const double margin = std::min(fastest_ * model_.end, 2.0 * extent) + 4.0 * cell_;

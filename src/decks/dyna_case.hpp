@@ -6,10 +6,9 @@
 
 namespace whipple::decks::dyna {
 
-/// Turns a deck into a case with its material files and meshes. Every keyword gets a remark; those that are not read
-/// are missing, by name and number.
-/// @throws InputError with all faults: cards that cannot be read, references to what the deck does not define, units or
-///         cell size not given
+/// Converts a deck to a case with its material files and meshes. Every keyword gets a remark; keywords that are not
+/// read are reported as missing, by name and number.
+/// @throws InputError with all faults: unreadable cards, references to undefined items, missing units or cell size
 Import to_case(const Deck& deck, const ImportOptions& options);
 
 }  // namespace whipple::decks::dyna

@@ -11,7 +11,7 @@ namespace {
 
 using Indices = std::vector<std::size_t>;
 
-/// A plane at the border of all parts, with what is held there.
+/// Holds a plane at the border of all parts, and whether its nodes are constrained as by symmetry.
 struct Candidate {
   Mirror plane;
   bool holds = true;  ///< so far
@@ -78,7 +78,8 @@ class MirrorFinder {
     });
     return nodes > 0 && held == nodes;
   }
-  /// Whether most nodes of a plane are held by it and by other such planes alone: a clamped face is no symmetry.
+  /// Returns whether most nodes of a plane are constrained only by it and other such planes: a clamped face is not a
+  /// symmetry plane.
   [[nodiscard]] bool mostly_held_by_planes(const Mirror& plane) const {
     std::size_t nodes = 0, explained = 0;
     for_each_node_on(plane, [&](const Vector3& x, Directions directions) {
@@ -98,14 +99,14 @@ class MirrorFinder {
   double tolerance_ = 0.0;
 };
 
-/// Boxes around chosen points without the others, by cuts that leave the fewest of those inside.
+/// Finds boxes that contain the chosen points and none of the others, by cuts that leave the fewest others inside.
 class BoxFinder {
  public:
   BoxFinder(const std::vector<Vector3>& points, double margin, std::size_t most)
       : points_(points), margin_(Vector3::Constant(margin)), most_(most) {}
 
-  /// False if it takes too many boxes or cannot be done.
-  /// @param depth  cuts so far, each of which makes a box more
+  /// Covers the chosen points; returns false if that needs too many boxes or is impossible.
+  /// @param depth  number of cuts so far, each of which adds a box
   bool cover(Indices chosen, const Indices& others, std::size_t depth = 0) {
     if (depth > most_) return false;
     const NodeBox box = box_of(chosen);
@@ -114,7 +115,7 @@ class BoxFinder {
       boxes.push_back(box);
       return boxes.size() <= most_;
     }
-    // The fewest others inside; of equal cuts that which leaves the most points in a box without others.
+    // The fewest others inside; of equal cuts, the one with the most points in a box without others.
     std::pair<std::size_t, std::size_t> best = {std::numeric_limits<std::size_t>::max(), 0};
     Indices best_below, best_above;
     for (int axis = 0; axis < 3; ++axis) {
@@ -132,7 +133,7 @@ class BoxFinder {
         best_above = std::move(above);
       }
     }
-    if (best_below.empty()) return false;  // points in the same place
+    if (best_below.empty()) return false;  // coincident points
     return cover(std::move(best_below), inside, depth + 1) && cover(std::move(best_above), inside, depth + 1);
   }
 
@@ -157,7 +158,7 @@ class BoxFinder {
     }
     return inside;
   }
-  /// Places between layers: behind the first, before the last, in the largest gap and in the middle.
+  /// Returns cut positions between layers: after the first, before the last, in the largest gap and in the middle.
   [[nodiscard]] std::vector<double> cuts(const Indices& chosen, int axis) const {
     std::vector<double> places;
     places.reserve(chosen.size());

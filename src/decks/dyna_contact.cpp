@@ -8,7 +8,7 @@
 namespace whipple::decks::dyna {
 namespace {
 
-/// Contact in which bodies press upon one another and part again.
+/// Lists the contact types in which bodies press against each other and can separate.
 constexpr std::array pressing = {"AUTOMATIC_SURFACE_TO_SURFACE",
                                  "AUTOMATIC_ONE_WAY_SURFACE_TO_SURFACE",
                                  "AUTOMATIC_NODES_TO_SURFACE",

@@ -9,16 +9,16 @@
 namespace whipple::decks::dyna {
 
 enum class ContactKind : std::uint8_t {
-  pressing,  ///< bodies press upon one another and part again
-  tied,      ///< surfaces stick to one another, for ever or until a stress is reached
+  pressing,  ///< bodies press against each other and can separate
+  tied,      ///< surfaces are bonded, permanently or up to a limit stress
   output,    ///< forces are printed
   other,
 };
 
-/// What a keyword *CONTACT_... is, by its whole name.
+/// Describes the type of a keyword *CONTACT_..., by its full name.
 struct ContactType {
   ContactKind kind = ContactKind::other;
-  std::size_t first_card = 0;  ///< behind those of the options ID and MPP
+  std::size_t first_card = 0;  ///< after those of the options ID and MPP
 };
 
 ContactType contact_type(const Block& block);

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int deepest_include = 20;
 
-/// Typographic dashes and minus signs, which copied cards hold, in UTF-8.
+/// Lists typographic dashes and minus signs, which occur in copied cards, in UTF-8.
 constexpr std::array dashes = {"\xE2\x80\x90", "\xE2\x80\x91", "\xE2\x80\x92", "\xE2\x80\x93",
                                "\xE2\x88\x92"};
 
@@ -29,7 +29,7 @@ std::string with_plain_minus(std::string text) {
   return text;
 }
 
-/// Puts the missing letter into "1.5-3", and an e for a d.
+/// Inserts the missing exponent letter in "1.5-3", and replaces d by e.
 std::string with_exponent(std::string text) {
   for (char& c : text) {
     if (c == 'd' || c == 'D' || c == 'E') c = 'e';
@@ -78,7 +78,7 @@ class BlockReader {
   }
 
  private:
-  /// Takes a keyword with the sign of its layout; returns whether the line of a title follows.
+  /// Reads a keyword with the sign of its layout; returns whether a title line follows.
   bool begin(Block& block, std::string_view line) {
     const std::string words = capitals(trimmed(line));
     const std::size_t end = std::min(words.find_first_of(" \t"), words.size());
@@ -132,7 +132,7 @@ class BlockReader {
     }
   }
 
-  /// What is wrong with a file is wrong with the card that names it.
+  /// Reads an included file; its faults are attributed to the card that names it.
   static std::string included_text(const Block& block, const Card& card, const std::filesystem::path& path) {
     try {
       return deck_text(path);
@@ -196,7 +196,7 @@ Fields::Fields(const Deck& deck, const Block& block, const Card& card, std::span
     columns += lengths.back();
   }
   std::string_view text = card.text;
-  // Behind the columns of its fields stand remarks, which may have commas of their own.
+  // Remarks may follow the columns of the fields, and may contain commas.
   const bool between_commas = text.substr(0, columns).find(',') != std::string_view::npos;
   std::size_t at = 0;
   if (between_commas) {
@@ -260,7 +260,7 @@ bool recognise(std::string_view text) {
   const std::string all = capitals(std::string(text.substr(0, std::size_t{1} << 16)));
   for (std::size_t at = 0; at < all.size();) {
     const std::string_view rest = std::string_view(all).substr(at);
-    // Abaqus has *PART, too, with a comma and a name behind it.
+    // Abaqus also has *PART, followed by a comma and a name.
     const std::string_view line = rest.substr(0, rest.find('\n'));
     if (line.starts_with('*') && line.find(',') != std::string_view::npos) return false;
     if (std::ranges::any_of(starts, [&](const char* start) { return line.starts_with(start); })) return true;

@@ -12,7 +12,7 @@
 namespace whipple::decks::dyna {
 namespace {
 
-/// At the reference rate and temperature.
+/// Returns the failure strain at the reference rate and temperature.
 double failure_strain(const DamageConstants& d, double d3, double triaxiality) {
   return d[0] + d[1] * std::exp(d3 * triaxiality);
 }
@@ -24,7 +24,7 @@ double d3_of_tension(const DamageConstants& d, Triaxiality triaxiality, const st
   const double given = d[2];
   if (given == 0.0 || triaxiality == Triaxiality::tension) return given;
   if (triaxiality == Triaxiality::pressure) return -given;
-  const bool turned = d[1] * given > 0.0;  // as it stands, tension would break later
+  const bool turned = d[1] * given > 0.0;  // unchanged, tension would fail later
   const double taken = turned ? -given : given;
   const std::string both = fmt::format(
       "failure strain in tension (triaxiality 1) {:.3g} with D3 = {}, {:.3g} with {}; --triaxiality says "

@@ -10,16 +10,16 @@
 
 namespace whipple::decks::dyna {
 
-/// D1 to D5 of the failure strain of Johnson and Cook.
+/// Holds D1 to D5 of the Johnson-Cook failure strain.
 using DamageConstants = std::array<double, 5>;
 
-/// Returns D3 for a triaxiality that counts tension positive, with a remark. Both signs are in use in decks: if the user
-/// does not say which is meant, it is that with which tension breaks earlier than compression.
+/// Returns D3 for a triaxiality that is positive in tension, with a remark. Decks use both signs: unless the user
+/// specifies one, the sign is chosen so that failure occurs earlier in tension than in compression.
 double d3_of_tension(const DamageConstants& d, Triaxiality triaxiality, const std::string& part,
                      const Block& material, Import& import);
 
-/// Warns of constants that break a material as soon as it yields, mostly a mistake.
-/// @param least  failure strain
+/// Warns of constants for which a material fails at first yield, which is usually a mistake.
+/// @param least  minimum failure strain
 void remark_on_failure_strain(const DamageConstants& d, double least, const std::string& part,
                               const Block& material, Import& import);
 

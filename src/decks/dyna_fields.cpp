@@ -180,11 +180,11 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 11> numbered
      {"EOS_002", "EOS_JWL"},
      {"EOS_004", "EOS_GRUNEISEN"}}};
 
-/// A value of a field as the report shows it.
+/// Returns the value of a field as shown in the report.
 std::string shown(const Fields& fields, std::size_t i) {
   try {
     return number(fields.real(i));
-  } catch (const InputError&) {  // a text, which is more than nothing
+  } catch (const InputError&) {  // a text: not blank
     return std::string(fields.text(i));
   }
 }

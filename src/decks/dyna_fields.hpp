@@ -11,20 +11,20 @@
 
 namespace whipple::decks::dyna {
 
-/// What a field of a card is to a case.
+/// Describes how a case uses a field of a card.
 enum class FieldUse : std::uint8_t {
-  read,    ///< it becomes part of the case
-  method,  ///< of the methods and the output of that code: any value
-  neutral,  ///< not read: without effect if it is blank or has one of some values, else physics that is missing
+  read,     ///< becomes part of the case
+  method,   ///< belongs to the methods or the output of that code: any value is accepted
+  neutral,  ///< not read: without effect if blank or equal to a neutral value, otherwise missing physics
 };
 
 struct FieldRule {
   std::string_view name;
   FieldUse use = FieldUse::read;
   std::string_view meaning = {};        ///< of values that are not neutral
-  std::vector<double> neutral = {0.0};  ///< beside a blank
+  std::vector<double> neutral = {0.0};  ///< in addition to blank
   bool until_forever =
-      false;  ///< values from 1e16 on are neutral, too: a time or a limit that nothing reaches
+      false;  ///< values from 1e16 on are also neutral: a time or limit that is never reached
 };
 
 struct CardRule {
@@ -32,23 +32,23 @@ struct CardRule {
   bool is_text = false;  ///< a heading
 };
 
-/// The cards of a keyword in their order.
+/// Holds the rules for the cards of a keyword, in their order.
 struct KeywordRule {
   std::vector<CardRule> cards;
-  bool repeats = false;  ///< the cards come again for every part, node, section ...
+  bool repeats = false;  ///< the cards are repeated for every part, node, section ...
 };
 
-/// Returns the rule of a keyword, by its name without options that only add cards before those of the rule; null if there
-/// is none.
+/// Returns the rule of a keyword, by its name without options that only add cards before those of the rule; null if
+/// there is none.
 const KeywordRule* rule_of(std::string_view keyword);
 
-/// Returns the name of a material or equation of state that the deck calls by its number: MAT_JOHNSON_COOK for MAT_015.
+/// Returns the name of a material or equation of state given by number: MAT_JOHNSON_COOK for MAT_015.
 std::string_view by_name(std::string_view keyword);
 
-/// Names all fields of a block that are set to something that its rule does not read: "missing" where that is physics,
-/// "dropped" where it is a method. Cards and fields that the rule does not know must be blank or zero.
-/// @param subject  before every remark, as the name of a part; may be empty
-/// @param first    card of the block that is the first of the rule
+/// Reports all fields of a block with values that its rule does not read: as "missing" if they are physics, as
+/// "dropped" if they belong to a method. Cards and fields beyond those of the rule must be blank or zero.
+/// @param subject  prefix of every remark, such as the name of a part; may be empty
+/// @param first    index of the card to which the first card of the rule applies
 void check_fields(const Deck& deck, const Block& block, const KeywordRule& rule, Import& import,
                   std::string_view subject = {}, std::size_t first = 0);
 

@@ -81,11 +81,12 @@ class LightingWriter {
     remark(Outcome::exact, detonator, fmt::format("point of detonation of {}, {}", of, how));
   }
 
-  /// Time at which a point of detonation arrives in a straight line.
+  /// Returns the arrival time of a straight detonation path from a detonation point.
   static double arrival(const Detonator& detonator, const Vector3& x, double velocity) {
     return detonator.delay + (x - detonator.position).norm() / velocity;
   }
-  /// With shadows a detonator of the case lights every explosive: is that of another part ever the first?
+  /// Checks whether a detonation point of another part would arrive first: with shadows, every point of the case lights
+  /// every explosive.
   void compare(const Explosive& explosive) {
     std::vector<const Detonator*> own, foreign;
     for (const Detonator* detonator : used_)

@@ -11,20 +11,21 @@
 
 namespace whipple::decks::dyna {
 
-/// A part that burns.
+/// Describes a part that is an explosive.
 struct Explosive {
   Id part = 0;
   std::string name;
-  double velocity = 0.0;  ///< of detonation, in the units of the deck
+  double velocity = 0.0;  ///< detonation velocity, in the units of the deck
   double burn = 0.0;      ///< BETA
   std::vector<Vector3> nodes;
 };
 
-/// Returns whether a point of detonation lights one of the explosives.
+/// Returns whether a detonation point lights one of the explosives.
 bool is_lit(const Model& model, std::span<const Explosive> explosives);
 
-/// Returns the points of detonation of a deck and the rules of burning as tables of a case, with a remark on each point.
-/// Beside shadows points of a part light all explosives in a case: where one would be lit too early by that, it is missing.
+/// Returns the detonation points of a deck and the burn rules as tables of a case, with a remark on each point. With
+/// shadows, the points of one part light all explosives of a case: where that would light an explosive too early, the
+/// point is reported as missing.
 std::string lighting(const Model& model, std::span<const Explosive> explosives, const UnitSystem& units,
                      Import& import);
 

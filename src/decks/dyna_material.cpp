@@ -93,7 +93,7 @@ class MaterialWriter {
     return fmt::format("{}, line {}, *{}", std::filesystem::path(block.file).filename().string(), block.line,
                        block.keyword);
   }
-  /// The card of a keyword; beyond its last one all fields are blank.
+  /// Returns the card of a keyword; beyond the last one all fields are blank.
   [[nodiscard]] Fields card(const Block& block, std::size_t number) const {
     static const Card blank;
     return {deck_, block, number < block.cards.size() ? block.cards[number] : blank};
@@ -109,7 +109,7 @@ class MaterialWriter {
     toml_.text_entry("source", source(block));
   }
 
-  /// Shear and bulk modulus of the cards; 0: not there.
+  /// Reads shear and bulk modulus from the cards; 0: not given.
   void elastic_constants() {
     const Fields first = card(material_, 0);
     double young = 0.0, poisson = 0.0;
@@ -223,7 +223,7 @@ class MaterialWriter {
     }
   }
 
-  /// Whether a polynomial is p = (gamma - 1) rho e.
+  /// Returns whether a polynomial reduces to p = (gamma - 1) rho e.
   static bool is_gas(const Fields& c) {
     return c.real(1) == 0.0 && c.real(2) == 0.0 && c.real(3) == 0.0 && c.real(4) == 0.0 && c.real(5) > 0.0 &&
            c.real(6) == c.real(5) && c.real(7) == 0.0;
@@ -242,7 +242,7 @@ class MaterialWriter {
              "a gas without energy (E0 = 0): it starts at its reference temperature");
   }
 
-  /// Pressure by the bulk modulus, of materials without an equation of state of their own.
+  /// Writes pressure by the bulk modulus, for materials without a separate equation of state.
   void elastic_volume() {
     if (!(bulk_ > 0.0))
       fail(material_,
@@ -324,11 +324,11 @@ class MaterialWriter {
     }
   }
 
-  /// Bilinear hardening; tables, curves and rates are named where they are set.
+  /// Writes bilinear hardening; tables, curves and rate dependence are reported where they are set.
   void piecewise(const Fields& first) {
     const double young = first.real(2), tangent = first.real(5), failure = first.real(6);
     if (!(tangent < young)) fail(material_, "the tangent modulus must be less than Young's modulus");
-    const bool yields = first.real(4) > 0.0;  // else a curve says when, which is named
+    const bool yields = first.real(4) > 0.0;  // otherwise a curve defines it, which is reported
     begin(yields ? "von_mises" : "elastic", material_);
     quantity("shear_modulus", shear_, dimension::pressure);
     if (!yields) return;
@@ -340,7 +340,8 @@ class MaterialWriter {
     if (failure > 0.0 && failure < 1e16) failure_strain(failure);
   }
 
-  /// @param temperatures whether the cards have thermal softening
+  /// Writes Johnson-Cook strength.
+  /// @param temperatures  whether the cards contain thermal softening
   void johnson_cook(const Fields& c, bool temperatures) {
     begin("johnson_cook", material_);
     quantity("shear_modulus", shear_, dimension::pressure);
@@ -397,7 +398,9 @@ class MaterialWriter {
     if (third.real(1) < 0.0) tension(-third.real(1), third.real(2));
   }
 
-  /// @param spall  SPALL of the card: 1 cuts the pressure off, 2 tests the greatest principal stress, 3 the pressure
+  /// Writes the tensile strength.
+  /// @param spall  SPALL of the card: 1 limits the tensile pressure, 2 tests the maximum principal stress, 3 the
+  /// pressure
   void tension(double strength, double spall) {
     toml_.table("[[failure]]");
     if (spall == 1.0) {

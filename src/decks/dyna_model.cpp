@@ -19,7 +19,7 @@
 namespace whipple::decks::dyna {
 namespace {
 
-/// Keywords without influence on the physics of the case.
+/// Lists keywords without influence on the physics of the case.
 constexpr std::array harmless = {"KEYWORD",
                                  "KEYWORD_ID",
                                  "KEYWORD_JOBID",
@@ -41,7 +41,7 @@ constexpr std::array harmless = {"KEYWORD",
                                  "CONTROL_SOLID",
                                  "CONTROL_PARALLEL",
                                  "CONTROL_UNITS"};
-/// Keywords that define what others use: if one of those is not read, it is named.
+/// Lists keywords that define items used by others: if such an item is not read, it is reported.
 constexpr std::array used_by_others = {"DEFINE_CURVE",
                                        "DEFINE_TABLE",
                                        "DEFINE_VECTOR",
@@ -53,7 +53,7 @@ constexpr std::array used_by_others = {"DEFINE_CURVE",
                                        "SET_SHELL",
                                        "SET_SHELL_LIST"};
 
-/// Letters, digits, '_' and '-' of a heading, which name a body.
+/// Returns the letters, digits, '_' and '-' of a heading, as the name of a body.
 std::string name_of(std::string_view heading) {
   constexpr std::size_t longest = 40;
   std::string name;
@@ -109,11 +109,11 @@ class ModelReader {
 
   using Reader = void (ModelReader::*)(const Block& block);
   using Readers = std::span<const std::pair<std::string_view, Reader>>;
-  /// Readers of keywords, and of all keywords with a beginning: the first that fits.
+  /// Returns the readers of keywords, and of all keywords with a given prefix: the first match is used.
   static Readers of_keywords();
   static Readers of_beginnings();
 
-  /// Reads a keyword; false if it is none of those that are read.
+  /// Reads a keyword; returns false if it is not supported.
   bool read(const Block& block) {
     const std::string_view key = block.keyword;
     Reader reader =
@@ -134,7 +134,7 @@ class ModelReader {
     return true;
   }
 
-  /// Names what the cards of a keyword say beyond what is read.
+  /// Reports settings on the cards of a keyword that are not read.
   void check(const Block& block) { check(block, rule_of(block.keyword)); }
   void check(const Block& block, const KeywordRule* rule, std::size_t first = 0) {
     if (rule != nullptr) check_fields(deck_, block, *rule, import_, {}, first);
@@ -180,7 +180,7 @@ class ModelReader {
     model_.snapshots = first(block).real(0);
     remark(Outcome::exact, block, "output.snapshot_every");
   }
-  /// A card for each detonator: part, place, delay.
+  /// Reads one card for each detonator: part, place, delay.
   void detonation(const Block& block) {
     for (const Card& card : written(block)) {
       const Fields fields(deck_, block, card);
@@ -200,7 +200,7 @@ class ModelReader {
   }
   void histories(const Block& block) {
     model_.histories_block = &block;
-    const bool named = block.keyword.ends_with("_ID");  // a card with a heading for each
+    const bool named = block.keyword.ends_with("_ID");  // one card with a heading for each
     for (const Card& card : block.cards) {
       const Fields fields(deck_, block, card);
       for (std::size_t i = 0; i < (named ? 1 : fields.size()); ++i) {
@@ -208,7 +208,7 @@ class ModelReader {
       }
     }
   }
-  /// What refers to sets is read when all of them are there.
+  /// Defers keywords that refer to sets until all sets have been read.
   void velocity(const Block& block) { of_sets_.emplace_back(&block, &ModelReader::start_of_set); }
   void velocity_by_nodes(const Block& block) { of_sets_.emplace_back(&block, &ModelReader::starts_of_nodes); }
   void velocity_by_parts(const Block& block) { of_sets_.emplace_back(&block, &ModelReader::start_generated); }
@@ -228,7 +228,7 @@ class ModelReader {
         const Fields fields(deck_, block, card, node_widths);
         const auto node = static_cast<Id>(fields.required(0, "the number of a node"));
         model_.nodes[node] = Vector3(fields.real(1), fields.real(2), fields.real(3));
-        // Rotations (RC) are none of nodes of solids.
+        // Rotational constraints (RC) do not apply to nodes of solids.
         constexpr std::array<Directions, 8> of_code = {0, 1, 2, 4, 3, 6, 5, 7};
         const Id code = fields.id(4);
         if (code < 0 || code >= static_cast<Id>(of_code.size()))
@@ -246,7 +246,7 @@ class ModelReader {
     if (model_.holders.empty() || model_.holders.back() != &block) model_.holders.push_back(&block);
   }
 
-  /// *BOUNDARY_SPC_NODE, _SET: a card for each node or set; with _ID each below one with a heading.
+  /// Reads *BOUNDARY_SPC_NODE, _SET: one card for each node or set; with _ID each is preceded by one with a heading.
   void constraints(const Block& block) {
     const bool of_sets = block.keyword.find("_SET") != std::string::npos,
                named = block.keyword.ends_with("_ID");
@@ -278,7 +278,7 @@ class ModelReader {
       faults_.guarded([&] {
         const Fields fields(deck_, block, block.cards[i], solid_widths);
         Solid solid{.line = block.cards[i].line};
-        // Element and part stand on a card of their own in the format of ten nodes.
+        // In the ten-node format, element and part are on a separate card.
         const bool two_cards = fields.id(2) == 0 && i + 1 < block.cards.size();
         const Fields list = two_cards ? Fields(deck_, block, block.cards[++i], solid_widths) : fields;
         for (std::size_t k = 0; k < 8; ++k) solid.nodes[k] = list.id(k + (two_cards ? 0 : 2));
@@ -301,7 +301,7 @@ class ModelReader {
     remark(Outcome::converted, block, fmt::format("{} elements", block.cards.size()));
   }
 
-  /// A heading and a card for each part.
+  /// Reads a heading and a card for each part.
   void part(const Block& block) {
     for (std::size_t i = 0; i + 1 < block.cards.size(); i += 2) {
       faults_.guarded([&] {
@@ -346,7 +346,7 @@ class ModelReader {
                                Vector3(c.real(2), c.real(4), c.real(6))};
     useful(block);
   }
-  /// The first value of a parameter stays, as that code does by default.
+  /// Checks DFLAG: the first value of a parameter is kept, which is the default of that code.
   void duplication(const Block& block) {
     const Id flag = first(block).id(0);
     const bool first_stays = flag == 0 || flag == 1 || flag == 4;
@@ -394,7 +394,7 @@ class ModelReader {
     return set->second;
   }
 
-  /// A card for each node.
+  /// Reads one card for each node.
   void starts_of_nodes(const Block& block) {
     for (const Card& card : written(block)) {
       const Fields each(deck_, block, card);
@@ -403,7 +403,7 @@ class ModelReader {
     check(block);
   }
 
-  /// A set of nodes, or all; on the second card the velocity.
+  /// Reads a set of nodes, or all nodes, and the velocity on the second card.
   void start_of_set(const Block& block) {
     const Fields card = first(block);
     const Id set = card.id(0);
@@ -416,7 +416,7 @@ class ModelReader {
     model_.starts.push_back(std::move(start));
   }
 
-  /// A set of parts, a part or a set of nodes.
+  /// Reads the velocity of a set of parts, a part or a set of nodes.
   void start_generated(const Block& block) {
     const Fields fields = first(block);
     const Id number = fields.id(0), kind = fields.id(1);
@@ -435,7 +435,7 @@ class ModelReader {
   Model model_;
   std::map<Id, std::set<Id>> node_sets_, part_sets_;
   std::map<Id, DeckBox> boxes_;
-  std::vector<const Block*> general_sets_;  ///< read when all nodes and parts are there
+  std::vector<const Block*> general_sets_;  ///< read after all nodes and parts
   std::vector<std::pair<const Block*, Reader>> of_sets_;
 };
 

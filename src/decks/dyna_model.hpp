@@ -29,34 +29,34 @@ struct SphPoint {
 };
 struct Part {
   const Block* block = nullptr;
-  std::string name;  ///< of the body: its heading, if that names it alone, else "part_1"
+  std::string name;  ///< name of the body: its heading if that is unique, otherwise "part_1"
   Id section = 0, material = 0, state = 0;
   std::vector<Solid> solids;
   std::vector<SphPoint> points;
 };
-/// Formulation of the elements of a part.
+/// Holds the element formulation of a part.
 struct Section {
   const Block* block = nullptr;
   Id formulation = 0;
 };
-/// What a velocity is given to.
+/// Assigns an initial velocity to nodes or parts.
 struct Start {
   const Block* block = nullptr;
   Vector3 velocity = Vector3::Zero();
-  std::set<Id> nodes;  ///< empty with no parts: all
+  std::set<Id> nodes;  ///< all nodes if both are empty
   std::set<Id> parts;
 };
 
-/// A point where detonation begins.
+/// Describes a point of detonation.
 struct Detonator {
   const Block* block = nullptr;
   unsigned line = 0;
-  Id part = 0;  ///< that it lights; 0: all
+  Id part = 0;  ///< part that it lights; 0: all
   Vector3 position = Vector3::Zero();
   double delay = 0.0;
 };
 
-/// What the keywords of a deck say, in its units.
+/// Holds the contents of the keywords of a deck, in its units.
 struct Model {
   std::string title;
   std::map<Id, Vector3> nodes;
@@ -64,17 +64,17 @@ struct Model {
   std::map<Id, Section> sections;
   std::map<Id, const Block*> materials, states;  ///< *MAT and *EOS by their numbers
   std::vector<Start> starts;
-  std::map<Id, Directions> held;      ///< nodes, by *NODE and *BOUNDARY_SPC
-  std::vector<const Block*> holders;  ///< blocks that hold nodes
+  std::map<Id, Directions> held;      ///< constrained nodes, by *NODE and *BOUNDARY_SPC
+  std::vector<const Block*> holders;  ///< blocks with nodal constraints
   std::vector<Detonator> detonators;
-  bool shadows = false;       ///< detonation goes around what is no explosive
+  bool shadows = false;       ///< detonation paths go around inert material
   std::vector<Id> histories;  ///< nodes of *DATABASE_HISTORY_NODE
   const Block* histories_block = nullptr;
   std::optional<double> friction;  ///< nothing: the deck has no contact
   double end = 0.0, snapshots = 0.0;
 };
 
-/// Faults of a deck, which are reported together.
+/// Collects the faults of a deck, which are reported together.
 class FaultList {
  public:
   void add(InputFault fault) { faults_.push_back(std::move(fault)); }
@@ -82,7 +82,7 @@ class FaultList {
   void raise() {
     if (!faults_.empty()) throw InputError(std::move(faults_));
   }
-  /// Runs a part of the work and keeps its faults.
+  /// Runs a part of the work and records its faults.
   template <class Work>
   void guarded(Work&& work) {
     constexpr std::size_t most = 20;

@@ -55,7 +55,7 @@ class Expression {
   }
 
  private:
-  static constexpr int deepest = 100;  // parentheses and signs within one another
+  static constexpr int deepest = 100;  // nested parentheses and signs
 
   [[noreturn]] void fail(const std::string& what) const {
     throw InputError(fmt::format("the expression '{}': {}", text_, what));
@@ -97,7 +97,7 @@ class Expression {
       }
     }
   }
-  /// -2**2 is -4, 2**-1 is 1/2, 2**3**2 is 2**9.
+  /// Evaluates powers with the usual precedence: -2**2 is -4, 2**-1 is 1/2, 2**3**2 is 2**9.
   double power() {
     if (++depth_ > deepest) fail("it is too deep");
     double value = 0.0;
@@ -170,7 +170,7 @@ class Expression {
   int depth_ = 0;
 };
 
-/// Cells of a card between commas, or of equal width.
+/// Splits a card into cells: at commas, or of equal width.
 std::vector<std::string> cells_of(const std::string& text, std::size_t width) {
   std::vector<std::string> cells;
   const bool commas = text.find(',') != std::string::npos;
@@ -182,7 +182,7 @@ std::vector<std::string> cells_of(const std::string& text, std::size_t width) {
   return cells;
 }
 
-/// Name and value or expression of the parameters of a card.
+/// Returns name and value or expression of the parameters of a card.
 std::vector<std::pair<std::string, std::string>> pairs_of(const Block& block, const Card& card,
                                                           bool expression) {
   const std::size_t width = block.layout == Layout::wide ? 20 : 10;
@@ -202,7 +202,7 @@ std::vector<std::pair<std::string, std::string>> pairs_of(const Block& block, co
   return pairs;
 }
 
-/// A number, the name of another parameter, or an expression.
+/// Evaluates a number, the name of another parameter, or an expression.
 double value_of(const Deck& deck, const Block& block, const Card& card, const std::string& name,
                 const std::string& text, bool expression) {
   const std::optional<double> plain = number_of(text);

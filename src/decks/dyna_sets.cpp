@@ -27,7 +27,7 @@ std::set<Id> listed_members(const Deck& deck, const Block& block) {
     for (std::size_t k = 0; k < fields.size(); k += generated ? 2 : 1) {
       const Id from = fields.id(k), to = generated ? fields.id(k + 1) : from;
       if (from == 0) continue;
-      constexpr Id most = 5'000'000;  // members of a set: what fits into memory
+      constexpr Id most = 5'000'000;  // maximum number of members of a set, limited by memory
       if (to < from || to - from + static_cast<Id>(members.size()) > most) {
         fail(block, fmt::format("the range {} to {} is none", from, to));
       }

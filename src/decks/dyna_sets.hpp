@@ -9,13 +9,13 @@
 
 namespace whipple::decks::dyna {
 
-/// Box of *DEFINE_BOX.
+/// Holds a box of *DEFINE_BOX.
 struct DeckBox {
   Vector3 lower = Vector3::Zero(), upper = Vector3::Zero();
 };
 
 /// Returns the members of *SET_NODE_LIST, *SET_PART_LIST, also with _GENERATE.
-/// @throws InputError for ranges that are none
+/// @throws InputError for invalid ranges
 std::set<Id> listed_members(const Deck& deck, const Block& block);
 
 /// Returns the nodes of *SET_NODE_GENERAL by ALL, NODE, PART and BOX; nothing if it has another option.

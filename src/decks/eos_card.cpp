@@ -16,7 +16,7 @@ namespace {
 using eos::JwlConstants;
 using eos::MieGruneisenConstants;
 
-/// What differs between the formats.
+/// Holds the differences between the formats.
 struct Layout {
   char comment;
   std::size_t width;  ///< of a field
@@ -25,7 +25,7 @@ constexpr Layout layout(CardFormat format) {
   return format == CardFormat::ls_dyna ? Layout{'$', 10} : Layout{'#', 20};
 }
 
-/// The most digits, twelve at most, that fit a field.
+/// Formats a value with as many digits, at most twelve, as fit into a field.
 std::string field(double value, std::size_t width) {
   std::string text;
   for (int digits = 12; digits > 0 && (text.empty() || text.size() >= width); --digits)
@@ -33,7 +33,7 @@ std::string field(double value, std::size_t width) {
   return fmt::format("{:>{}}", text, width);
 }
 
-/// A comment with the names of fields, and the line of their values.
+/// Returns a comment with the names of fields, and the line of their values.
 std::string line(CardFormat format, const std::vector<std::pair<std::string, double>>& fields) {
   const auto [comment, width] = layout(format);
   std::string names, values;
@@ -60,7 +60,7 @@ std::string heading(const std::string& material, std::string_view model, CardFor
 std::string gruneisen_card(const std::string& material, const MieGruneisenConstants& k, CardFormat format,
                            const UnitSystem& units, int id) {
   const auto in_units = [&](double value, const Dimension& of) { return value / units.in_si(1.0, of); };
-  // The card's thermal pressure is (gamma0 + a mu) E, E per initial volume; rho Gamma = rho0 (gamma0 + a mu).
+  // The thermal pressure of the card is (gamma0 + a mu) E, E per initial volume; rho Gamma = rho0 (gamma0 + a mu).
   double a = 0.0;
   if (k.gruneisen_law == eos::CompressedGruneisenLaw::constant) a = k.gruneisen;
   if (k.gruneisen_law == eos::CompressedGruneisenLaw::linear) a = k.gruneisen_slope;

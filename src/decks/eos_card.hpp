@@ -10,7 +10,7 @@
 
 namespace whipple::decks {
 
-/// Programs whose inputs have a card for an equation of state.
+/// Lists programs with input cards for an equation of state.
 enum class CardFormat {
   ls_dyna,     ///< *EOS_GRUNEISEN, *EOS_JWL
   openradioss  ///< /EOS/GRUNEISEN
@@ -19,9 +19,9 @@ constexpr std::array<Word<CardFormat>, 2> words(CardFormat) {
   return {{{CardFormat::ls_dyna, "ls-dyna"}, {CardFormat::openradioss, "openradioss"}}};
 }
 
-/// Writes the equation of state of a material as a card of another program, whose comments name material, units,
-/// reference density, and in what the other program's law differs from the material's.
-/// @param number  of the equation of state or material there
+/// Writes the equation of state of a material as a card of another program. Comments name material, units, reference
+/// density, and the differences between the other program's law and that of the material.
+/// @param number  of the equation of state or material in that program
 /// @throws InputError if the program has no such law: it names those that have a card
 std::string eos_card(const std::string& material, const eos::EquationOfState& eos, CardFormat format,
                      const UnitSystem& units, int number);

@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
       std::vector<InputFault>{{.file = deck.string(), .line = 1, .column = 1, .text = std::move(why)}});
 }
 
-/// Tells the codes apart by what their decks contain: several use the same endings.
+/// Identifies the code by the contents of its deck: several codes use the same file extensions.
 Format format_of(const fs::path& deck, std::string_view text) {
   if (mpm3d::recognise(text)) return Format::mpm3d_f90;
   if (dyna::recognise(text)) return Format::ls_dyna;

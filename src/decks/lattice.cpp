@@ -9,12 +9,12 @@
 namespace whipple::decks {
 namespace {
 
-/// Cells from..to (the last one left out) along every direction.
+/// Holds a range of cells from..to (excluding the last one) along every direction.
 struct CellBox {
   std::array<long, 3> from, to;
 };
 
-/// Joins boxes that follow on one another along a direction and are equal across it.
+/// Merges boxes that are adjacent along a direction and have the same cross-section.
 void join(std::vector<CellBox>& boxes, std::size_t along) {
   const std::size_t b = (along + 1) % 3, c = (along + 2) % 3;
   const auto across = [&](const CellBox& box) {
@@ -46,7 +46,7 @@ std::optional<std::vector<LatticeBox>> boxes_of_points(std::span<const Vector3> 
     first = first.cwiseMin(point);
     last = last.cwiseMax(point);
   }
-  // The spacing comes from a mass of few digits: the longest direction tells it better.
+  // The spacing is computed from a mass with few digits: the longest direction determines it more accurately.
   const double extent = (last - first).maxCoeff(), steps = std::round(extent / spacing);
   if (steps >= 1.0 && std::abs(extent / steps - spacing) < 1e-2 * spacing) spacing = extent / steps;
   constexpr double tolerance = 0.02;  // coordinates are written with few digits
@@ -68,7 +68,7 @@ std::optional<std::vector<LatticeBox>> boxes_of_points(std::span<const Vector3> 
   if (std::ranges::adjacent_find(cells, {}, place) != cells.end()) return std::nullopt;
   for (const std::size_t along : {0, 1, 2}) join(cells, along);
   if (cells.size() > most) return std::nullopt;
-  const double grain = 1e-6 * spacing;  // corners without the rounding of the coordinates
+  const double grain = 1e-6 * spacing;  // removes the rounding of the coordinates from corners
   const auto corner = [&](int i, long cell) {
     return grain * std::round((first[i] + spacing * (static_cast<double>(cell) - 0.5)) / grain);
   };

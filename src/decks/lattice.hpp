@@ -13,11 +13,11 @@ struct LatticeBox {
   Vector3 lower, upper;
 };
 
-/// Finds the boxes that together are the cells of a cubic lattice with a point in each of them.
-/// @param spacing  edge of the cells, to a per cent
-/// @param most     boxes
-/// @returns boxes that neither overlap nor leave out a cell; nothing if the points are on no such lattice, if two are in
-///          one cell, or if it takes more boxes
+/// Finds boxes that together are the cells of a cubic lattice with one point in each cell.
+/// @param spacing  edge of the cells, accurate to one per cent
+/// @param most     maximum number of boxes
+/// @returns boxes that cover each cell exactly once; nothing if the points are not on such a lattice, if two are in one
+/// cell, or if more boxes are needed
 std::optional<std::vector<LatticeBox>> boxes_of_points(std::span<const Vector3> points, double spacing,
                                                        std::size_t most);
 

@@ -16,9 +16,9 @@ namespace {
 
 constexpr std::size_t most_boxes = 400;  // of a body of points
 constexpr double most_counted =
-    2000;  // spacings along a radius: rounder bodies are not counted particle by particle
+    2000;  // spacings along a radius: larger round bodies are not counted particle by particle
 
-/// Which particles of the deck belong to a body: a range, or those that its points name.
+/// Holds the numbers of the particles of the deck that belong to a body: a range, or those of its points.
 struct Numbers {
   double first = 0.0, last = 0.0;
   std::unordered_set<int> points;
@@ -28,7 +28,7 @@ struct Numbers {
   }
 };
 
-/// Half of the centres -0.5, -1.5, ... 0.5, 1.5, ... that lie within a half-chord.
+/// Returns half the number of centres -0.5, -1.5, ... 0.5, 1.5, ... within a half-chord.
 double centres_within(double half_chord) { return half_chord <= 0.5 ? 0.0 : std::ceil(half_chord - 0.5); }
 
 double discs_particles(double radius) {
@@ -88,7 +88,7 @@ class BodyBuilder {
       fail(statement, fmt::format("material {} is not among those of 'mate'", material));
     return found->second;
   }
-  /// A number of spacings or cells along a direction.
+  /// Returns a number of spacings or cells along a direction.
   double positive(const Statement& statement, std::size_t at, const char* what) const {
     const double value = statement.numbers[at];
     if (!(value > 0.0) || value > 1e6)
@@ -164,7 +164,7 @@ class BodyBuilder {
       }
       body.particles = layer * counts[2];
     }
-    // Longer than the block: faces in one plane would leave it open which of them counts.
+    // Longer than the block: with coplanar faces the result would be ambiguous.
     const double height = body.upper[2] - body.lower[2] + 2.0 * h;
     body.shape = fmt::format(
         "{{ difference = {{ from = {}, minus = [{{ cylinder = {{ center = {}, axis = \"z\", radius = {}, "
@@ -173,7 +173,7 @@ class BodyBuilder {
     body.description += fmt::format(" with a hole of radius {} {}", number(radius), units_.length);
   }
 
-  /// The number after the material: the density of the particles, until 2013-12 their mass.
+  /// Reads the number after the material: the density of the particles, until 2013-12 their mass.
   void density_or_mass(const Statement& statement, CaseBody& body, double material) {
     const double given = statement.numbers[2], volume = body.spacing * body.spacing * body.spacing;
     const auto near = [](double left, double right, double tolerance) {

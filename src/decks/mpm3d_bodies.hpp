@@ -12,14 +12,14 @@
 
 namespace whipple::decks::mpm3d {
 
-/// A body as it will stand in the case, in the units of the deck.
+/// Describes a body as written to the case, in the units of the deck.
 struct CaseBody {
   const Statement* statement = nullptr;
   std::string name;
   int component = 1, material = 1;
-  std::string shape;        ///< TOML: "{ sphere = { ... } }"; empty: the case can not have it
+  std::string shape;        ///< TOML: "{ sphere = { ... } }"; empty: not possible in a case
   std::string description;  ///< for the report
-  Vector3 lower, upper;     ///< box around it
+  Vector3 lower, upper;     ///< bounding box
   double particles = 0.0, mass = 0.0, spacing = 0.0;
   Vector3 velocity = Vector3::Zero();
 };
@@ -29,10 +29,9 @@ struct BodyOptions {
       false;  ///< the number after the material is the mass of a particle, as in decks before 2013-12
 };
 
-/// Builds the bodies of a deck with their shapes and velocities, and remarks upon every `part` and `velo`.
+/// Builds the bodies of a deck with their shapes and velocities, with remarks on every `part` and `velo`.
 /// @param density  of each material, by number
-/// @throws InputError for impossible numbers, materials that the deck does not define and velocities of bodies that it
-///         does not have
+/// @throws InputError for impossible numbers, undefined materials and velocities of undefined bodies
 std::vector<CaseBody> bodies_of(const Deck& deck, const std::map<int, double>& density,
                                 const UnitSystem& units, const BodyOptions& options, Import& import);
 

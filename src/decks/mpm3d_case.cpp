@@ -22,7 +22,7 @@
 namespace whipple::decks::mpm3d {
 namespace {
 
-/// Default of both codes that the other one does not share.
+/// Defines defaults that differ between the two codes.
 constexpr double default_factor = 0.9, usual_courant = 0.5, least_courant = 0.05;
 constexpr double default_quadratic = 1.5, default_linear = 0.06;
 
@@ -68,7 +68,7 @@ class CaseBuilder {
   void remark(Outcome outcome, const Statement& statement, std::string text) {
     import_.remark(outcome, statement.line, statement.name(), std::move(text));
   }
-  /// The statement that counts of a keyword that may be there once; earlier ones are dropped with a remark.
+  /// Returns the effective statement of a keyword that may occur once; earlier ones are dropped with a remark.
   const Statement* one(Keyword keyword) {
     const std::vector<const Statement*> all = deck_.all(keyword);
     for (std::size_t i = 0; i + 1 < all.size(); ++i) {
@@ -105,7 +105,7 @@ class CaseBuilder {
     import_.units = fmt::format("{} {} {}", units_.length, units_.mass, units_.time);
   }
 
-  /// What a case needs.
+  /// Checks that the statements required by a case are present.
   void required() {
     const auto present = [&](Keyword keyword) { return deck_.last(keyword) != nullptr; };
     const unsigned line = deck_.statements.empty() ? 1 : deck_.statements.back().line;
@@ -190,8 +190,8 @@ class CaseBuilder {
     if (!boundary.empty()) toml_.entry("boundary", fmt::format("{{ {} }}", boundary), line_of(*fixed));
   }
 
-  /// MPM3D-F90 rounds the grid to whole cells and leaves out particles beyond it in silence; here the domain grows by
-  /// whole cells around the bodies, at faces that are open.
+  /// Extends the grid to whole cells. MPM3D-F90 rounds the grid to whole cells and silently omits particles outside it;
+  /// here the domain grows by whole cells to contain the bodies, at open faces.
   void whole_cells(const std::array<int, 6>& faces) {
     for (int i = 0; i < 3; ++i) {
       if (!(grid_.upper[i] > grid_.lower[i])) {
@@ -398,7 +398,7 @@ class CaseBuilder {
                   line_of(*interval));
       remark(Outcome::exact, *interval, "output.snapshot_every");
     }
-    // Fields of the deck by those of a snapshot; empty: there is none.
+    // Maps fields of the deck to those of a snapshot; empty: no equivalent.
     static const std::map<std::string, std::string> names = {
         {"seqv", "von_mises_stress"}, {"epef", "plastic_strain"}, {"mat", "material"},
         {"pres", "pressure"},         {"volu", "volume"},         {"engi", "internal_energy"},
@@ -433,7 +433,7 @@ class CaseBuilder {
     }
   }
 
-  /// Statements that the case has no keys for.
+  /// Reports statements without corresponding keys of the case.
   void rest() {
     for (const Statement& statement : deck_.statements) {
       switch (statement.keyword) {
@@ -464,7 +464,7 @@ class CaseBuilder {
           remark(Outcome::missing, statement, "damping of all motion");
           break;
         default:
-          break;  // each has its remark already
+          break;  // the others already have remarks
       }
     }
     for (const auto& [line, text] : deck_.notes) import_.remark(Outcome::converted, line, "-", text);

@@ -6,9 +6,9 @@
 
 namespace whipple::decks::mpm3d {
 
-/// Turns a deck into a case with its material files; every statement gets a remark.
-/// @throws InputError with all faults: values that no case can have, what a case needs and the deck lacks, units that are
-///         neither in a comment of the deck nor among the options
+/// Converts a deck to a case with its material files; every statement gets a remark.
+/// @throws InputError with all faults: impossible values, missing statements that a case requires, units that are
+/// neither in a comment of the deck nor among the options
 Import to_case(const Deck& deck, const ImportOptions& options);
 
 }  // namespace whipple::decks::mpm3d

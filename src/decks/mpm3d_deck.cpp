@@ -23,7 +23,7 @@ struct Token {
   unsigned line = 0, column = 0;
 };
 
-/// A second word with the number of numbers that follow it.
+/// Defines a second word and the number of numbers that follow it.
 struct Kind {
   std::string_view word;
   std::size_t numbers;
@@ -31,7 +31,8 @@ struct Kind {
 constexpr std::array material_kinds = {Kind{"elas", 3}, Kind{"pla1", 4}, Kind{"pla2", 5}, Kind{"john", 12},
                                        Kind{"sjc", 8},  Kind{"sjcf", 9}, Kind{"jcf", 13}, Kind{"hiex", 2},
                                        Kind{"null", 3}, Kind{"dpm", 7},  Kind{"neoh", 3}};
-/// Component, material, density, spacing, a point and what the kind needs; the points of "poin" are read apart.
+/// Counts component, material, density, spacing, a point and the values of the kind; the points of "poin" are read
+/// separately.
 constexpr std::array body_kinds = {Kind{"poin", 2}, Kind{"bloc", 10}, Kind{"sphe", 8}, Kind{"blod", 14},
                                    Kind{"cicl", 8}};
 constexpr std::array load_kinds = {Kind{"endl", 0}, Kind{"part", 4}, Kind{"body", 4}, Kind{"grav", 4},
@@ -44,10 +45,10 @@ constexpr std::array fields = {
     Kind{"seqv", 0}, Kind{"epef", 0}, Kind{"mat", 0},  Kind{"pres", 0}, Kind{"volu", 0}, Kind{"engk", 0},
     Kind{"engi", 0}, Kind{"velx", 0}, Kind{"vely", 0}, Kind{"velz", 0}, Kind{"cels", 0}, Kind{"fail", 0},
     Kind{"sspd", 0}, Kind{"damg", 0}, Kind{"stsx", 0}, Kind{"disx", 0}, Kind{"disy", 0}, Kind{"disz", 0}};
-/// Constants of the equations of state 1 to 4.
+/// Counts the constants of the equations of state 1 to 4.
 constexpr std::array<std::size_t, 4> state_constants = {8, 4, 6, 1};
 
-/// How many numbers follow keywords without a second word.
+/// Returns how many numbers follow keywords without a second word.
 std::size_t numbers_after(Keyword keyword) {
   switch (keyword) {
     case Keyword::grid:
@@ -93,7 +94,7 @@ std::optional<Keyword> keyword_of(std::string_view word) {
   return std::nullopt;
 }
 
-/// A fault of the deck, thrown out of the statement that it is in.
+/// Carries a fault of the deck out of its statement as an exception.
 struct Broken {
   InputFault fault;
 };
@@ -124,7 +125,7 @@ class Reader {
     throw Broken{fault(at, std::move(what))};
   }
 
-  /// Reads the next line that has words; false at the end of the text.
+  /// Reads the next line that contains words; returns false at the end of the text.
   bool next_line() {
     words_.clear();
     while (words_.empty()) {
@@ -159,7 +160,7 @@ class Reader {
     return true;
   }
 
-  /// The comment "! Unit: mm g N ms MPa".
+  /// Reads the units from the comment "! Unit: mm g N ms MPa".
   void find_units(std::string_view content) {
     const std::size_t comment = content.find('!');
     if (comment == std::string_view::npos || deck_.units) return;
@@ -178,7 +179,7 @@ class Reader {
     deck_.units_line = line_;
   }
 
-  /// Goes on at the next line that begins with a keyword.
+  /// Continues at the next line that begins with a keyword.
   void resume() {
     while (next_line()) {
       if (keyword_of(words_.back().text)) return;
@@ -196,7 +197,8 @@ class Reader {
     return token;
   }
 
-  /// MPM3D-F90 takes for numbers only what begins with a digit or a minus sign; of the rest it keeps an undefined value.
+  /// Reads a number. MPM3D-F90 accepts only numbers that begin with a digit or a minus sign; for others it uses an
+  /// undefined value.
   double number(std::string_view what) {
     const Token token = word(what);
     std::string text(token.text);
@@ -247,7 +249,7 @@ class Reader {
         Statement{.keyword = keyword, .line = line_, .kind = std::move(kind_word)});
   }
 
-  /// An entry of a block "velo ... endv" or "load ... endl".
+  /// Reads the entries of a block "velo ... endv" or "load ... endl".
   void block(Keyword keyword, std::span<const Kind> kinds) {
     while (true) {
       const Kind entry = kind(kinds, fmt::format("an entry of '{}'", word_of(keyword)));
@@ -362,9 +364,9 @@ class Reader {
   }
 
   Deck& deck_;
-  std::string_view text_;     ///< what is still to be read
+  std::string_view text_;     ///< the unread text
   std::string_view rest_;     ///< the line without its comment
-  std::vector<Token> words_;  ///< of the line, the next one last
+  std::vector<Token> words_;  ///< words of the line, the next one last
   std::vector<InputFault> faults_;
   unsigned line_ = 0;
   double materials_ = 0.0;

@@ -11,14 +11,14 @@
 #include "src/core/base/words.hpp"
 #include "src/decks/unit_system.hpp"
 
-/// Decks of MPM3D-F90 (github.com/xzhang66/MPM3D-F90, DataIn.f90 and FFI.f90 as of November 2025). The grammar was
-/// written again from its description; no file of that project is needed.
+/// Reads decks of MPM3D-F90 (github.com/xzhang66/MPM3D-F90, DataIn.f90 and FFI.f90 as of November 2025). The grammar
+/// was implemented from its description; no file of that project is needed.
 namespace whipple::decks::mpm3d {
 
-/// The commit whose grammar this reader follows.
+/// Names the commit whose grammar this reader follows.
 inline constexpr const char* grammar = "MPM3D-F90, commit 4a6275f";
 
-/// Keywords of the top level.
+/// Lists the top-level keywords.
 enum class Keyword {
   end_of_input,
   title,
@@ -64,7 +64,7 @@ enum class Keyword {
   paraview,
   window
 };
-/// Of keywords the first four characters count.
+/// Returns the keywords with their words, of which only the first four characters are significant.
 constexpr std::array<Word<Keyword>, 43> words(Keyword /*of*/) {
   using enum Keyword;
   return {{{end_of_input, "endi"},
@@ -112,11 +112,11 @@ constexpr std::array<Word<Keyword>, 43> words(Keyword /*of*/) {
            {window, "pt2d"}}};
 }
 
-/// One statement: a keyword with its arguments, or one entry of a block (a material, a body, a load, a velocity).
+/// Holds one statement: a keyword with its arguments, or one entry of a block (a material, a body, a load, a velocity).
 struct Statement {
   Keyword keyword = Keyword::end_of_input;
   unsigned line = 0;
-  /// Second word: kind of a material, body, load, velocity or contact; field of an output; the title.
+  /// Holds the second word: kind of a material, body, load, velocity or contact; field of an output; the title.
   std::string kind = {};
   std::vector<double> numbers = {};
 
@@ -127,23 +127,23 @@ struct Statement {
 struct Deck {
   std::filesystem::path file;
   std::vector<Statement> statements;
-  std::optional<UnitSystem> units;  ///< of its comment "! Unit: mm g N ms MPa"
+  std::optional<UnitSystem> units;  ///< from its comment "! Unit: mm g N ms MPa"
   unsigned units_line = 0;
-  std::vector<std::pair<unsigned, std::string>> notes;  ///< what MPM3D-F90 itself does not read, by line
+  std::vector<std::pair<unsigned, std::string>> notes;  ///< parts that MPM3D-F90 does not read, by line
 
-  /// Returns the last statement with a keyword, which is the one that counts; null if there is none.
+  /// Returns the last statement with a keyword, which is the effective one; null if there is none.
   [[nodiscard]] const Statement* last(Keyword keyword) const;
   [[nodiscard]] std::vector<const Statement*> all(Keyword keyword) const;
 };
 
-/// Returns a number of a deck as the integer that MPM3D-F90 makes of it; what is beyond its integers as their last ones.
+/// Converts a number of a deck to an integer as MPM3D-F90 does; values outside its integer range are clamped.
 int whole(double value);
 
 /// Returns whether a text begins like a deck of MPM3D-F90: its first word is one of the keywords.
 bool recognise(std::string_view text);
 
-/// Reads a deck. A statement that cannot be read is a fault, and reading goes on at the next line that begins with a
-/// keyword, so that the faults of a deck come together (at most twenty).
+/// Reads a deck. A statement that cannot be read is a fault, and reading continues at the next line that begins with a
+/// keyword, so that all faults of a deck (at most twenty) are reported together.
 /// @throws InputError with all faults, each with line and column
 Deck parse(const std::filesystem::path& file, std::string_view text);
 

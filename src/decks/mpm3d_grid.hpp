@@ -7,13 +7,14 @@
 
 namespace whipple::decks::mpm3d {
 
-/// The box of the grid, in the length of the deck.
+/// Holds the box of the grid, in the length unit of the deck.
 struct GridOfDeck {
   Vector3 lower = Vector3::Zero(), upper = Vector3::Zero();
-  unsigned line = 0;  ///< of the last statement that gave a part of it
+  unsigned line = 0;  ///< line of the last statement that defines part of it
 };
 
-/// Reads the corners of the grid and remarks upon their statements: of `grid` and the three spans the later one counts.
+/// Reads the corners of the grid, with remarks on their statements: if `grid` and the three spans are both given, the
+/// later one is used.
 GridOfDeck grid_of(const Deck& deck, Import& import);
 
 }  // namespace whipple::decks::mpm3d

@@ -13,9 +13,10 @@
 namespace whipple::decks::mpm3d {
 namespace {
 
-/// Particles of MPM3D-F90 start at 293, whatever the scale of a deck's temperatures.
+/// Sets the initial temperature of particles in MPM3D-F90, independent of the temperature scale of a deck.
 constexpr double start_temperature = 293.0;
-/// Below it a reference temperature is one in degrees Celsius: nobody tests at 200 K, and decks write 20 or 25.
+/// Sets the limit below which a reference temperature is in degrees Celsius: tests are not run at 200 K, and decks give
+/// 20 or 25.
 constexpr double least_kelvin = 200.0;
 
 class MaterialBuilder {
@@ -73,7 +74,8 @@ class MaterialBuilder {
     toml_.text_entry("source", source(statement));
   }
 
-  /// The heat capacity of `john` and `jcf`; other decks give none.
+  /// Writes the heat capacity of `john` and `jcf`; for other kinds, which give none, that of the library material of
+  /// the nearest density.
   void heat_capacity(const char* model) {
     if (material_.kind == "john" || material_.kind == "jcf") {
       quantity("heat_capacity", n_[11], dimension::heat_capacity);
@@ -154,7 +156,7 @@ class MaterialBuilder {
     remark(Outcome::exact, *state_, "polynomial");
   }
 
-  /// Without `seos` MPM3D-F90 takes pressure from the elastic law, too.
+  /// Writes pressure by the elastic law, which MPM3D-F90 also uses without `seos`.
   void elastic_volume() {
     begin("polynomial", material_);
     quantity("reference_density", n_[1], dimension::density);

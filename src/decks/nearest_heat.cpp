@@ -21,7 +21,7 @@ struct Constants {
   double density = 0.0, heat_capacity = 0.0;
 };
 
-/// The keys of [eos] that are asked for; a file of another model lacks some.
+/// Reads the relevant keys of [eos], all optional: files of other models lack some.
 Constants constants_of(const std::filesystem::path& file) {
   const ParameterTable<Constants> keys = {
       text("model", &Constants::model, "").optional(),
@@ -46,7 +46,7 @@ std::vector<Entry> read_library() {
       try {
         library.push_back({constants_of(file.path()), file.path().stem().string()});
       } catch (const InputError&) {
-        continue;  // `whipple materials` names it
+        continue;  // reported by `whipple materials`
       }
     }
   }

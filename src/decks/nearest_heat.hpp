@@ -6,13 +6,13 @@
 
 namespace whipple::decks {
 
-/// A heat capacity that the deck does not give, from the material library.
+/// Holds a heat capacity from the material library, for decks that do not give one.
 struct LibraryHeat {
   double value = 0.0;    ///< c_v, J/(kg K)
-  std::string material;  ///< file name of the library, without its ending
+  std::string material;  ///< file name in the library, without extension
 };
 
-/// Returns the heat capacity of the material of the library that has this equation of state and the nearest density.
+/// Returns the heat capacity of the library material with the nearest density among those with this equation of state.
 /// @param density  kg/m^3
 /// @param model    of the equation of state: "mie_gruneisen" or "jwl"
 /// @throws InputError if the library has no such material

@@ -11,11 +11,11 @@
 
 namespace whipple::decks {
 
-/// What became of a statement of a deck.
+/// Describes the result of importing a statement.
 enum class Outcome {
-  exact,      ///< the case says the same
-  converted,  ///< the case says the same in another way, or nearly the same; the remark tells how
-  dropped,    ///< without influence on the physics: output of the other code, its methods
+  exact,      ///< the case contains the same
+  converted,  ///< the case contains an equivalent or nearly the same; the remark describes how
+  dropped,    ///< without influence on the physics: output or methods of the other code
   missing,    ///< physics that the case does not have
 };
 constexpr std::array<Word<Outcome>, 4> words(Outcome /*of*/) {
@@ -25,10 +25,10 @@ constexpr std::array<Word<Outcome>, 4> words(Outcome /*of*/) {
            {Outcome::missing, "missing"}}};
 }
 
-/// Where a statement stands.
+/// Holds the location of a statement.
 struct Place {
-  unsigned line = 0;  ///< 0: nowhere
-  std::string file;   ///< that the deck includes; empty: the deck
+  unsigned line = 0;  ///< 0: none
+  std::string file;   ///< included file; empty: the deck
 
   Place(unsigned line, std::string file = {}) : line(line), file(std::move(file)) {}
 };
@@ -38,26 +38,26 @@ struct Remark {
   Place place;
   std::string keyword;
   std::string text;
-  bool doubtful = false;  ///< a choice that the user should know of: also a warning
+  bool doubtful = false;  ///< a choice to be checked by the user: also a warning
 };
 
-/// A body of the case as the deck describes it.
+/// Describes a body of the case as defined in the deck.
 struct BodyRow {
   std::string name, shape;
   double particles = 0;
   double mass = 0;  ///< kg
 };
 
-/// A file beside the case: a material.
+/// Holds a file written with the case: a material.
 struct CaseFile {
   std::string path;  ///< in the folder of the case, "materials/material_1.toml"
   std::string text;
 };
 
-/// A deck as a case: what is to be written, and what is to be said about it.
+/// Holds a deck converted to a case: the files to write, and the remarks.
 struct Import {
   std::string deck;     ///< file name of the deck
-  std::string grammar;  ///< whose grammar was followed
+  std::string grammar;  ///< program and version whose grammar was followed
   std::string units;    ///< "mm g ms"
   std::string case_text;
   std::vector<CaseFile> files;
@@ -67,14 +67,14 @@ struct Import {
   void remark(Outcome outcome, Place place, std::string keyword, std::string text) {
     remarks.push_back({outcome, std::move(place), std::move(keyword), std::move(text)});
   }
-  /// Adds a remark on something that was converted by a choice which the deck does not settle.
+  /// Adds a remark on a choice made in the conversion that the deck does not determine.
   void doubt(Place place, std::string keyword, std::string text) {
     remarks.push_back({Outcome::converted, std::move(place), std::move(keyword), std::move(text), true});
   }
   [[nodiscard]] std::size_t count(Outcome outcome) const;
-  /// Sorts the remarks by the lines of the deck, then by those of the files that it includes.
+  /// Sorts the remarks by the lines of the deck, then by those of the included files.
   void sort_remarks();
-  /// Returns the bodies and the four lists of remarks, as `whipple import` prints them and as import.txt holds them.
+  /// Returns the bodies and the four lists of remarks, as printed by `whipple import` and written to import.txt.
   [[nodiscard]] std::string report() const;
 };
 

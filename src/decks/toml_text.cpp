@@ -8,7 +8,8 @@
 namespace whipple::decks {
 namespace {
 
-/// Texts of decks may hold bytes of any encoding; TOML is UTF-8 without control characters.
+/// Replaces all but printable ASCII characters: texts of decks may contain bytes of any encoding; TOML is UTF-8 without
+/// control characters.
 std::string printable(std::string_view text) {
   std::string result(text);
   for (char& c : result) {

@@ -6,11 +6,11 @@
 
 namespace whipple::decks {
 
-/// The text of a TOML file in the making; values are written as they stand in it.
+/// Builds the text of a TOML file; values are given in TOML notation.
 class TomlText {
  public:
   void comment(std::string_view text);
-  /// Begins a table; `header` with its brackets.
+  /// Begins a table; `header` includes its brackets.
   void table(std::string_view header, std::string_view remark = {});
   void entry(std::string_view key, std::string_view value, std::string_view remark = {});
   void text_entry(std::string_view key, std::string_view text);

@@ -18,13 +18,13 @@
 namespace whipple::decks {
 namespace {
 
-/// Units that decks name, as UDUNITS-2 writes them; the first of a kind is that of SI.
+/// Lists the units that decks name, in UDUNITS-2 notation; the first of each kind is the SI unit.
 constexpr std::array lengths = {"m", "cm", "mm", "um", "in", "ft"};
 constexpr std::array masses = {"kg", "g", "mg", "ug", "t"};
 constexpr std::array times = {"s", "ms", "us", "ns"};
 constexpr std::array forces = {"N", "kN", "mN", "MN", "uN", "dyn"};
 constexpr std::array pressures = {"Pa", "kPa", "MPa", "GPa", "TPa", "bar", "Mbar"};
-/// Usual names, tried in this order where one of them is the product of a system's units.
+/// Lists the usual names, tried in this order for a product of units of a system.
 constexpr std::array usual = {"m/s",       "km/s",      "kg/m^3", "g/cm^3", "Pa",    "kPa",   "MPa",
                               "GPa",       "TPa",       "Mbar",   "J/kg",   "kJ/kg", "MJ/kg", "J/(kg K)",
                               "kJ/(kg K)", "MJ/(kg K)", "Pa s",   "kPa s",  "mPa s", "N",     "kN"};
@@ -37,7 +37,7 @@ std::optional<std::string> found_in(const Names& names, const std::string& word)
     return text;
   };
   if (std::ranges::find(names, word) != names.end()) return word;
-  // "Kg" and "MM" are usual; m and M of forces and pressures mean different things.
+  // "Kg" and "MM" are common; for forces and pressures, m and M have different meanings.
   for (const char* name : names) {
     if (lower(name) == lower(word)) return name;
   }
@@ -50,7 +50,7 @@ bool same(const std::string& left, const std::string& right) {
   try {
     return std::abs(units::convert(1.0, left, right) - 1.0) < 1e-12;
   } catch (const InputError&) {
-    return false;  // of another kind
+    return false;  // a unit of another kind
   }
 }
 

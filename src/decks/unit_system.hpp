@@ -7,7 +7,7 @@
 
 namespace whipple::decks {
 
-/// Exponents of length, mass, time and temperature of a quantity.
+/// Holds the exponents of length, mass, time and temperature of a quantity.
 struct Dimension {
   int length = 0, mass = 0, time = 0, temperature = 0;
 };
@@ -25,21 +25,21 @@ inline constexpr Dimension specific_energy = {.length = 2, .time = -2};
 inline constexpr Dimension heat_capacity = {.length = 2, .time = -2, .temperature = -1};
 }  // namespace dimension
 
-/// The consistent units of a deck: those of length, mass and time; all others follow, temperature is in K.
+/// Holds the consistent units of a deck: those of length, mass and time; all others are derived, temperature is in K.
 struct UnitSystem {
   std::string length, mass, time;
 
-  /// Returns the unit of a quantity, by its usual name where there is one ("MPa"), else as a product ("g/mm^3").
+  /// Returns the unit of a quantity, by its usual name if there is one ("MPa"), otherwise as a product ("g/mm^3").
   [[nodiscard]] std::string unit(const Dimension& dimension) const;
-  /// Returns a value of the deck with its unit, as TOML: "\"2.12 mm\""; a bare number if it has no dimension.
+  /// Returns a value of the deck with its unit, as TOML: "\"2.12 mm\""; a bare number if it is dimensionless.
   [[nodiscard]] std::string quantity(double value, const Dimension& dimension) const;
   /// Returns a value of the deck in SI.
   [[nodiscard]] double in_si(double value, const Dimension& dimension) const;
 };
 
-/// Reads "mm g ms", in any order, with commas or blanks. Units of force and pressure may follow ("mm g N ms MPa") and
-/// must be those that length, mass and time make.
-/// @returns nothing if the words name no length, mass and time
+/// Parses "mm g ms", in any order, with commas or blanks. Units of force and pressure may follow ("mm g N ms MPa") and
+/// must be consistent with length, mass and time.
+/// @returns nothing if the words do not name length, mass and time
 /// @throws InputError if a unit of force or pressure contradicts the others
 std::optional<UnitSystem> parse_unit_system(std::string_view text);
 

@@ -11,12 +11,12 @@
 
 namespace whipple::io {
 
-/// Writes behind the time steps, on a thread of its own. HDF5 serves one thread at a time: whoever opens a
-/// file waits first.
+/// Writes files concurrently with the time steps, on a separate thread. HDF5 is not thread-safe: call `wait` before
+/// opening a file.
 class BackgroundWriter {
  public:
-  /// Starts when what was started before has ended.
-  /// @throws what that one threw
+  /// Starts a write after the previous one has ended.
+  /// @throws the exception of the previous write
   void start(std::function<void()> write) {
     wait();
     const auto work = std::make_shared<std::function<void()>>(std::move(write));
@@ -25,11 +25,12 @@ class BackgroundWriter {
         parallel::set_threads(1);  // of this thread
         (*work)();
       });
-    } catch (const std::system_error&) {  // no further thread to be had (ulimit)
+    } catch (const std::system_error&) {  // no further thread available (ulimit)
       (*work)();
     }
   }
-  /// @throws what the writing threw
+  /// Waits for the current write.
+  /// @throws the exception of the write
   void wait() {
     if (under_way_.valid()) under_way_.get();
   }

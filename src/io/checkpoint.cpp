@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Numbers of one value of a field; Eigen and SymmetricTensor hold nothing else than these, in this order.
+/// Describes the numbers of one value of a field; Eigen and SymmetricTensor contain exactly these, in this order.
 template <class Value>
 struct Numbers {
   using Type = Value;
@@ -61,10 +61,11 @@ constexpr std::uint64_t width() {
   return columns;
 }
 
-/// A chunk of tensors takes less than a megabyte: HDF5 holds it twice while it sums.
+/// Limits the chunks: a chunk of tensors is smaller than a megabyte, because HDF5 keeps two copies to compute the
+/// checksum.
 const hdf5::Storage checksummed{.fletcher32 = true, .chunk_rows = 16384};
 
-/// All fields of particles, nodes, elements or Gauss points.
+/// Writes all fields of particles, nodes, elements or Gauss points.
 template <class Points>
 void write_points(const hdf5::Group& group, const Points& points, const Ranks& ranks) {
   const std::uint64_t n = points.size();
@@ -74,7 +75,7 @@ void write_points(const hdf5::Group& group, const Points& points, const Ranks& r
     const auto& values = field.of(points);
     using Value = typename std::decay_t<decltype(values)>::value_type;
     using Number = typename Numbers<Value>::Type;
-    if (field.optional) {  // in use on some rank: on all, those without particles included
+    if (field.optional) {  // used on some rank: written by all, including ranks without particles
       const std::vector<std::uint64_t> used = ranks.gather(values.size());
       if (std::ranges::all_of(used, [](std::uint64_t size) { return size == 0; })) return;
     }
@@ -87,8 +88,8 @@ void write_points(const hdf5::Group& group, const Points& points, const Ranks& r
   });
 }
 
-/// Brings the fields of material models into use that the file has. All others must be those of the program: one that is
-/// missing has no value (optional ones were not in use), one that is unknown would be lost.
+/// Allocates the fields of material models that the file contains. All other fields must match those of the program: a
+/// missing field would have no value (missing optional fields were not in use), an unknown one would be lost.
 template <class Points>
 void require_fields(const hdf5::Group& group, Points& points) {
   const std::vector<std::string> found = group.names();
@@ -118,7 +119,7 @@ void read_points(const hdf5::Group& group, Points& points, const Ranks& ranks) {
     throw InputError(fmt::format("{}: is declared to hold {} points", group.name(), declared));
   const auto total = static_cast<std::uint64_t>(declared);
   const std::vector<std::string> found = group.names();
-  // Before any room is made: what the file declares, it must hold.
+  // Before memory is allocated: the data sets must have the declared size.
   for_each_field(points, [&](const auto& field) {
     using Value = typename std::decay_t<decltype(field.of(points))>::value_type;
     if (std::ranges::find(found, field.name) == found.end()) return;
@@ -147,7 +148,7 @@ void read_points(const hdf5::Group& group, Points& points, const Ranks& ranks) {
   });
 }
 
-/// Groups "0", "1", ..., one per mesh.
+/// Writes groups "0", "1", ..., one per mesh.
 void write_meshes(const hdf5::Group& group, std::span<const fem::Mesh> meshes, const Ranks& ranks) {
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     const fem::Mesh& mesh = meshes[m];
@@ -196,7 +197,7 @@ std::vector<fem::Mesh> read_meshes(const hdf5::Group& group, const Ranks& ranks)
   return meshes;
 }
 
-/// Texts and arrays are data sets with their name as an attribute: names may hold any character ("mass.a/b").
+/// Writes a text or array as a data set with its name as an attribute: names may contain any character ("mass.a/b").
 template <class Number>
 void write_named(const hdf5::Group& group, const std::string& name, std::span<const Number> numbers,
                  const Ranks& ranks) {
@@ -242,7 +243,7 @@ CheckpointValues read_values(const hdf5::Group& group) {
   return values;
 }
 
-/// NNNNNNNN of checkpoint.NNNNNNNN.h5
+/// Returns the step of a checkpoint file, NNNNNNNN of checkpoint.NNNNNNNN.h5.
 std::optional<std::int64_t> step_of(const fs::path& path) {
   const std::string file = path.filename().string();
   constexpr std::string_view prefix = "checkpoint.";
@@ -257,19 +258,19 @@ std::optional<std::int64_t> step_of(const fs::path& path) {
   return error == std::errc() && stop == end ? std::optional(step) : std::nullopt;
 }
 
-/// Keeps the checkpoint just written and the newest before it. Those of later steps belong to a future that
-/// was given up when the run went on from an earlier one.
+/// Keeps the checkpoint just written and the newest earlier one. Checkpoints of later steps were abandoned when the run
+/// resumed from an earlier step.
 void remove_old_generations(const fs::path& folder, std::int64_t step) {
   int earlier = 0;
   for (const fs::path& path : list_checkpoints(folder)) {
     const std::int64_t other = *step_of(path);
     if (other == step || (other < step && ++earlier == 1)) continue;
-    std::error_code ignored;  // a file that cannot be removed does no harm
+    std::error_code ignored;  // a file that cannot be removed is harmless
     fs::remove(path, ignored);
   }
 }
 
-/// Reads what is of this rank, without communication.
+/// Reads the part of this rank, without communication.
 Checkpoint read_share(const fs::path& path, const Ranks& ranks) {
   const hdf5::File file = hdf5::File::open(path);
   Checkpoint checkpoint;
@@ -287,7 +288,7 @@ Checkpoint read_share(const fs::path& path, const Ranks& ranks) {
   return checkpoint;
 }
 
-/// The checkpoints that the root sees, for all ranks: they try the same ones. Collective.
+/// Lists the checkpoints found by the root, so that all ranks try the same ones. Collective.
 std::vector<fs::path> list_together(const fs::path& folder, const Ranks& ranks) {
   std::string names;
   ranks.on_root([&] {

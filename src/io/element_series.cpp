@@ -33,9 +33,9 @@ Value mean_of(const std::vector<Value>& values, std::size_t first, std::size_t c
   }
 }
 
-constexpr std::uint8_t failed_by_plastic_strain = 2;  // as the field `failed` is explained
+constexpr std::uint8_t failed_by_plastic_strain = 2;  // as in the description of the field `failed`
 
-/// Row p of the points: a bar.
+/// Writes a truss element to row p of the points.
 void write_bar(const fem::Bars& bars, std::size_t b, Particles& points, std::size_t p) {
   const fem::BarElements& elements = bars.elements;
   const auto& [first, second] = elements.ends[b];
@@ -129,7 +129,7 @@ UnstructuredGrid ElementSeries::grid(std::span<const fem::Mesh> meshes, std::spa
     std::vector<std::int64_t> connectivity;
     Particles elements;
   };
-  const auto all = std::make_shared<All>();  // as long as the arrays are
+  const auto all = std::make_shared<All>();  // lives as long as the arrays
   const auto append = [](auto& to, const auto& more) { to.insert(to.end(), more.begin(), more.end()); };
   const auto append_body = [&](const fem::Nodes& nodes, const auto& nodes_of_element) {
     const auto first = static_cast<std::int64_t>(all->position.size());

@@ -43,7 +43,7 @@ History History::restart(std::filesystem::path path, std::int64_t last_step) {
   const std::string_view all = text;
 
   const std::size_t header_end = all.find('\n');
-  if (header_end == std::string_view::npos) return history;  // killed while it wrote the header: start over
+  if (header_end == std::string_view::npos) return history;  // killed while writing the header: start over
   history.header_ = all.substr(0, header_end);
   history.continued_ = true;
   const std::vector<std::string> names = csv_cells(history.header_);
@@ -67,7 +67,7 @@ History History::restart(std::filesystem::path path, std::int64_t last_step) {
                                    history.path_.string(), line_number, cells.size(), names.size(),
                                    step_column < cells.size() ? cells[step_column] : ""));
     }
-    if (value > static_cast<double>(last_step)) break;  // steps ascend: what follows is later
+    if (value > static_cast<double>(last_step)) break;  // steps ascend: the remaining rows are later
     kept = end + 1;
     ++history.rows_;
   }
@@ -93,11 +93,11 @@ void History::append(std::span<const HistoryValue> row) {
   }
   for (std::size_t i = 0; i < row.size(); ++i) {
     if (i > 0) text += ',';
-    text += fmt::format("{}", row[i].value);  // shortest text that reads back to the same double
+    text += fmt::format("{}", row[i].value);  // shortest text that restores the same double
   }
   text += '\n';
   if (rows_ == 0 && !continued_) {
-    write_text_atomically(path_, text);  // in place of a file of that name
+    write_text_atomically(path_, text);  // replaces a file of that name
   } else {
     append_text(path_, text);
   }

@@ -27,7 +27,7 @@ SymmetricTensor stress(const Source& s, std::size_t i) {
 
 double von_mises_stress(const Source& s, std::size_t i) {
   const SymmetricTensor& t = s.particles.deviatoric_stress[i];
-  const double mean = (t.xx + t.yy + t.zz) / 3.0;  // not 0 where pressure is held back
+  const double mean = (t.xx + t.yy + t.zz) / 3.0;  // not 0 where p (I - S) is kept with s
   return std::sqrt(1.5 * std::max(t.squared_norm() - 3.0 * mean * mean, 0.0));
 }
 

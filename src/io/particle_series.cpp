@@ -36,8 +36,8 @@ UnstructuredGrid ParticleSeries::grid(const Particles& particles, double time) c
              partitions = static_cast<std::uint64_t>(ranks_.count());
   UnstructuredGrid grid{.time = time, .points = n, .cells = n, .connectivity_ids = n};
   grid.geometry.emplace_back("Points", points, [&particles](std::size_t i) { return particles.position[i]; });
-  // One vertex cell per particle: thresholds and clips of ParaView work on cells. The arrays vanish in
-  // compression.
+  // One vertex cell per particle: thresholds and clips of ParaView operate on cells. Compression makes the size of
+  // these arrays negligible.
   const auto row_number = [](std::size_t i) { return static_cast<std::int64_t>(i); };
   grid.geometry.emplace_back("Connectivity", points, row_number, Array::From::row_number);
   const hdf5::Slab bounds{points.first + rank, n + 1, points.total + partitions};

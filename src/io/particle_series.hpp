@@ -22,25 +22,25 @@ namespace whipple::io {
 struct SeriesOptions {
   std::filesystem::path folder;                 ///< must exist
   std::string name;                             ///< RUN of RUN.particles.hdf.series, RUN.elements.hdf.series
-  std::vector<std::string> fields;              ///< of output_field_names()
+  std::vector<std::string> fields;              ///< names from output_field_names()
   std::vector<std::uint16_t> material_of_body;  ///< index of the material of every body
   std::map<std::string, std::string> provenance;  ///< attributes of /run: version, input text, machine, ...
-  int deflate = 1;                                ///< level of compression, 0 to 9
+  int deflate = 1;                                ///< compression level, 0 to 9
 };
 
-/// Snapshots of the particles for ParaView: one file RUN.particles.NNNNNN.hdf per snapshot (VTKHDF 1.0
-/// UnstructuredGrid, one vertex cell per particle, point data in single precision) and their index
-/// (`Series`). docs/manual/output.md has the layout.
+/// Writes snapshots of the particles for ParaView: one file RUN.particles.NNNNNN.hdf per snapshot (VTKHDF 1.0
+/// UnstructuredGrid, one vertex cell per particle, point data in single precision) and their index (`Series`).
+/// docs/manual/output.md describes the layout.
 class ParticleSeries {
  public:
   /// @throws InputError if a field is unknown
   explicit ParticleSeries(SeriesOptions options, MPI_Comm communicator = MPI_COMM_WORLD);
 
-  /// As of `Series`; this rank's particles. Collective.
+  /// Restarts the series and writes the particles of this rank, as `Series` does. Collective.
   void restart(double time) { series_.restart(time); }
   std::filesystem::path write(const Particles& particles, double time);
-  /// Takes the values of now: what is returned writes them, once, on any thread, while the particles move on;
-  /// no other call of this series goes on beside it. Of a program with one rank.
+  /// Copies the current values and returns a function that writes them, once, on any thread, while the particles move
+  /// on. No other call of this series may run concurrently. For programs with one rank.
   [[nodiscard]] std::function<void()> prepare(const Particles& particles, double time);
   [[nodiscard]] std::size_t size() const { return series_.size(); }
   [[nodiscard]] std::filesystem::path index_path() const { return series_.index_path(); }

@@ -12,8 +12,8 @@
 namespace whipple::io {
 namespace {
 
-/// Runs `work`. @returns nothing, or what it threw as a text: the kind of error, which must survive the way to other
-/// ranks, as its first character
+/// Runs `work`.
+/// @returns an empty text, or the exception as text with its kind as first character, which is preserved on other ranks
 std::string outcome_of(const std::function<void()>& work) {
   try {
     work();
@@ -29,7 +29,7 @@ std::string outcome_of(const std::function<void()>& work) {
   return {};
 }
 
-/// Throws what an outcome tells of.
+/// Throws the exception that an outcome describes.
 void rethrow(const std::string& outcome) {
   if (outcome.empty()) return;
   const std::string text = outcome.substr(1);

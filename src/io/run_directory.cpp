@@ -26,8 +26,8 @@ namespace fs = std::filesystem;
   throw InputError(fmt::format("{}: cannot {}: {}", path.string(), action, std::strerror(error)));
 }
 
-/// Returns the pattern of files that a run writes into its folder, also under the name that `PartialFile` gives them
-/// while they are written; everything else there belongs to the user.
+/// Returns the pattern of files that a run writes into its folder, including the temporary names of `PartialFile`; all
+/// other files there belong to the user.
 std::regex own(const std::string& names) {
   return std::regex("(" + names + R"()((\.[0-9a-f]{8})?\.partial)?)");
 }
@@ -41,12 +41,12 @@ const std::regex& own_checkpoints() {
   static const std::regex names = own(R"(checkpoint\.[0-9]{8,}\.h5)");
   return names;
 }
-/// Requests that nobody has followed.
+/// Returns the pattern of pending requests.
 const std::regex& own_requests() {
   static const std::regex names = own(R"(.+\.toml(\.taken)?)");
   return names;
 }
-/// Copies of the materials; only what a killed run left of them is removed.
+/// Returns the pattern of material copies; only those left incomplete by a killed run are removed.
 const std::regex& own_materials() {
   static const std::regex names = own(R"(.+\.toml)");
   return names;
@@ -54,7 +54,7 @@ const std::regex& own_materials() {
 
 enum class Which { all, partial };
 
-/// A link is removed, not what it points to.
+/// Removes matching files. Links are removed, not their targets.
 void remove_matching(const fs::path& folder, const std::regex& names, Which which = Which::all) {
   std::vector<fs::path> outputs;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
@@ -71,7 +71,7 @@ void remove_matching(const fs::path& folder, const std::regex& names, Which whic
   }
 }
 
-/// Nothing is removed from elsewhere.
+/// Checks that a folder is not a link, so that nothing is removed elsewhere.
 void require_own_folder(const fs::path& folder) {
   if (!fs::is_symlink(folder)) return;
   throw InputError(fmt::format("{}: is a symbolic link; --force removes nothing behind one: remove the link",
@@ -86,7 +86,8 @@ bool holds_anything(const fs::path& folder) {
   });
 }
 
-/// Permission bits do not tell the whole story (read-only file systems, quotas): write something.
+/// Checks that files can be written, by writing one: permission bits do not reveal read-only file systems or
+/// quotas.
 void require_writable(const fs::path& folder) {
   const fs::path probe = folder / fmt::format(".writable.{}.partial", ::getpid());
   const int file = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
@@ -107,7 +108,7 @@ bool is_running(const fs::path& path) {
   const int lock = ::open((path / lock_name).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
   if (lock < 0) return false;
   const bool is_held =
-      ::flock(lock, LOCK_SH | LOCK_NB) != 0;  // or the file system has no locks: the file counts
+      ::flock(lock, LOCK_SH | LOCK_NB) != 0;  // or the file system has no locks: the file decides
   ::close(lock);
   return is_held;
 }
@@ -134,7 +135,7 @@ RunDirectory RunDirectory::create(const fs::path& path, const std::string& name,
   require_own_folder(directory.control_folder());
   require_writable(path);
   directory.lock_ = lock_run(path);
-  require_empty();  // unless another run was faster
+  require_empty();  // fails if another run was faster
   remove_matching(path, own_outputs());
   if (fs::is_directory(directory.checkpoint_folder())) {
     remove_matching(directory.checkpoint_folder(), own_checkpoints());
@@ -146,7 +147,7 @@ RunDirectory RunDirectory::create(const fs::path& path, const std::string& name,
     remove_matching(directory.control_folder(), own_requests());
   if (fs::is_directory(directory.failed_folder())) {
     remove_matching(directory.failed_folder(), own_checkpoints());
-    fs::remove(directory.failed_folder(), error);  // stays if it holds something else
+    fs::remove(directory.failed_folder(), error);  // kept if it contains other files
   }
   return directory;
 }

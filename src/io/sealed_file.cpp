@@ -24,9 +24,9 @@ namespace fs = std::filesystem;
   throw InputError(fmt::format("{}: cannot {}: {}", path.string(), action, std::strerror(errno)));
 }
 
-/// 64-bit digest of a stream of bytes, eight at a time, after FNV-1a (Fowler, Noll, Vo): exclusive or, then
-/// multiply by the FNV prime, here followed by a shift so that high bits reach low ones. Every step is a
-/// bijection of the state, hence a change of any one word always changes the digest.
+/// Computes a 64-bit digest of a stream of bytes, eight at a time, after FNV-1a (Fowler, Noll, Vo): exclusive or, then
+/// multiplication by the FNV prime, here followed by a shift that propagates high bits to low ones. Every step is a
+/// bijection of the state; hence a change of any single word always changes the digest.
 class Digest {
  public:
   void add(const char* bytes, std::size_t size) {
@@ -51,7 +51,7 @@ class Digest {
   std::uint64_t state_ = 0xcbf29ce484222325ULL;
 };
 
-/// Digest of everything behind the seal.
+/// Computes the digest of all bytes after the seal.
 std::uint64_t digest_of(const fs::path& path) {
   std::ifstream stream(path, std::ios::binary);
   stream.seekg(static_cast<std::streamoff>(seal_size));

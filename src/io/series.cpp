@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// NNNNNN of RUN.KIND.NNNNNN.hdf, if the file is one of this run's.
+/// Returns NNNNNN of RUN.KIND.NNNNNN.hdf, if the file belongs to this run.
 std::optional<std::size_t> snapshot_number(std::string_view file, std::string_view run,
                                            std::string_view kind) {
   const std::string prefix = fmt::format("{}.{}.", run, kind);
@@ -74,7 +74,7 @@ void Series::restart(double time) {
 
   ranks_.on_root([&] {
     if (!text.empty()) write_text_atomically(index_path(), index_text());
-    // Files beyond the index: later than the restart, or written just before the run was killed.
+    // Files that are not in the index: later than the restart, or written just before the run was killed.
     std::vector<fs::path> beyond;
     for (const fs::directory_entry& file : fs::directory_iterator(folder_)) {
       const auto number = snapshot_number(file.path().filename().string(), run_, kind_);

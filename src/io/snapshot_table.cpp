@@ -51,7 +51,7 @@ std::vector<SnapshotTable::Column> read_columns(const hdf5::Group& group, std::u
   return columns;
 }
 
-/// Reads the cells; those of each rank count their points and the ends of their lists from its own beginning.
+/// Reads the cells; the point numbers and list ends of each rank are relative to the part of that rank.
 void read_cells(const hdf5::Group& vtk, const std::string& file, SnapshotTable& table) {
   const auto fail = [&](const char* why) { throw InputError(fmt::format("{}: error: {}", file, why)); };
   const auto points_of = vtk.open_dataset("NumberOfPoints").read_all<std::int64_t>();
@@ -101,10 +101,10 @@ std::string title_of(const std::string& name, const std::string& unit) {
   return unit.empty() || unit == "1" ? name : fmt::format("{} [{}]", name, unit);
 }
 
-/// Arrays one after another, each behind the number of its bytes.
+/// Appends arrays one after another, each preceded by its size in bytes.
 class Appended {
  public:
-  /// Returns the element of an array that is appended.
+  /// Appends an array and returns its XML element.
   template <class Number>
   std::string array(const std::string& name, std::size_t components, std::span<const Number> values) {
     static_assert(std::is_arithmetic_v<Number>);

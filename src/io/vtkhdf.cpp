@@ -66,7 +66,8 @@ void UnstructuredGrid::write(const std::filesystem::path& path, const Ranks& ran
 
 namespace {
 
-/// A field that a material model declares; neutral where no material of the particles does.
+/// Returns the array of a field declared by a material model, with neutral values if no material of the particles has
+/// it.
 Array history_array(const HistoryField& field, const Particles& particles, const hdf5::Slab& slab) {
   const History* found = particles.history.find(field.name);
   return std::visit(

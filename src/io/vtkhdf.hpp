@@ -22,7 +22,7 @@
 /// Writes the common parts of the VTKHDF files of particles and of elements (docs/manual/output.md).
 namespace whipple::io {
 
-/// How a value of a field stands in the file.
+/// Describes the representation of a field value in the file.
 template <class Value>
 struct Row;
 template <>
@@ -64,13 +64,13 @@ struct Row<Integer> {
   static void put(Integer value, Integer* row) { *row = value; }
 };
 
-/// An array of a snapshot. Its numbers come from a function of the row, when the array is written or, if the
-/// points will have moved on by then, before.
+/// Describes an array of a snapshot. Its numbers are computed by a function of the row when the array is written, or
+/// earlier if the points will have moved by then.
 class Array {
  public:
   enum class From { points, row_number };
   /// @param value  value(i) for the rows of this process
-  /// @param from   what the function needs: the points as they are now, or nothing
+  /// @param from   data that the function needs: the current points, or only the row number
   template <class Function>
   Array(std::string name, const hdf5::Slab& slab, Function value, From from = From::points)
       : name_(std::move(name)), slab_(slab), from_(from) {
@@ -85,13 +85,13 @@ class Array {
   }
 
   void set_attribute(std::string_view name, std::string_view text) { attributes_.emplace_back(name, text); }
-  /// The values of now, if they depend on the points.
+  /// Evaluates the current values, if they depend on the points.
   void evaluate() {
     if (from_ == From::row_number) return;
     numbers_ = evaluate_();
-    evaluate_ = nullptr;  // with what it holds
+    evaluate_ = nullptr;  // together with its captured data
   }
-  /// The memory of the numbers is free afterwards.
+  /// Writes the array and frees the memory of its numbers.
   void write(const hdf5::Group& group, int deflate);
 
  private:
@@ -107,25 +107,25 @@ class Array {
   std::vector<std::pair<std::string, std::string>> attributes_;
 };
 
-/// Cell types of VTK.
+/// Defines cell types of VTK.
 constexpr std::uint8_t vtk_vertex = 1, vtk_line = 3, vtk_hexahedron = 12;
 
-/// An unstructured grid of VTKHDF 1.0, one partition per rank.
+/// Holds an unstructured grid of VTKHDF 1.0, one partition per rank.
 struct UnstructuredGrid {
   double time = 0.0;                                          ///< s
   std::uint64_t points = 0, cells = 0, connectivity_ids = 0;  ///< of this process
   std::vector<Array> geometry = {};                           ///< points, then the cells
   std::vector<Array> cell_data = {}, point_data = {};
 
-  /// The values of now: `write` needs nothing but this afterwards.
+  /// Evaluates the current values: afterwards `write` does not need the points.
   void evaluate();
-  /// Collective.
+  /// Writes the grid to a file. Collective.
   void write(const std::filesystem::path& path, const Ranks& ranks,
              const std::map<std::string, std::string>& provenance, int deflate);
 };
 
-/// The fields of a source, one row per point of the slab.
-/// @throws InternalError if a point belongs to a body whose material the source does not know
+/// Returns the fields of a source, one row per point of the slab.
+/// @throws InternalError if a point belongs to a body whose material is not in the source
 std::vector<Array> arrays_of(std::span<const OutputField> fields, const FieldSource& source,
                              const hdf5::Slab& slab);
 

@@ -37,7 +37,7 @@ json acts_json() {
   return list;
 }
 
-/// Returns the last lines of a text file, at most so many bytes of it.
+/// Returns the last lines of a text file, reading a limited number of bytes.
 json last_lines(const fs::path& file, std::size_t lines) {
   constexpr std::streamoff most = 16 * 1024;
   std::ifstream in(file, std::ios::binary | std::ios::ate);
@@ -47,7 +47,7 @@ json last_lines(const fs::path& file, std::size_t lines) {
   in.seekg(std::max<std::streamoff>(size - most, 0));
   std::vector<std::string> all;
   for (std::string line; std::getline(in, line);) all.push_back(line);
-  if (size > most && !all.empty()) all.erase(all.begin());  // the rest of a line
+  if (size > most && !all.empty()) all.erase(all.begin());  // an incomplete line
   std::erase_if(all, [](const std::string& line) { return line.find(" debug: ") != std::string::npos; });
   for (std::size_t i = all.size() > lines ? all.size() - lines : 0; i < all.size(); ++i)
     list.push_back(all[i]);
@@ -58,7 +58,7 @@ json answers_json(const fs::path& file) {
   json list = json::array();
   std::ifstream in(file, std::ios::binary);
   std::string line;
-  std::getline(in, line);  // heads
+  std::getline(in, line);  // header
   while (std::getline(in, line)) {
     const std::vector<std::string> cells = csv_cells(line);
     if (cells.size() != 7) continue;
@@ -72,20 +72,21 @@ json answers_json(const fs::path& file) {
   return list;
 }
 
-/// Whoever may write into a folder could make links in it to what only the user of the monitor may read. Checked is what
-/// is read next, as a run has many files.
-/// @throws InputError if the file of a run, which need not exist, lies elsewhere
+/// Checks that a file of a run is inside the folder of the run. Anyone who may write to a folder could create links in
+/// it to files that only the user of the monitor may read. Each file is checked before it is read, because a run has
+/// many files.
+/// @throws InputError if the file of a run, which need not exist, is outside the folder
 void require_no_link_out(const fs::path& run, const fs::path& file) {
   if (lies_in(file, run)) return;
   throw InputError(
       fmt::format("{}: is a link out of the folder of the run, of which nothing is shown", file.string()));
 }
 
-/// What is read of a run and written to it, but for its snapshots.
+/// Lists the files of a run that are read or written, except its snapshots.
 constexpr std::array files_of_run = {"status.json", "run.toml",     "history.csv", "gauges.csv",
                                      "log.txt",     "steering.csv", "control"};
 
-/// The run directories below a folder that lie in it themselves.
+/// Returns the run directories below a folder, without those that links place outside it.
 std::vector<fs::path> own_runs(const fs::path& folder) {
   std::vector<fs::path> runs = run::find_runs(folder);
   std::erase_if(runs, [&](const fs::path& run) { return !lies_in(run, folder); });
@@ -115,7 +116,7 @@ json Folder::runs() const {
     try {
       require_no_link_out(path, path / "status.json");
       entry.update(run::status_json(run::read_status(path)));
-    } catch (const InputError& error) {  // half written, or damaged: the others are shown
+    } catch (const InputError& error) {  // incomplete or damaged: the other runs are still shown
       entry.update({{"state", "unknown"}, {"goes_on", false}, {"message", error.what()}});
     }
     list.push_back(std::move(entry));

@@ -17,23 +17,24 @@
 
 namespace whipple::monitor {
 
-/// A table of a run directory.
+/// Lists the tables of a run directory.
 enum class Table : std::uint8_t { history, gauges };
 constexpr std::array<Word<Table>, 2> words(Table) {
   return {{{Table::history, "history"}, {Table::gauges, "gauges"}}};
 }
 
-/// What the run directories below a folder tell of their runs, as JSON for the page. Everything is read from the files;
-/// a run that goes on is not asked. Numbers are SI; what is not finite is null.
+/// Describes the runs in the run directories below a folder as JSON for the page. All data are read from the files,
+/// without communication with an active run. Numbers are SI; non-finite values are null.
 class Folder {
  public:
-  /// @param path  a run directory, or a folder with some at any depth, which may come later
+  /// @param path  a run directory, or a folder that contains run directories at any depth, also later ones
   explicit Folder(std::filesystem::path path) : path_(std::move(path)) {}
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  /// Returns whether the folder is itself a run directory.
+  /// Returns whether the folder is a run directory.
   [[nodiscard]] bool is_run() const { return std::filesystem::exists(path_ / "run.toml"); }
-  /// Returns the run directory with a name of `runs`. @throws InputError if there is none of this name
+  /// Returns the run directory with a name as listed by `runs`.
+  /// @throws InputError if there is none of this name
   [[nodiscard]] std::filesystem::path run(const std::string& name) const;
 
   /// Lists all runs: name, state, time, end, step, time_left, message.
@@ -41,15 +42,16 @@ class Folder {
   /// Describes a run: title, status, the requests that it accepts, columns of its tables, times of its snapshots, its
   /// answers to requests and the last lines of its log.
   [[nodiscard]] nlohmann::json describe(const std::string& name);
-  /// Returns points of columns of a table against another column: {head: {x: [...], y: [...]}}.
-  /// @param points  of each column, about
+  /// Returns points of columns of a table as functions of another column: {header: {x: [...], y: [...]}}.
+  /// @param points  approximate number of points of each column
   /// @throws InputError if a column does not exist
   [[nodiscard]] nlohmann::json curves(const std::string& name, Table table, const std::string& x,
                                       const std::vector<std::string>& columns, std::size_t points);
-  /// Returns where programs that the page started print, and its last lines.
+  /// Returns the output file of the programs started from the page; `started` returns its last lines.
   [[nodiscard]] std::filesystem::path output_of_started() const { return path_ / "monitor.log"; }
   [[nodiscard]] nlohmann::json started() const;
-  /// Returns a snapshot as gzipped `.wpv`. @param most  particles; fewer are kept of larger snapshots
+  /// Returns a snapshot as gzipped `.wpv`.
+  /// @param most  maximum number of particles; larger snapshots are thinned
   /// @throws InputError if the snapshot does not exist
   [[nodiscard]] std::string cloud(const std::string& name, std::size_t index, std::size_t most);
 
@@ -58,7 +60,7 @@ class Folder {
     explicit Known(const std::filesystem::path& run)
         : history(run / "history.csv"), gauges(run / "gauges.csv") {}
     GrowingTable history, gauges;
-    std::unique_ptr<analysis::Run> run;  // as of the index of snapshots below
+    std::unique_ptr<analysis::Run> run;  // read with the index of snapshots below
     std::filesystem::file_time_type index_written{};
   };
   Known& known(const std::string& name);

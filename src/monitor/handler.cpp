@@ -40,7 +40,7 @@ Response data(const json& body, int status = ok) {
   return {status, "application/json", body.dump(-1, ' ', false, json::error_handler_t::replace)};
 }
 
-/// Compares in a time that does not depend on where two texts differ.
+/// Compares two texts in constant time, independent of the position of a difference.
 bool equal_texts(std::string_view a, std::string_view b) {
   unsigned char different = a.size() == b.size() ? 0 : 1;
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
@@ -50,7 +50,7 @@ bool equal_texts(std::string_view a, std::string_view b) {
   return different == 0;
 }
 
-/// Reads %20 and + of a query.
+/// Decodes %20 and + in a query.
 std::string decoded(std::string_view coded) {
   std::string plain;
   for (std::size_t i = 0; i < coded.size(); ++i) {
@@ -69,7 +69,7 @@ std::string decoded(std::string_view coded) {
   return plain;
 }
 
-/// The keys of a query; a key that is repeated has several values.
+/// Holds the keys of a query; a repeated key has several values.
 class Query {
  public:
   explicit Query(std::string_view query) {
@@ -118,8 +118,8 @@ Handler::Handler(Folder folder, Access access, fs::path page, fs::path view, fs:
       cases_(std::move(cases)),
       start_(std::move(start)) {}
 
-/// Other pages of the same browser can reach this address, under another name too; their browsers say where they are
-/// from.
+/// Checks the origin of a request. Other pages in the same browser can reach this address, also under another host
+/// name; browsers send the origin of the page.
 bool Handler::is_from_here(const Request& request) const {
   if (request.host != access_.host) return false;
   if (!request.origin.empty() && request.origin != "http://" + access_.host) return false;
@@ -209,7 +209,7 @@ Response Handler::read(const std::string& path, const std::string& query) {
   return found == routes.end() ? text(not_found, "there is nothing at " + path) : found->second();
 }
 
-/// The outcome is written to steering.csv when the step under way has ended.
+/// Passes a request to a run. The outcome is written to steering.csv at the end of the current step.
 Response Handler::steer(const json& body) {
   (void)run::steer(folder_.run(text_of(body, "run")), text_of(body, "request"), text_of(body, "value"));
   return data(json::object(), accepted);

@@ -10,9 +10,9 @@
 
 namespace whipple::monitor {
 
-/// Holds what of an HTTP request its response depends on. Empty texts: the header field is missing.
+/// Holds the parts of an HTTP request that determine its response. Empty texts: the header field is missing.
 struct Request {
-  bool changes = false;  ///< POST; else GET
+  bool changes = false;  ///< POST; otherwise GET
   std::string target;    ///< path and query
   std::string host, origin, site, token, content_type, body;
 };
@@ -24,26 +24,26 @@ struct Response {
   std::string body;
 };
 
-/// Holds who is served, and whether runs may be changed.
+/// Holds the access rights: which requests are served, and whether runs may be changed.
 struct Access {
   std::string host;   ///< address and port of the server, required as the header field Host
   std::string token;  ///< required as X-Whipple-Token, except for the files of the page
   bool read_only = false;
 };
 
-/// Starts a run in the background: the arguments of `whipple run`.
+/// Starts a run in the background with the arguments of `whipple run`.
 using Start = std::function<void(const std::vector<std::string>& arguments)>;
 
-/// Handles the requests of the page (docs/manual/monitor.md), apart from the network.
+/// Handles the requests of the page (docs/manual/monitor.md), independently of the network.
 class Handler {
  public:
   /// @param page   folder of the page's files
   /// @param view   folder of the viewer's modules
-  /// @param cases  folder whose sub-folders with a case.toml can be started; empty: none
+  /// @param cases  folder of the cases that can be started: sub-folders with a case.toml; empty: none
   Handler(Folder folder, Access access, std::filesystem::path page, std::filesystem::path view,
           std::filesystem::path cases, Start start);
 
-  /// Returns the response to any request; errors have a response too.
+  /// Returns the response to any request, including invalid ones.
   [[nodiscard]] Response handle(const Request& request);
   /// Returns whether a request carries the access token.
   [[nodiscard]] bool has_key(const Request& request) const;

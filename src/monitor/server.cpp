@@ -45,9 +45,10 @@ std::string random_token() {
 
 struct Server::Connections {
   class Session;
-  /// Open connections, the longest without a request with the key first: those that have never had one, and the
-  /// others. Of too many the first ones give way, so that nobody is kept out by connections that say nothing. They
-  /// stand before `io`, whose end ends the sessions that wait, and each leaves its list.
+  /// Holds the open connections in order of their last authenticated request, oldest first: those without any
+  /// authenticated request, and the others. At the limit the first connection is closed, so that idle connections
+  /// cannot block others. Declared before `io`, whose destructor ends the waiting sessions, each of which removes
+  /// itself from its list.
   std::list<Session*> strangers, known;
   asio::io_context io{1};
   tcp::acceptor acceptor{io};
@@ -61,7 +62,7 @@ struct Server::Connections {
   void wait(std::chrono::seconds patience, const std::function<bool()>& may_end);
 };
 
-/// One connection: reads requests and writes their responses in turn.
+/// Handles one connection: reads requests and writes their responses in turn.
 class Server::Connections::Session : public std::enable_shared_from_this<Session> {
  public:
   Session(Server::Connections& all, tcp::socket socket)
@@ -72,7 +73,7 @@ class Server::Connections::Session : public std::enable_shared_from_this<Session
   Session& operator=(const Session&) = delete;
   ~Session() { leave(); }
 
-  /// Ends the connection, whatever is under way.
+  /// Closes the connection, aborting pending operations.
   void close() {
     leave();
     stream_.close();
@@ -110,7 +111,7 @@ class Server::Connections::Session : public std::enable_shared_from_this<Session
     Response made;
     try {
       made = all_.handler->handle(request);
-    } catch (const std::exception& error) {  // a file that cannot be read, say: the server goes on
+    } catch (const std::exception& error) {  // for example an unreadable file: the server continues
       made = {500, "text/plain; charset=utf-8", std::string(error.what()) + "\n"};
     }
     if (all_.handler->has_key(request)) move_to(all_.known);
@@ -153,7 +154,7 @@ class Server::Connections::Session : public std::enable_shared_from_this<Session
   beast::tcp_stream stream_;
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::string_body>> parser_;
-  std::list<Session*>* list_;  // that it stands in; null: none
+  std::list<Session*>* list_;  // list that contains this session; null: none
   std::list<Session*>::iterator place_;
 };
 

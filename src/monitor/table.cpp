@@ -13,7 +13,7 @@
 namespace whipple::monitor {
 namespace {
 
-/// Returns the number of a cell; NaN if it holds none.
+/// Returns the number in a cell; NaN if it contains none.
 double number_of(const std::string& cell) {
   char* end = nullptr;
   const double value = std::strtod(cell.c_str(), &end);
@@ -40,7 +40,7 @@ void GrowingTable::add(const std::string& line) {
     columns_.resize(heads_.size());
     return;
   }
-  if (cells.size() != heads_.size()) return;  // a line that is being written again
+  if (cells.size() != heads_.size()) return;  // a line that is being rewritten
   for (std::size_t c = 0; c < cells.size(); ++c) columns_[c].push_back(number_of(cells[c]));
 }
 
@@ -51,7 +51,7 @@ void GrowingTable::look() {
   std::ifstream in(file_, std::ios::binary);
   if (!in) return clear();
   if (!first_line_.empty()) {
-    // A run that resumed from an earlier state, or started again, may have written more than was read before.
+    // A run that resumed from an earlier state, or started again, may have replaced the rows that were read.
     std::string first, last;
     std::getline(in, first);
     in.seekg(static_cast<std::streamoff>(last_begins_));
@@ -87,7 +87,7 @@ std::vector<std::size_t> GrowingTable::rows_to_draw(std::size_t column, std::siz
   }
   for (std::size_t part = 0; part < parts; ++part) {
     const std::size_t first = part * values.size() / parts, last = (part + 1) * values.size() / parts - 1;
-    std::size_t smallest = first, largest = first;  // what is no number is neither
+    std::size_t smallest = first, largest = first;  // ignoring NaN
     for (std::size_t row = first; row <= last; ++row) {
       if (values[row] < values[smallest] || std::isnan(values[smallest])) smallest = row;
       if (values[row] > values[largest] || std::isnan(values[largest])) largest = row;

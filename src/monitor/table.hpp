@@ -9,8 +9,8 @@
 
 namespace whipple::monitor {
 
-/// Follows a table of numbers that a run appends to (history.csv, gauges.csv): each look reads what is new. The table
-/// may be shorter or another than before, when a run is continued; it is then read again.
+/// Follows a table of numbers to which a run appends rows (history.csv, gauges.csv): each call of `look` reads the new
+/// rows. A continued run may have shortened or replaced the table; it is then read from the beginning.
 class GrowingTable {
  public:
   explicit GrowingTable(std::filesystem::path file) : file_(std::move(file)) {}
@@ -18,13 +18,13 @@ class GrowingTable {
   /// Reads the complete lines that were added. A missing file is an empty table.
   void look();
 
-  /// Returns the heads of the columns as they are in the file: `name [unit]`.
+  /// Returns the column headers as in the file: `name [unit]`.
   [[nodiscard]] const std::vector<std::string>& heads() const { return heads_; }
   [[nodiscard]] std::size_t rows() const { return columns_.empty() ? 0 : columns_.front().size(); }
   [[nodiscard]] const std::vector<double>& column(std::size_t number) const { return columns_[number]; }
 
-  /// Returns the rows that draw a column with about so many points: all of them, or of each of equal parts of the rows
-  /// the first, the smallest, the largest and the last, so that no peak is lost. Increasing.
+  /// Returns the rows for plotting a column with about the given number of points: all rows, or the first, minimum,
+  /// maximum and last of each of equal parts of the rows, so that no peak is lost. In increasing order.
   [[nodiscard]] std::vector<std::size_t> rows_to_draw(std::size_t column, std::size_t points) const;
 
  private:
@@ -33,9 +33,9 @@ class GrowingTable {
 
   std::filesystem::path file_;
   std::uintmax_t read_ = 0;             // bytes
-  std::string first_line_, last_line_;  // complete ones as read, to notice another table
+  std::string first_line_, last_line_;  // complete lines as read, to detect another table
   std::uintmax_t last_begins_ = 0;      // bytes before the last line
-  std::string unfinished_;              // line
+  std::string unfinished_;              // incomplete line
   std::vector<std::string> heads_;
   std::vector<std::vector<double>> columns_;
 };

@@ -21,8 +21,8 @@ namespace whipple::run {
 
 namespace {
 
-/// Lists the faces of the domain at which a body is joined to its mirror image, and those whose wall or image it
-/// meets in contact; empty where there are none.
+/// Lists the faces of the domain at which a body is continuous with its mirror image, and those at which it is in
+/// contact with the wall or its image; empty where there are none.
 std::string at_faces(const cases::Case& setup, const solver::Simulation& simulation, std::size_t body) {
   constexpr std::array<const char*, 6> names = {"x_lower", "x_upper", "y_lower",
                                                 "y_upper", "z_lower", "z_upper"};
@@ -39,7 +39,7 @@ std::string at_faces(const cases::Case& setup, const solver::Simulation& simulat
   return text;
 }
 
-/// Tells how many particles splitting may lead to, and their memory on this rank; empty where nothing is divided.
+/// Describes the maximum number of particles after splitting, and their memory on this rank; empty without splitting.
 std::string of_splitting(const solver::Simulation& simulation) {
   const cases::Splitting& splitting = simulation.setup().splitting;
   const SplittingForecast forecast = forecast_splitting(simulation);
@@ -87,7 +87,7 @@ std::string check_case(const RunOptions& options, MPI_Comm communicator) {
   }
   for (const std::string& remark : setup.contact_fields.remarks) text += remark + "\n";
   for (const std::string& remark : cases::remarks(setup)) text += "warning: " + remark + "\n";
-  const std::size_t particles = simulation.particle_count();  // those of later steps are more
+  const std::size_t particles = simulation.particle_count();  // before splitting adds more
   const std::string splitting = of_splitting(simulation);
   const Forecast cost = forecast(simulation);
   text += fmt::format("particles: {}, active blocks: {}, memory: {} now\n", particles,

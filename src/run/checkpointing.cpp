@@ -7,7 +7,7 @@
 namespace whipple::run {
 namespace {
 
-/// Calls f(name, number) for every real number of the state: one list for writing and reading.
+/// Calls f(name, number) for every real number of the state; the same list is used for writing and reading.
 template <class State, class Function>
 void for_each_real(State& state, Function&& f) {
   f("time", state.time);
@@ -33,7 +33,7 @@ std::vector<double> halves(const std::vector<std::uint64_t>& words) {
   return halves;
 }
 
-/// Calls f(first number) for every row of an array that has `width` numbers in each.
+/// Calls f(first number) for every row of an array with `width` numbers per row.
 /// @throws InputError naming the array if its last row is incomplete
 template <class Function>
 void for_each_row(const io::CheckpointValues& values, const std::string& name, std::ptrdiff_t width,

@@ -9,7 +9,8 @@ namespace whipple::run {
 /// Collects the state of a run by name, for a checkpoint.
 io::CheckpointValues to_checkpoint(const solver::RunState& state);
 
-/// Restores the state of a run. @throws InputError naming what is missing
+/// Restores the state of a run.
+/// @throws InputError naming the missing value
 solver::RunState from_checkpoint(const io::CheckpointValues& values);
 
 }  // namespace whipple::run

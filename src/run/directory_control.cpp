@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Explains why a request cannot be followed in the present state of a run; empty if it can.
+/// Explains why a request cannot be executed in the present state of a run; empty if it can.
 std::string obstacle(const Request& request, const Moment& moment) {
   if (request.act == Act::pause && moment.paused) return "the run is paused already";
   if (request.act == Act::resume && !moment.paused) return "the run is not paused";
@@ -32,13 +32,13 @@ std::string obstacle(const Request& request, const Moment& moment) {
   return "";
 }
 
-/// Returns the number that a request replaces, with its unit; empty if it replaces none.
+/// Returns the former value that a request replaces, with its unit; empty if it replaces none.
 std::string replaced_by(const Request& request, const Schedule& schedule) {
   const ActEntry& entry = entry_of(request.act);
   return entry.changes == nullptr ? "" : fmt::format("was {}", number_of(entry, schedule));
 }
 
-/// Finds the answer to the request of a file in the table; nothing if it holds none.
+/// Finds the answer to the request of a file in the table; returns nothing if there is none.
 std::optional<Answer> find_answer(const fs::path& table, const std::string& file) {
   std::istringstream rows(fs::exists(table) ? read_text(table) : std::string());
   std::optional<Answer> found;
@@ -65,7 +65,7 @@ void DirectoryControl::look() {
   const Clock::time_point now = Clock::now();
   if (now < next_look_) return;
   next_look_ = now + std::chrono::duration_cast<Clock::duration>(interval_);
-  std::error_code ignored;  // whoever removes the folder asks for nothing
+  std::error_code ignored;  // a removed folder contains no requests
   for (fs::directory_iterator entry(folder_, ignored), last; entry != last; entry.increment(ignored)) {
     if (entry->path().extension() == ".toml" && entry->is_regular_file(ignored))
       waiting_.push_back(entry->path());
@@ -90,10 +90,10 @@ void DirectoryControl::end(const Moment& moment) {
 }
 
 Request DirectoryControl::take(const fs::path& file, const Moment& moment, const std::string& too_late) {
-  const fs::path taken = file.string() + ".taken";  // a run that is killed now does not follow it twice
+  const fs::path taken = file.string() + ".taken";  // no second execution if the run is killed now
   std::error_code fault;
   fs::rename(file, taken, fault);
-  if (fault) return {};  // it has been withdrawn
+  if (fault) return {};  // it was withdrawn
   RequestWords words;
   Request request;
   std::string reason;
@@ -101,7 +101,7 @@ Request DirectoryControl::take(const fs::path& file, const Moment& moment, const
     words = read_request(taken);
     request = parse_request(words.request, words.value);
     reason = too_late.empty() ? obstacle(request, moment) : too_late;
-  } catch (const std::exception& error) {  // whatever is in the file, the run goes on
+  } catch (const std::exception& error) {  // an invalid file must not end the run
     reason = error.what();
   }
   if (!reason.empty()) request = {};
@@ -121,7 +121,7 @@ void DirectoryControl::write(const Moment& moment, const std::string& file, cons
     append_text(table_, fmt::format("{}{},{},{},{},{},{},{}\n", is_new ? std::string(header) + "\n" : "",
                                     moment.time(), moment.step(), csv_cell(file), csv_cell(words.request),
                                     csv_cell(words.value), word_of(answer.verdict), csv_cell(answer.detail)));
-  } catch (const InputError& error) {  // the run goes on
+  } catch (const InputError& error) {  // the run continues
     log::warning("{}", error.what());
   }
   log::info("request {}{}{}: {}{}{}", words.request, words.value.empty() ? "" : " ", words.value,
@@ -136,7 +136,7 @@ std::optional<Answer> steer(const fs::path& run, const std::string& word, const 
     throw InputError(fmt::format("{}: is not the folder of a run: it contains no run.toml", run.string()));
   if (!io::is_running(run) || !fs::is_directory(folder))
     throw InputError(fmt::format("{}: no run is active there that could follow a request", run.string()));
-  // Names in the order of time.
+  // File names sort in the order of time.
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   const fs::path file = folder / fmt::format("{}.toml", std::chrono::nanoseconds(now).count()),
                  table = run / "steering.csv";
@@ -149,7 +149,7 @@ std::optional<Answer> steer(const fs::path& run, const std::string& word, const 
   constexpr auto pause = std::chrono::milliseconds(50);
   for (const auto begin = std::chrono::steady_clock::now(); is_waiting();) {
     if (std::chrono::steady_clock::now() - begin >= patience) return std::nullopt;
-    if (!io::is_running(run)) {  // it was killed, or its last look was before the file was there
+    if (!io::is_running(run)) {  // it was killed, or it last read the folder before the file existed
       if (!fs::remove(file, missing)) break;
       throw InputError(fmt::format("{}: the run ended before it followed the request", run.string()));
     }

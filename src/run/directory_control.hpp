@@ -15,39 +15,39 @@
 
 namespace whipple::run {
 
-/// Whether a request is followed.
+/// Describes whether a request is executed.
 enum class Verdict : std::uint8_t { accepted, refused };
 constexpr std::array<Word<Verdict>, 2> words(Verdict) {
   return {{{Verdict::accepted, "accepted"}, {Verdict::refused, "refused"}}};
 }
 
-/// The answer of a run to a request: a line of steering.csv.
+/// Holds the answer of a run to a request: a line of steering.csv.
 struct Answer {
   Verdict verdict = Verdict::accepted;
-  std::string
-      detail;  ///< of an accepted request the number that it replaces, if any; of a refused one the reason
+  std::string detail;  ///< accepted: the former value, if the request replaces one; refused: the reason
 };
 
-/// Takes requests from the folder control/ of a run: files *.toml with one request each, in the order of their
-/// names, one at every border between steps. Each is answered by a line of steering.csv; one that is wrong is
-/// answered there and nothing else happens. Of the first rank.
+/// Reads requests from the folder control/ of a run: files *.toml with one request each, in the order of their names,
+/// one after every step. Each request is answered by a line of steering.csv; invalid requests have no other effect.
+/// Used on the first rank only.
 class DirectoryControl : public RunControl {
  public:
-  /// Makes the folder. @param interval  of wall time between two looks into it
+  /// Creates the folder.
+  /// @param interval  wall time between two readings of the folder
   explicit DirectoryControl(const io::RunDirectory& directory,
                             std::chrono::duration<double> interval = std::chrono::seconds(1));
 
   void ask(const Moment& moment, Requests& requests) override;
-  /// Refuses the requests that came too late.
+  /// Refuses the requests that arrived too late.
   void end(const Moment& moment) override;
 
-  /// The head of the table of answers, steering.csv.
+  /// Defines the header of the table of answers, steering.csv.
   static constexpr const char* header = "time [s],step,file,request,value,answer,detail";
 
  private:
   void look();
-  /// Removes a file of the folder, answers it, and returns what is to be done.
-  /// @param too_late  why nothing is followed any more; empty: what the run can follow is followed
+  /// Removes a file from the folder, answers its request, and returns the action.
+  /// @param too_late  reason for refusing all requests; empty: admissible requests are accepted
   Request take(const std::filesystem::path& file, const Moment& moment, const std::string& too_late = "");
   void write(const Moment& moment, const std::string& file, const RequestWords& words,
              const Answer& answer) const;
@@ -60,9 +60,9 @@ class DirectoryControl : public RunControl {
 };
 
 /// Puts a request into the folder control/ of a run and waits for its answer.
-/// @param patience  s to wait; a run answers at the end of the step under way
-/// @returns the answer; nothing if none came in that time
-/// @throws InputError if the request is wrong, or the run does not go on or ends before it has followed it
+/// @param patience  s to wait; a run answers at the end of the current step
+/// @returns the answer; nothing if none arrived in that time
+/// @throws InputError if the request is invalid, or the run is not active or ends before it has executed the request
 std::optional<Answer> steer(const std::filesystem::path& run, const std::string& word,
                             const std::string& value, std::chrono::duration<double> patience = {});
 

@@ -16,21 +16,23 @@
 namespace whipple::run {
 namespace {
 
-/// Ratio of the initially allowed step to the mean step, growing ones apart: 0.58 to 1.22 in the cases of the
-/// repository, more where elements are crushed.
+/// Bounds the ratio of the initially allowed step to the mean step, without the initial growth: 0.58 to 1.22 in the
+/// cases of the repository, more where elements are crushed.
 constexpr double fewest_steps = 0.55, most_steps = 1.3;
-/// Contact, melting and failure make a step more expensive than initially, free flight makes it cheaper.
+/// Bounds the change of cost: contact, melting and failure make a step more expensive than initially, free flight makes
+/// it cheaper.
 constexpr double cheapest = 0.5, dearest = 2.0;
 constexpr double usual_steps = 0.85;
 constexpr double beside_steps = 2.0;  // s, at most: reading, tables, writing in small runs
 
-/// Blocks are activated as a whole, and one layer of them ahead of motion.
+/// Sets by how many layers of blocks activation precedes motion: whole blocks, and one further layer.
 constexpr int layers_of_blocks = 2;
 
-// At least so many steps and so long, as the quickest step of a shared machine shows only among many; at most so long.
+// Minimum number of steps and minimum time, because only many steps include an undisturbed one on a shared machine;
+// maximum time.
 constexpr int calibration_steps = 5;
 constexpr double least_calibration = 0.25, calibration_time = 1.0;  // s
-constexpr std::size_t samples = 20000;  // of this rank, for the fraction that moves
+constexpr std::size_t samples = 20000;                              // of this rank, for the active fraction
 
 struct Box {
   Vector3 lower = Vector3::Constant(1e300), upper = Vector3::Constant(-1e300);
@@ -40,7 +42,7 @@ struct Box {
     upper = upper.cwiseMax(x);
   }
   [[nodiscard]] bool empty() const { return !(lower.x() <= upper.x()); }
-  /// Along each axis, 0 where they overlap; m.
+  /// Computes the gap along each axis, 0 where the boxes overlap; m.
   [[nodiscard]] Vector3 gap_to(const Box& b) const {
     return (b.lower - upper).cwiseMax(lower - b.upper).cwiseMax(Vector3::Zero());
   }
@@ -95,17 +97,18 @@ double moving_share(const solver::Simulation& s) {
   return sums[1] > 0.0 ? sums[0] / sums[1] : 1.0;
 }
 
-/// Counts the steps to a time when the first is `first_step` of the allowed one and each grows by `maximum_growth`.
+/// Counts the steps up to a time if the first step is `first_step` times the allowed one and each grows by
+/// `maximum_growth`.
 double growing_steps(const cases::TimeControl& control, double time, double allowed) {
   const double first = control.first_step * allowed, growth = control.maximum_growth;
   if (!(first < allowed)) return time / allowed;
   if (!(growth > 1.0)) return time / first;
-  const double grown = (allowed - first) / (growth - 1.0);  // time of those that are smaller than allowed
+  const double grown = (allowed - first) / (growth - 1.0);  // duration of the smaller steps
   if (time < grown) return std::log1p(time * (growth - 1.0) / first) / std::log(growth);
   return std::log(allowed / first) / std::log(growth) + (time - grown) / allowed;
 }
 
-/// Counts them when steps end at the times of snapshots, too.
+/// Counts the steps if steps also end at the times of snapshots.
 double steps_between_snapshots(double steps, double snapshots) {
   return snapshots * std::ceil(steps / snapshots);
 }
@@ -140,7 +143,7 @@ Forecast forecast(solver::Simulation& s) {
   const double end = control.end, allowed = s.accurate_time_step();
   const double least = growing_steps(control, end, allowed / fewest_steps);
   double most = growing_steps(control, end, allowed / most_steps);
-  // Steps begin small again when bodies touch: at most as often as there are further bodies.
+  // The step size restarts at a small value when bodies come into contact: at most once per further body.
   most += static_cast<double>(s.bodies().size() - 1) * (most - end / allowed * most_steps);
   const double every = s.setup().output.snapshot_every;
   const double snapshots = every > 0.0 ? std::ceil(end / every * (1.0 - 1e-9)) : 1.0;
@@ -161,7 +164,7 @@ Forecast forecast(solver::Simulation& s) {
     const auto begin = Clock::now();
     s.advance(end);
     const double taken = std::chrono::duration<double>(Clock::now() - begin).count();
-    quickest = std::min(quickest, taken / carriers());  // what others do on the machine only adds
+    quickest = std::min(quickest, taken / carriers());  // other processes can only add to the time
     spent = parallel::maximum(s.communicator(), spent + taken);
   }
   if (!std::isfinite(quickest)) quickest = 0.0;

@@ -25,7 +25,7 @@ void for_each_part(const solver::Simulation& simulation, const solver::SelectEle
   for (const solver::Carrier* carrier : simulation.carriers()) carrier->for_each_part(select, visit);
 }
 
-/// Defines a quantity of the state at a gauge, and whether volume or mass weights it in a mean over particles.
+/// Defines a quantity of the state at a gauge, and whether its mean over particles is weighted with volume or mass.
 struct Quantity {
   const char* name;
   const char* unit;
@@ -86,7 +86,7 @@ double spline(double x) {
 
 std::string checkpoint_name(const cases::Gauge& gauge) { return "gauge_particle." + gauge.name; }
 
-/// Finds the particle nearest to each moving gauge; of several, the one of the least number. Collective.
+/// Finds the particle nearest to each moving gauge; of several, the one with the lowest number. Collective.
 std::vector<std::uint64_t> nearest(const std::vector<cases::Gauge>& gauges,
                                    const solver::Simulation& simulation) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -150,7 +150,7 @@ std::vector<io::HistoryValue> GaugeRecorder::row(const solver::Simulation& simul
       fixed.push_back(g);
     }
   }
-  std::unordered_set<std::uint64_t> elements;  // that hold the parts of moving gauges
+  std::unordered_set<std::uint64_t> elements;  // those with the parts of moving gauges
   for (const auto& [part, g] : gauge_of) elements.insert(part / 8);
   const auto seen = [&](std::uint64_t element, const Vector3& centre, double reach) {
     return elements.contains(element) || std::ranges::any_of(fixed, [&](std::size_t g) {
@@ -187,7 +187,7 @@ std::vector<io::HistoryValue> GaugeRecorder::row(const solver::Simulation& simul
     for (std::size_t q = 0; q < quantities.size(); ++q) {
       const double weight = quantities[q].by_volume ? s.volume : s.mass;
       row.push_back({fmt::format("{}.{}", gauges_[g].name, quantities[q].name), quantities[q].unit,
-                     s.value[q] / weight});  // 0/0: no material
+                     s.value[q] / weight});  // 0/0 without material
     }
   }
   return row;

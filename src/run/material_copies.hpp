@@ -8,8 +8,8 @@
 
 namespace whipple::run {
 
-/// Returns the material file of every body as it lies in the run directory, "materials/copper.toml": a restart
-/// does not depend on files elsewhere.
+/// Returns the path of the material file of every body in the run directory, "materials/copper.toml". With these copies
+/// a restart does not depend on files elsewhere.
 std::vector<std::string> material_copies(const cases::Case& setup);
 
 }  // namespace whipple::run

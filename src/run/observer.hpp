@@ -16,7 +16,7 @@ namespace whipple::run {
 class RunObserver;
 using Observers = std::vector<std::unique_ptr<RunObserver>>;
 
-/// A run as its observers see it between two steps; the same on all ranks but for the clock.
+/// Describes a run between two steps, for its observers; identical on all ranks except for the clock.
 struct Moment {
   const solver::Simulation& simulation;
   const Schedule& schedule;
@@ -27,44 +27,45 @@ struct Moment {
 
   [[nodiscard]] double time() const { return simulation.state().time; }
   [[nodiscard]] std::int64_t step() const { return simulation.state().step; }
-  /// Returns whether the run has come to its end.
+  /// Returns whether the run has reached its end time.
   [[nodiscard]] bool is_last() const { return time() >= schedule.end; }
-  /// Returns whether steps have been made that are a multiple of `every`.
+  /// Returns whether the number of steps is a multiple of `every`.
   [[nodiscard]] bool is_due(double every) const { return step() % static_cast<std::int64_t>(every) == 0; }
-  /// Returns whether something is asked that the schedule or the outputs follow.
+  /// Returns whether a request has this action.
   [[nodiscard]] bool asks_for(Act act) const { return requests.steering.act == act; }
 };
 
-/// How a run ended.
+/// Describes how a run ended.
 struct Outcome {
   enum class Kind : std::uint8_t {
     done,
-    stopped,          ///< before its time, by a signal or the limit of wall time
+    stopped,          ///< before the end time, by a signal or the limit of wall time
     left_range,       ///< of the physics
     out_of_resources  ///< disk or memory
   };
   Kind kind = Kind::done;
   int exit_code = 0;
-  std::string message;  ///< empty if it is done; observers may add what the user is to be told
+  std::string message;  ///< empty if the run is complete; observers may add messages for the user
 };
 
-/// Sees a run and writes something of it. Observers are called in the order of their list, on all ranks, and
-/// may communicate. A run calls `begin` or `resume` once, then `after_step`, then `end`.
+/// Observes a run and writes outputs. Observers are called in the order of their list, on all ranks, and may
+/// communicate. A run calls `begin` or `resume` once, then `after_step`, then `end`.
 class RunObserver {
  public:
   virtual ~RunObserver() = default;
 
-  /// Begins with a new run, at its first state.
+  /// Starts observing a new run in its initial state.
   virtual void begin(const Moment&) {}
-  /// Goes on with a run from a checkpoint. @throws InputError if it does not hold what is needed
+  /// Continues a run from a checkpoint.
+  /// @throws InputError if required data are missing in the checkpoint
   virtual void resume(const Moment&, const io::CheckpointValues&) {}
-  /// Follows a step. While a run is paused it is called again and again at the same step.
+  /// Processes the state after a step. While a run is paused it is called repeatedly at the same step.
   virtual void after_step(const Moment&) {}
-  /// Returns the next time (s) at which a step is to end, after that of now; infinite: any. The same on all ranks.
+  /// Returns the next time (s) after the current one at which a step must end; infinite: any. Identical on all ranks.
   [[nodiscard]] virtual double next_time() const { return std::numeric_limits<double>::infinity(); }
-  /// Adds to a checkpoint what `resume` needs, and makes sure that what this counts is on disk.
+  /// Adds the data that `resume` needs to a checkpoint, and ensures that all output that they count is on disk.
   virtual void remember(io::CheckpointValues&) {}
-  /// Ends with the run. Of runs out of resources ranks must not communicate here.
+  /// Finishes at the end of the run. After out_of_resources, ranks must not communicate here.
   virtual void end(const Moment&, Outcome&) {}
 };
 

@@ -18,7 +18,7 @@
 namespace whipple::run {
 namespace {
 
-/// Counts the ranks that share the processors of this one. Collective.
+/// Counts the ranks that share the processors of this rank. Collective.
 int ranks_beside(MPI_Comm communicator) {
   const std::size_t own = std::hash<std::string>{}(processor_set());
   const std::vector<std::vector<std::size_t>> mine(static_cast<std::size_t>(parallel::size(communicator)),
@@ -31,7 +31,7 @@ int ranks_beside(MPI_Comm communicator) {
 
 void set_threads(int threads, MPI_Comm communicator) {
   const int share = std::max(1, usable_processors() / ranks_beside(communicator));
-  if (threads <= 0) {  // the first rank asks, and warns, for all
+  if (threads <= 0) {  // the first rank reads the environment, and warns, for all
     threads = static_cast<int>(
         parallel::maximum(communicator, parallel::rank(communicator) == 0 ? threads_of_environment() : 0));
   }

@@ -6,12 +6,12 @@
 
 namespace whipple::run {
 
-/// Sets the number of threads of this rank: as asked, else from the environment, else its part of the processors
-/// that ranks share. Collective.
+/// Sets the number of threads of this rank: the given number, otherwise that of the environment, otherwise an equal
+/// part of the processors that ranks share. Collective.
 void set_threads(int threads, MPI_Comm communicator);
 
 /// Checks before any work that memory suffices: running out of it would kill the job. Collective.
-/// @throws InputError if the case takes more memory than the machines of all ranks have
+/// @throws InputError if the case needs more memory than the machines of all ranks have
 void require_memory(const cases::Case& setup, MPI_Comm communicator);
 
 }  // namespace whipple::run

@@ -56,7 +56,7 @@ ReplayControl::ReplayControl(const std::filesystem::path& table) {
 void ReplayControl::ask(const Moment& moment, Requests& requests) {
   if (requests.steering.act != Act::none) return;
   if (rows_.empty()) {
-    if (moment.paused) requests.steering = {Act::resume};  // the run ended in its pause
+    if (moment.paused) requests.steering = {Act::resume};  // the run ended while paused
     return;
   }
   if (moment.step() < rows_.front().first) return;

@@ -10,12 +10,14 @@
 
 namespace whipple::run {
 
-/// Repeats what a run was asked for: the accepted requests of its steering.csv, each after the step after which it was
-/// followed. The same case on the same ranks and threads then gives the same bits. Of the first rank.
+/// Repeats the requests to an earlier run: the accepted requests of its steering.csv, each after the step after which
+/// it was executed. The same case on the same ranks and threads then gives bitwise identical results. Used on the first
+/// rank only.
 class ReplayControl : public RunControl {
  public:
+  /// Reads the table.
   /// @throws InputError naming file and line if the table is damaged, or if its steps decrease: the run was continued
-  /// from a checkpoint earlier than a request, and what it did then cannot be told from the table
+  /// from a checkpoint earlier than a request, and the table does not define the effective sequence
   explicit ReplayControl(const std::filesystem::path& table);
 
   void ask(const Moment& moment, Requests& requests) override;

@@ -42,7 +42,7 @@ const ParameterInfo* find(const std::vector<Parameter<Owner>>& parameters, std::
   return found == parameters.end() ? nullptr : &found->info;
 }
 
-/// Unit and range of a key of the case.
+/// Returns unit and range of a key of the case.
 ParameterInfo parameter_of(std::string_view key) {
   const std::string_view name = key.substr(key.find('.') + 1);
   const auto time = cases::TimeControl::parameters();

@@ -27,11 +27,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Tables whose keys determine the particles and elements.
+/// Lists the tables whose keys determine the particles and elements.
 constexpr std::array<std::string_view, 4> fixed_tables = {"domain", "body", "gauge", "tracers"};
 
-/// Computes digests of the material and mesh files of every body: the material files of a run are copies, which hold what
-/// they take of a base.
+/// Computes digests of the material and mesh files of every body. The material files of a run are copies that include
+/// the values from their base files.
 std::map<std::string, std::string> digests(const cases::Case& setup) {
   std::map<std::string, std::string> found;
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
@@ -50,7 +50,8 @@ std::string text_of(const cases::Case& setup) {
   return cases::to_toml(setup, std::vector<std::string>(setup.bodies.size()));
 }
 
-/// Maps "table.key" to the value for every line of `cases::to_toml`, without comments; tables of lists are numbered.
+/// Maps "table.key" to the value for every line of `cases::to_toml`, without comments; entries of lists of tables are
+/// numbered.
 std::map<std::string, std::string> keys_of(std::string_view toml) {
   std::map<std::string, std::string> keys;
   std::map<std::string, int> entries;
@@ -76,13 +77,13 @@ std::map<std::string, std::string> keys_of(std::string_view toml) {
   return keys;
 }
 
-// ---- admissible numbers
+// ---- admissible values
 
 struct Admissible {
   std::string_view field;
   Range range;
 };
-constexpr double most = 1.0 + 1e-9;  // of fractions, with their round-off
+constexpr double most = 1.0 + 1e-9;  // of fractions, including round-off
 const std::array admissible = {
     Admissible{"mass", {.lower = 0.0, .lower_open = true}},
     Admissible{"volume", {.lower = 0.0, .lower_open = true}},
@@ -106,7 +107,7 @@ const std::array admissible = {
     Admissible{"touched", {.lower = 0.0, .upper = 4294967295.0}},  // halves of words
 };
 
-/// Returns the admissible range of a field: any finite number unless the table says otherwise.
+/// Returns the admissible range of a field: any finite number unless the table restricts it.
 Range range_of(std::string_view name) {
   const auto found = std::ranges::find(admissible, name, &Admissible::field);
   return found == admissible.end() ? Range{} : found->range;
@@ -128,7 +129,8 @@ class Checker {
     }
   }
 
-  /// Checks every field of a set of points. @param indices  ranges of the fields that are indices
+  /// Checks every field of a set of points.
+  /// @param indices  ranges of the fields that are indices
   template <class Points>
   void require_points(const std::string& group, const Points& points,
                       const std::map<std::string, Range>& indices = {}) const {
@@ -141,7 +143,7 @@ class Checker {
       const std::string name = group + "/" + field.name;
       if constexpr (std::is_arithmetic_v<Value>) {
         require(name, values, range);
-      } else {  // vectors and tensors are nothing but their numbers
+      } else {  // vectors and tensors consist of plain numbers
         using Number = std::conditional_t<std::is_same_v<Value, fem::Corners> ||
                                               std::is_same_v<Value, std::array<std::uint32_t, 2>>,
                                           std::uint32_t, double>;
@@ -161,7 +163,7 @@ class Checker {
   std::string file_;
 };
 
-/// Returns the range of the indices of `count` things.
+/// Returns the range of indices below `count`.
 Range below(double count) { return {.lower = 0.0, .upper = count, .upper_open = true}; }
 
 }  // namespace

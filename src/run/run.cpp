@@ -42,8 +42,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Names a run by the folder of its case, or by the file if that is not called case.toml. Indices of snapshots hold the
-/// name: they are UTF-8.
+/// Names a run after the folder of its case, or after the file if that is not called case.toml. Names are UTF-8 because
+/// indices of snapshots contain them.
 std::string run_name(const fs::path& case_file) {
   const std::string stem = utf8(case_file.stem().string(), "_");
   if (stem != "case") return stem;
@@ -89,7 +89,7 @@ fs::path output_directory(const RunOptions& options, const fs::path& case_file) 
   return options.output_directory.empty() ? fs::path("run") / run_name(case_file) : options.output_directory;
 }
 
-/// Lists the observers of a run, in the order in which they follow a step.
+/// Lists the observers of a run, in the order in which they are called after a step.
 Observers observers_of(solver::Simulation& simulation, const io::RunDirectory& directory,
                        const RunOptions& options, const io::Ranks& ranks) {
   const cases::Case& setup = simulation.setup();
@@ -108,8 +108,9 @@ Observers observers_of(solver::Simulation& simulation, const io::RunDirectory& d
   return all;
 }
 
-/// Makes the steps while signals and files of the run directory steer them. @returns the exit code
-/// @param replay  the requests that are repeated; null: those in the run directory are followed
+/// Runs the steps under the control of signals and of files in the run directory.
+/// @param replay  requests to repeat; null: those in the run directory are executed
+/// @returns the exit code
 int run_with_controls(Runner& runner, const io::RunDirectory& directory, const io::Ranks& ranks,
                       ReplayControl* replay = nullptr) {
   SignalControl signals(ranks.is_parallel());
@@ -125,7 +126,7 @@ int run_with_controls(Runner& runner, const io::RunDirectory& directory, const i
 int begin(const RunOptions& options, MPI_Comm communicator) {
   const io::Ranks ranks(communicator);
   std::optional<ReplayControl> replay;
-  if (!options.replay.empty()) replay.emplace(options.replay);  // on every rank, which all see what is wrong
+  if (!options.replay.empty()) replay.emplace(options.replay);  // on every rank: all raise its errors
   cases::Case setup = cases::read_case(options.case_file, options.overrides);
   require_memory(setup, communicator);
   cases::tabulate_materials(setup, ranks);
@@ -143,7 +144,7 @@ int begin(const RunOptions& options, MPI_Comm communicator) {
 /// Continues a run from its latest checkpoint. @returns the exit code
 int go_on(const RunOptions& options, MPI_Comm communicator) {
   const io::Ranks ranks(communicator);
-  std::shared_ptr<const FileLock> lock;  // before anything is read that another run may write
+  std::shared_ptr<const FileLock> lock;  // before reading anything that another run may write
   ranks.on_root([&] { lock = io::lock_run(options.output_directory); });
   cases::Case setup = cases::read_case(options.output_directory / "run.toml", options.overrides);
   cases::tabulate_materials(setup, ranks);
@@ -154,7 +155,7 @@ int go_on(const RunOptions& options, MPI_Comm communicator) {
   if (ranks.is_root()) log::set_file(directory.log_file());
   ranks.on_root([&] { directory.remove_partial_files(); });
   solver::Simulation simulation = resume(setup, checkpoint, communicator);
-  if (!options.overrides.empty()) {  // the next restart goes on with them
+  if (!options.overrides.empty()) {  // for the next restart
     ranks.on_root([&] {
       directory.write_input(cases::to_toml(setup, material_copies(setup)) +
                             provenance(setup, options.program, ranks.count()));

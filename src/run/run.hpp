@@ -12,31 +12,32 @@
 
 namespace whipple::run {
 
-/// Holds what the user asks of a run besides the case.
+/// Holds the options of the user for a run, in addition to the case.
 struct RunOptions {
   std::filesystem::path case_file;         ///< empty on restart: run.toml of the directory
-  std::filesystem::path output_directory;  ///< empty: the name of the case's folder, or of its file, in ./run
+  std::filesystem::path output_directory;  ///< empty: ./run/ with the name of the folder or file of the case
   bool restart = false;                    ///< continue from the latest checkpoint in output_directory
   bool force = false;                      ///< remove the outputs of an earlier run in output_directory; on
                                            ///< restart: continue although rows of its tables are missing
-  int threads = 0;                         ///< of each rank; 0: its part of the cores
-  double wall_time = 0.0;                  ///< s, then a checkpoint is written and the run ends; 0: no limit
-  std::filesystem::path replay = {};       ///< steering.csv whose requests are repeated; empty: none
+  int threads = 0;                         ///< of each rank; 0: an equal part of the cores
+  double wall_time = 0.0;                  ///< s, after which the run ends with a checkpoint; 0: no limit
+  std::filesystem::path replay = {};       ///< steering.csv with the requests to repeat; empty: none
   std::string program = "whipple";         ///< name and version, for provenance
   std::vector<std::pair<std::string, std::string>> overrides;  ///< --set
 };
 
-/// Runs a case from its file to its last snapshot on the ranks of a communicator; docs/manual/output.md lists the files
-/// that it writes. Collective.
-/// Signals (`SignalControl`) and files in the run directory (`DirectoryControl`), or the requests to an earlier run
-/// (`ReplayControl`), steer it.
+/// Runs a case from its file to its last snapshot on the ranks of a communicator; docs/manual/output.md lists the
+/// output files. Collective.
+/// The run is controlled by signals (`SignalControl`) and by files in the run directory (`DirectoryControl`) or the
+/// requests to an earlier run (`ReplayControl`).
 /// @returns 0; 128 + number of the signal that ended the run; 124 at the limit of wall time
-/// @throws InputError before any work and before anything is written if the input is wrong;
-///         StateError if the physics leaves its range: the state is saved in the folder failed/ of the run
+/// @throws InputError before any work and before anything is written if the input is invalid; StateError if the physics
+/// leaves its range: the state is saved in the folder failed/ of the run
 int run_case(const RunOptions& options, MPI_Comm communicator);
 
-/// Describes what a case would run, for `whipple check`: bodies, particles, memory, and steps and wall time from a
-/// few measured steps. Collective. @throws InputError if the case is wrong
+/// Describes the run of a case for `whipple check`, without making it: bodies, particles, memory, and steps and wall
+/// time from a few measured steps. Collective.
+/// @throws InputError if the case is invalid
 std::string check_case(const RunOptions& options, MPI_Comm communicator);
 
 }  // namespace whipple::run

@@ -19,18 +19,18 @@
 namespace whipple::run {
 namespace {
 
-constexpr int out_of_time_code = 124;  // that of timeout(1)
+constexpr int out_of_time_code = 124;  // as in timeout(1)
 constexpr std::chrono::milliseconds look_of_pause{50};
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-/// Joins the requests of all ranks, as signals may reach them in different steps and clocks differ.
+/// Combines the requests of all ranks, because signals may reach them in different steps and clocks differ.
 Requests agree(MPI_Comm communicator, const Requests& own) {
   std::array<double, 5> numbers = {static_cast<double>(own.signal), own.out_of_time ? 1.0 : 0.0,
                                    own.checkpoint ? 1.0 : 0.0, static_cast<double>(own.steering.act),
-                                   own.steering.value};  // at least 0, as of ranks that ask for nothing
+                                   own.steering.value};  // at least 0, the value of ranks without requests
   parallel::maximum(communicator, numbers);
   return {.signal = static_cast<int>(numbers[0]),
           .out_of_time = numbers[1] > 0.0,
@@ -65,7 +65,7 @@ int Runner::run(std::span<RunControl* const> controls) {
     return result.exit_code;
   } catch (const StateError& error) {
     throw StateError(failed({Outcome::Kind::left_range, static_cast<int>(ExitCode::state), error.what()}));
-  } catch (const InputError& error) {  // the input was read: a file that cannot be written
+  } catch (const InputError& error) {  // the input was read: this is an output file that cannot be written
     throw out_of_resources(error.what());
   } catch (const ResourceError& error) {
     throw out_of_resources(error.what());
@@ -115,7 +115,7 @@ Requests Runner::asked() {
 void Runner::follow(const Request& request) {
   if (request.act == Act::none) return;
   if (request.act == Act::pause || request.act == Act::resume) paused_ = request.act == Act::pause;
-  // Steps end at snapshots: an interval far below a step would cut every step, and fill the disk.
+  // Steps end at snapshots: an interval much smaller than a step would shorten every step and fill the disk.
   constexpr double least_part_of_step = 1e-3;
   if (const double least = least_part_of_step * simulation_.state().unclipped_step;
       request.act == Act::snapshot_every && request.value > 0.0 && request.value < least) {
@@ -132,11 +132,11 @@ Moment Runner::now() const {
   return {simulation_, schedule_, requests_, observers_, seconds_since(begin_), paused_};
 }
 
-/// Returns the time (s) that the step under way must not pass.
+/// Returns the time (s) at which the current step must end at the latest.
 double Runner::next_stop() const {
   double stop = schedule_.end;
   for (const auto& observer : observers_) stop = std::min(stop, observer->next_time());
-  // A multiple of an interval may be the end but for round-off: no step for what lies between them.
+  // A multiple of an interval may equal the end except for round-off: no step is made for the difference.
   constexpr double round_off = 1e-9;
   return stop < (1.0 - round_off) * schedule_.end ? stop : schedule_.end;
 }
@@ -154,7 +154,8 @@ Outcome Runner::outcome() const {
   return {Outcome::Kind::stopped, 128 + SIGTERM, "stopped on request"};
 }
 
-/// Tells the observers of a failure. @returns what the user is told
+/// Notifies the observers of a failure.
+/// @returns the message for the user
 std::string Runner::failed(Outcome outcome) {
   for (RunControl* control : controls_) control->writing_begins();
   if (outcome.kind == Outcome::Kind::out_of_resources) {
@@ -163,7 +164,7 @@ std::string Runner::failed(Outcome outcome) {
   for (const auto& observer : observers_) {
     try {
       observer->end(now(), outcome);
-    } catch (const std::exception& fault) {  // must not hide the reason of the end
+    } catch (const std::exception& fault) {  // must not hide the original error
       outcome.message += fmt::format("\n  {}", fault.what());
     }
   }

@@ -10,22 +10,22 @@
 
 namespace whipple::run {
 
-/// The loop of a run: steps, requests between them, observers after them. All calls are collective.
+/// Implements the loop of a run: steps, requests between them, observers after them. All calls are collective.
 class Runner {
  public:
   /// @param simulation  must outlive this object
   /// @param wall_time   s, after which the run stops; 0: no limit
   Runner(solver::Simulation& simulation, Observers observers, double wall_time = 0.0);
 
-  /// Calls the observers at the first state.
+  /// Calls the observers in the initial state.
   void begin();
-  /// Calls the observers at the state of a checkpoint.
+  /// Calls the observers in the state of a checkpoint.
   void resume(const io::CheckpointValues& values);
 
-  /// Steps to the end of the schedule, or until a control asks for the end.
+  /// Advances to the end of the schedule, or until a control requests the end.
   /// @returns 0; 128 + number of the signal that stopped the run; 124 at the limit of wall time
   /// @throws StateError    if the physics left its range
-  /// @throws ResourceError if disk or memory do not suffice
+  /// @throws ResourceError if disk or memory is insufficient
   int run(std::span<RunControl* const> controls);
 
  private:
@@ -40,7 +40,8 @@ class Runner {
   [[nodiscard]] bool has_ended() const;
   [[nodiscard]] Outcome outcome() const;
   [[nodiscard]] std::string failed(Outcome outcome);
-  /// Tells the observers that the run cannot go on. @returns what is to be thrown
+  /// Notifies the observers that the run cannot continue.
+  /// @returns the exception to throw
   [[nodiscard]] ResourceError out_of_resources(const std::string& reason);
 
   solver::Simulation& simulation_;

@@ -10,17 +10,17 @@
 namespace whipple::run {
 namespace {
 
-// A handler may only touch such variables.
+// A signal handler may only access variables of this type.
 volatile std::sig_atomic_t end_signal = 0;
 volatile std::sig_atomic_t checkpoint_signal = 0;
-volatile std::sig_atomic_t limited = 0;  // whether the time from a signal to the end is
-volatile std::sig_atomic_t writing = 0;  // files, not in a step
+volatile std::sig_atomic_t limited = 0;  // whether the time from a signal to the end is limited
+volatile std::sig_atomic_t writing = 0;  // files are being written; 0: a step is being computed
 
 using Handler = void (*)(int);
 constexpr std::array caught = {SIGINT, SIGTERM, SIGUSR1, SIGUSR2, SIGALRM};
 std::array<Handler, caught.size()> former{};
 
-/// Starts the clock of what is under way, once there is a signal.
+/// Starts the time limit of the current operation after a signal.
 void limit_time() {
   if (limited == 0 || end_signal == 0) return;
   ::alarm(writing != 0 ? SignalControl::patience_of_writing : SignalControl::patience);
@@ -44,7 +44,7 @@ extern "C" void on_signal(int number) {
   }
   const bool is_first = end_signal == 0;
   end_signal = number == SIGUSR2 ? SIGTERM : number;
-  if (is_first) limit_time();  // the clock of the first one goes on
+  if (is_first) limit_time();  // the clock of the first signal continues
 }
 
 }  // namespace

@@ -79,12 +79,12 @@ std::vector<std::filesystem::path> find_runs(const std::filesystem::path& folder
   namespace fs = std::filesystem;
   require_folder(folder);
   const auto is_run = [](const fs::path& path) {
-    std::error_code hidden;  // what cannot be looked into is passed
+    std::error_code hidden;  // unreadable folders are skipped
     return fs::exists(path / "status.json", hidden);
   };
   if (is_run(folder)) return {folder};
   std::vector<fs::path> runs;
-  std::error_code changed;  // a folder that is removed meanwhile
+  std::error_code changed;  // a folder may be removed during the search
   constexpr auto passing = fs::directory_options::skip_permission_denied;
   for (fs::recursive_directory_iterator entry(folder, passing, changed), last; entry != last;
        entry.increment(changed)) {

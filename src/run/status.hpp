@@ -13,7 +13,7 @@
 
 namespace whipple::run {
 
-/// State of a run; a run is lost if its file says that it goes on, but no process holds it.
+/// Describes the state of a run; a run is lost if it is active according to its file, but no process holds it.
 enum class Activity : std::uint8_t { running, paused, done, stopped, failed, lost };
 constexpr std::array<Word<Activity>, 6> words(Activity) {
   return {{{Activity::running, "running"},
@@ -23,35 +23,37 @@ constexpr std::array<Word<Activity>, 6> words(Activity) {
            {Activity::failed, "failed"},
            {Activity::lost, "lost"}}};
 }
-/// Returns whether a run in this state makes further steps, at once or when it is continued.
+/// Returns whether a run in this state makes further steps, immediately or when it is resumed.
 constexpr bool goes_on(Activity state) { return state == Activity::running || state == Activity::paused; }
 
-/// Holds what status.json of a run directory says (SI; docs/manual/output.md).
+/// Holds the contents of status.json of a run directory (SI; docs/manual/output.md).
 struct RunStatus {
   Activity state = Activity::running;
   double time = 0.0;  ///< s, simulated
   std::int64_t step = 0;
   double time_step = 0.0;           ///< s, simulated
   double end = 0.0;                 ///< s, simulated
-  double wall_time = 0.0;           ///< s, since this process began to make steps
+  double wall_time = 0.0;           ///< s, since this process started stepping
   std::optional<double> time_left;  ///< s of wall time; none: not known yet
   std::string revision;             ///< of the program
-  std::string message;              ///< the last one to the user
-  std::string written;              ///< date and time of the machine
+  std::string message;              ///< the last message to the user
+  std::string written;              ///< local date and time
 };
 
-/// Replaces the file as a whole. @throws InputError if it cannot be written
+/// Replaces the whole file.
+/// @throws InputError if it cannot be written
 void write_status(const std::filesystem::path& file, const RunStatus& status);
 
-/// Reads the file of a run directory. A run that says it goes on, but is held by no process, is lost.
+/// Reads the file of a run directory. A run that is active according to its file, but held by no process, is lost.
 /// @throws InputError if there is no such file or it is damaged
 RunStatus read_status(const std::filesystem::path& run);
 
-/// Returns a status as programs get it, from `whipple status --json` and from the monitor: what is not finite is null.
+/// Returns a status for other programs, as in `whipple status --json` and the monitor: non-finite values are null.
 nlohmann::json status_json(const RunStatus& status);
 
-/// Returns the folder itself, if it is a run directory, or those in it at any depth, by name. Run directories are not
-/// searched, links not followed. @throws InputError if there is no such folder
+/// Returns the folder if it is a run directory, otherwise the run directories in it at any depth, sorted by name. Run
+/// directories are not searched, links are not followed.
+/// @throws InputError if there is no such folder
 std::vector<std::filesystem::path> find_runs(const std::filesystem::path& folder);
 
 }  // namespace whipple::run

@@ -24,14 +24,14 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the planes of a cloud are little endian");
 
-/// The range of a field is divided into equal steps; the greatest number stands for what is no finite number.
+/// Marks non-finite values: the largest number. The others divide the range of a field into equal steps.
 template <class Number>
 constexpr Number missing = std::numeric_limits<Number>::max();
 constexpr std::uint16_t position_steps = 65535;
 
 struct FieldOfCloud {
   std::string name, unit, meaning;
-  bool codes = false;  ///< numbers that stand for words, kept as they are
+  bool codes = false;  ///< integer codes, stored unchanged
   std::function<double(std::size_t)> value;
 };
 
@@ -96,7 +96,7 @@ std::vector<FieldOfCloud> chosen_fields(const analysis::Snapshot& snapshot,
 std::vector<std::size_t> kept_particles(const analysis::Snapshot& snapshot, std::uint64_t one_of) {
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < snapshot.size(); ++i) {
-    // Neighbours in a lattice have consecutive numbers, and every k-th of them would show as stripes.
+    // Neighbours in a lattice have consecutive numbers: selecting every k-th one would be visible as stripes.
     if (scattered(snapshot.id[i]) % one_of == 0) kept.push_back(i);
   }
   if (kept.empty()) kept.push_back(0);
@@ -109,12 +109,12 @@ void append_number(std::string& bytes, Number number) {
   bytes.append(raw.data(), raw.size());
 }
 
-/// The header and the planes as they come into being.
+/// Holds the header and the planes written so far.
 struct CloudFile {
   nlohmann::ordered_json header;
   std::string planes;
 
-  /// Every plane begins at a multiple of four bytes, so that arrays of a browser can lie on it.
+  /// Pads the planes to a multiple of four bytes, as typed arrays of a browser require.
   void end_plane() { planes.append((4 - planes.size() % 4) % 4, '\0'); }
 };
 
@@ -183,7 +183,7 @@ void append_reals(const FieldOfCloud& field, const std::vector<std::size_t>& kep
                                    {"hi", highest}});
 }
 
-/// Appends the increments of the numbers, which are ascending: zeros and ones that vanish in compression.
+/// Appends the increments of the ascending numbers: mostly zeros and ones, which compress to almost nothing.
 void append_ids(const analysis::Snapshot& snapshot, const std::vector<std::size_t>& kept, CloudFile& file) {
   std::uint64_t last = 0;
   for (const std::size_t i : kept) {
@@ -203,8 +203,8 @@ void append_ids(const analysis::Snapshot& snapshot, const std::vector<std::size_
                                    {"increments", true}});
 }
 
-/// Direction in which the fastest body flies against the slowest one at the start; none where all move alike. Of two
-/// that fly against each other equally fast the first counts.
+/// Returns the direction of the initial velocity of the fastest body relative to the slowest one; none if all move
+/// alike. Of two bodies that approach each other at equal speed the first is used.
 std::optional<Vector3> flight_of(const analysis::Run& run) {
   if (run.bodies.empty()) return std::nullopt;
   const auto speed = [](const analysis::BodyInput& body) { return body.velocity.norm(); };

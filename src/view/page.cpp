@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t least_detail = 4096;
 
-/// Indices of the snapshots that a page shows.
+/// Returns the indices of the snapshots that a page shows.
 std::vector<std::size_t> chosen_times(std::size_t available, std::size_t wanted) {
   const std::size_t count = std::min(available, std::max<std::size_t>(wanted, 1));
   std::vector<std::size_t> chosen;
@@ -34,7 +34,7 @@ std::vector<std::size_t> chosen_times(std::size_t available, std::size_t wanted)
   return chosen;
 }
 
-/// The elements that hold the clouds.
+/// Returns the HTML elements that contain the clouds.
 std::string packed_times(const analysis::Run& run, const std::vector<std::size_t>& times,
                          const CloudOptions& options) {
   std::string elements;
@@ -68,14 +68,14 @@ std::string escaped(std::string_view text) {
   return html;
 }
 
-/// Replaces a mark of the template, which it holds once.
+/// Replaces a placeholder of the template, which occurs once.
 void fill(std::string& html, std::string_view mark, std::string_view text) {
   const std::size_t at = html.find(mark);
   if (at == std::string::npos) throw InternalError(fmt::format("page.html has no mark {}", mark));
   html.replace(at, mark.size(), text);
 }
 
-/// The page but for its clouds.
+/// Returns the page without its clouds.
 std::string empty_page(const analysis::Run& run, const fs::path& viewer) {
   std::string html = read_text(viewer / "page.html");
   const std::string script = joined_modules(viewer / "main.js");
@@ -118,7 +118,7 @@ std::string gzipped(std::string_view bytes) {
     throw InternalError("zlib refuses to compress");
   }
   std::string packed(deflateBound(&stream, bytes.size()), '\0');
-  // zlib does not write to its input, but declares it so.
+  // zlib does not write to its input, but its interface is not const.
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));  // NOLINT
   stream.avail_in = static_cast<uInt>(bytes.size());
   stream.next_out = reinterpret_cast<Bytef*>(packed.data());  // NOLINT
@@ -162,7 +162,7 @@ Page make_page(const analysis::Run& run, const PageOptions& options, const fs::p
   Page page;
   page.times = times.size();
   const auto detail = [](double excess) { return static_cast<std::uint64_t>(std::ceil(excess)); };
-  // The last snapshot packs worst: it tells how many particles there may be.
+  // The last snapshot compresses least: its size determines the number of particles.
   const std::string last = packed_times(run, {times.back()}, {options.fields, 1, options.bits});
   page.one_of = std::max<std::uint64_t>(
       1, detail(0.8 * static_cast<double>(last.size() * times.size()) / std::max(room, 1.0)));

@@ -19,7 +19,7 @@ void Checkpoints::after_step(const Moment& moment) {
 }
 
 void Checkpoints::end(const Moment& moment, Outcome& outcome) {
-  if (outcome.kind == Outcome::Kind::left_range) {  // as the failing step left it
+  if (outcome.kind == Outcome::Kind::left_range) {  // the state left by the failing step
     const fs::path folder = directory_.failed_folder();
     try {
       write(moment, folder);

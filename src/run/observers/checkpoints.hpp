@@ -9,8 +9,8 @@
 
 namespace whipple::run {
 
-/// Writes checkpoints: on request, which the clock of the loop makes too, and at the end; and the state that
-/// left the range of the physics into the folder failed/.
+/// Writes checkpoints on request (including those of the loop's clock) and at the end; writes a state outside the range
+/// of the physics to the folder failed/.
 class Checkpoints : public RunObserver {
  public:
   explicit Checkpoints(const io::RunDirectory& directory) : directory_(directory) {}

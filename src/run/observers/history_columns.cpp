@@ -18,7 +18,7 @@ namespace {
 
 using Source = HistorySource;
 
-/// A column of the table; its name is followed by that of the body where it is one of bodies.
+/// Defines a column of the table; the name of the body is appended to the names of body columns.
 struct Column {
   std::string_view name, unit, meaning;
   double (*value)(const Source&);
@@ -159,7 +159,7 @@ constexpr std::string_view limits_are =
     "the end of a run\n"
     "and in its report if there were any:\n";
 
-/// Holds the parts of a run that decide which columns its file has.
+/// Holds the components of a run that determine the columns of its file.
 struct Parts {
   bool elements = false, cold_work = false, explosives = false, retired = false, bars = false;
   std::vector<std::string> bodies;

@@ -14,7 +14,7 @@
 
 namespace whipple::run {
 
-/// Holds what the columns of history.csv are computed from: a simulation, and sums and maxima over all ranks (SI).
+/// Holds the source data of the columns of history.csv: a simulation, and sums and maxima over all ranks (SI).
 struct HistorySource {
   const solver::RunState& state;
   const solver::Ledger& ledger;
@@ -25,11 +25,11 @@ struct HistorySource {
   solver::Figures figures;
   double particles = 0.0, elements = 0.0;
 
-  /// Collective.
+  /// Computes the sums and maxima. Collective.
   explicit HistorySource(const solver::Simulation& simulation);
 };
 
-/// A column of history.csv.
+/// Describes a column of history.csv.
 struct HistoryColumn {
   std::string name;
   std::string unit;
@@ -37,20 +37,21 @@ struct HistoryColumn {
   std::function<double(const HistorySource&)> value;
 };
 
-/// Lists the columns that a case has, in the order of the file.
+/// Lists the columns of a case, in the order of the file.
 std::vector<HistoryColumn> history_columns(const cases::Case& setup);
 
-/// Lists all columns that there are as rows `| name | unit | meaning |` of docs/manual/output.md.
+/// Lists all available columns as rows `| name | unit | meaning |` of docs/manual/output.md.
 std::string history_columns_as_markdown();
 
-/// Lists the accounts of energy that leaves the motion, and the limiters, as two tables of docs/manual/output.md.
+/// Lists the accounts of energy that leaves the resolved motion, and the limiters, as two tables of
+/// docs/manual/output.md.
 std::string accounts_as_markdown();
 
-/// Describes columns for other programs (columns.json): a list of {name, unit, meaning}; of limiters also `limiter`, what is
-/// limited, of energy that leaves the motion `taken_by` and `taken_to`.
+/// Describes columns for other programs (columns.json): a list of {name, unit, meaning}; limiters also have `limiter`,
+/// the limited quantity; accounts of energy that leaves the resolved motion have `taken_by` and `taken_to`.
 std::string columns_as_json(std::span<const HistoryColumn> columns);
 
-/// Computes the row of now. Collective.
+/// Computes the current row. Collective.
 std::vector<io::HistoryValue> history_row(std::span<const HistoryColumn> columns,
                                           const solver::Simulation& simulation);
 

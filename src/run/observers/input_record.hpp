@@ -7,8 +7,8 @@
 
 namespace whipple::run {
 
-/// Keeps run.toml the input of the run: a request that changes the schedule is written into it, so that a
-/// restart goes on with it.
+/// Updates run.toml, the input of the run: a request that changes the schedule is written into it, so that a restart
+/// uses the changed value.
 class InputRecord : public RunObserver {
  public:
   InputRecord(const io::RunDirectory& directory, const io::Ranks& ranks)

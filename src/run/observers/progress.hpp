@@ -28,7 +28,7 @@ class ProgressBar : public RunObserver {
                     1e6 * state.time, 1e9 * state.time_step, moment.simulation.particle_count(),
                     state.ledger.energy_error(moment.simulation.totals()), moment.paused ? ", paused" : ""));
   }
-  /// Ends the line before others are written.
+  /// Ends the line before other output is written.
   void end(const Moment&, Outcome&) override { bar_.reset(); }
 
  private:
@@ -40,7 +40,7 @@ class ProgressBar : public RunObserver {
   }
 
   io::Ranks ranks_;
-  double end_ = 0.0;             // s, of the bar
+  double end_ = 0.0;             // s, end time of the bar
   std::optional<Progress> bar_;  // on the root
 };
 

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* next_name = "snapshots";  // in checkpoints
 
-/// Returns the run's input without the time of its start, so that a run that is repeated writes the same bytes.
+/// Returns the run's input without its start time, so that a repeated run writes identical files.
 std::string input_without_start(const fs::path& file) {
   std::string text = read_text(file);
   constexpr std::string_view key = "\nstarted = ";
@@ -37,7 +37,7 @@ io::SeriesOptions series_options(const cases::Case& setup, const io::RunDirector
                             .fields = setup.output.fields,
                             .material_of_body = {},
                             .provenance = {{"input", input_without_start(directory.input_file())}}};
-  // Bodies of one material share its number: that of its first body.
+  // Bodies of one material share its number: that of the first such body.
   for (const auto& material : setup.materials) {
     const auto first = std::ranges::find(setup.materials, material);
     options.material_of_body.push_back(static_cast<std::uint16_t>(first - setup.materials.begin()));
@@ -45,9 +45,9 @@ io::SeriesOptions series_options(const cases::Case& setup, const io::RunDirector
   return options;
 }
 
-constexpr double tolerance = 1e-6;  // of the interval: closer to its end is at its end
+constexpr double tolerance = 1e-6;  // of the interval: times closer to its end are at its end
 
-/// Returns the first multiple of an interval after a time.
+/// Returns the number of the first multiple of an interval after a time.
 std::int64_t next_multiple(double time, double every) {
   return every > 0.0 ? static_cast<std::int64_t>(std::floor(time / every + tolerance)) + 1 : 1;
 }
@@ -91,7 +91,7 @@ void Snapshots::begin(const Moment& moment) {
 
 void Snapshots::resume(const Moment& moment, const io::CheckpointValues& values) {
   every_ = moment.schedule.snapshot_every;
-  // The checkpoint's number is one of its own interval, which may have been shorter.
+  // The number in the checkpoint refers to the interval at that time, which may have been shorter.
   next_ = std::min(values.integer(next_name), next_multiple(moment.time(), every_));
   files_.restart(moment.time());
 }
@@ -107,8 +107,8 @@ void Snapshots::after_step(const Moment& moment) {
 
 void Snapshots::write(const Moment& moment) {
   if (moment.step() == last_step_) return;
-  // Ranks write together, by calls of MPI; and a writer that takes turns with the threads of the steps, which
-  // wait for one another, holds them up for longer than it takes.
+  // Ranks write collectively, through MPI. Without a free core, a writer thread delays the threads of a step, which
+  // wait for one another, by more than the duration of the writing.
   if (ranks_.is_parallel() || parallel::free_cores() == 0) {
     writer_.wait();
     files_.write(moment.simulation);
@@ -124,14 +124,14 @@ double Snapshots::next_time() const {
 }
 
 void Snapshots::remember(io::CheckpointValues& values) {
-  writer_.wait();  // HDF5 serves one thread at a time
+  writer_.wait();  // HDF5 is not used from two threads at the same time
   values.integers[next_name] = next_;
 }
 
 void Snapshots::end(const Moment& moment, Outcome& outcome) {
   if (outcome.kind == Outcome::Kind::out_of_resources) return;
   writer_.wait();
-  if (outcome.kind == Outcome::Kind::left_range) {  // snapshots of the run stay good
+  if (outcome.kind == Outcome::Kind::left_range) {  // the earlier snapshots of the run stay valid
     const fs::path folder = directory_.failed_folder();
     ranks_.on_root([&] { fs::create_directories(folder); });
     SnapshotFiles(moment.simulation.setup(), directory_, folder, moment.simulation.communicator())

@@ -15,18 +15,19 @@
 
 namespace whipple::run {
 
-/// The files of the snapshots of a run: particles, and elements and bars of cases that have some.
+/// Manages the files of the snapshots of a run: particles, and elements and trusses of cases that have them.
 class SnapshotFiles {
  public:
-  /// Reads run.toml for their provenance. @param folder  where they go
+  /// Reads run.toml for the provenance of the files.
+  /// @param folder  output folder
   SnapshotFiles(const cases::Case& setup, const io::RunDirectory& directory,
                 const std::filesystem::path& folder, MPI_Comm communicator);
 
-  /// Drops what is later than a checkpoint. Collective.
+  /// Removes the entries later than a checkpoint. Collective.
   void restart(double time);
-  /// Writes the state of now. Collective.
+  /// Writes the current state. Collective.
   void write(const solver::Simulation& simulation);
-  /// Takes the state of now; what is returned writes it. Of a run on one rank.
+  /// Copies the current state and returns a function that writes it. For a run on one rank.
   [[nodiscard]] std::function<void()> prepare(const solver::Simulation& simulation);
 
   [[nodiscard]] const io::ParticleSeries& particles() const { return particles_; }
@@ -36,8 +37,8 @@ class SnapshotFiles {
   std::optional<io::ElementSeries> elements_;
 };
 
-/// Writes snapshots: at the start, at the multiples of the interval, on which steps end, on request, at the end;
-/// and of a state that left the range of the physics into the folder failed/.
+/// Writes snapshots: at the start, at the multiples of the interval, at which steps end, on request, and at the end;
+/// writes a state outside the range of the physics to the folder failed/.
 class Snapshots : public RunObserver {
  public:
   Snapshots(const cases::Case& setup, const io::RunDirectory& directory, MPI_Comm communicator)
@@ -58,8 +59,8 @@ class Snapshots : public RunObserver {
   io::RunDirectory directory_;
   io::Ranks ranks_;
   SnapshotFiles files_;
-  io::BackgroundWriter writer_;  // of the files
-  double every_ = 0.0;           // s, of the schedule that `next_` belongs to
+  io::BackgroundWriter writer_;  // writes the files
+  double every_ = 0.0;           // s, interval of the schedule for which `next_` was computed
   std::int64_t next_ = 0;        // multiple of the interval at which the next snapshot is due
   std::int64_t last_step_ = -1;  // of the last snapshot
 };

@@ -63,7 +63,7 @@ void StatusFile::write(const Moment& moment, Activity state, const std::string& 
                   .revision = program_,
                   .message = message,
                   .written = fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::time(nullptr)))});
-  } catch (const InputError& error) {  // nothing of the results; the other ranks know of no error
+  } catch (const InputError& error) {  // the results are not affected, and the other ranks are not informed
     log::warning("{}", error.what());
   }
 }

@@ -12,8 +12,8 @@
 
 namespace whipple::run {
 
-/// Keeps status.json: how far a run is and whether it goes on (docs/manual/output.md). Written once a second at most,
-/// and where the state changes.
+/// Updates status.json: the progress of a run and whether it continues (docs/manual/output.md). The file is written at
+/// most once per second, and whenever the state changes.
 class StatusFile : public RunObserver {
  public:
   /// @param program  name, version and revision
@@ -33,7 +33,7 @@ class StatusFile : public RunObserver {
   std::filesystem::path file_;
   std::string program_;
   io::Ranks ranks_;
-  double first_time_ = 0.0;          // s, simulated, at the start of this process
+  double first_time_ = 0.0;          // s, simulated time at the start of this process
   std::optional<Activity> written_;  // state
   Clock::time_point written_at_;
 };

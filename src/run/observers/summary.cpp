@@ -40,8 +40,8 @@ std::string profile_as_json(const Moment& moment, const solver::Profile& profile
       .dump(2);
 }
 
-/// Returns the fraction of the unresolved energy that fluid carries which has expanded freely: continuous and thinner than
-/// half its initial density. Its particles have parted, unless they are divided. Collective.
+/// Returns the fraction of the unresolved energy that is carried by freely expanded fluid: continuous, with less than
+/// half its initial density. The particles of such fluid have separated unless they were split. Collective.
 double share_of_expanded_fluid(const solver::Simulation& simulation) {
   const cases::Case& setup = simulation.setup();
   const Particles& particles = simulation.particles();
@@ -63,7 +63,8 @@ double share_of_expanded_fluid(const solver::Simulation& simulation) {
   return carried[0] / simulation.totals().unresolved_energy;
 }
 
-/// @param expanded  fraction of the unresolved energy that freely expanded fluid carries
+/// Prints the summary of the run.
+/// @param expanded  fraction of the unresolved energy that is carried by freely expanded fluid
 void tell(const Moment& moment, double expanded) {
   const solver::Ledger& ledger = moment.simulation.state().ledger;
   const solver::Totals& totals = moment.simulation.totals();
@@ -74,7 +75,7 @@ void tell(const Moment& moment, double expanded) {
     const double count = ledger.*account.sum;
     if (account.shown == solver::Shown::limiter && count > 0.0) log::info("{}: {:.0f} times", account.meaning, count);
   }
-  // Of bodies that have come to rest the remainder is no motion of fragments.
+  // For bodies that have come to rest, the remaining unresolved energy is not motion of fragments.
   const bool at_rest = totals.kinetic_energy < nearly_at_rest * ledger.initial.kinetic_energy;
   if (totals.unresolved_share() > much_unresolved && !at_rest) {
     const bool parted = expanded > 0.5 && !solver::domains::may_divide(moment.simulation.setup());

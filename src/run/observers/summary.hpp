@@ -7,7 +7,7 @@
 
 namespace whipple::run {
 
-/// Tells at the end of a run how it went, and writes the wall-clock time of its stages into profile.json.
+/// Prints a summary at the end of a run, and writes the wall-clock time of its stages to profile.json.
 class Summary : public RunObserver {
  public:
   /// @param profile  of the simulation, which must outlive this object

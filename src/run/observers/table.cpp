@@ -39,7 +39,7 @@ void Table::append(const Moment& moment) {
 void Table::remember(io::CheckpointValues& values) {
   values.integers[options_.rows_name] =
       std::stoll(ranks_.broadcast(table_ ? fmt::format("{}", table_->rows()) : ""));
-  // What the checkpoint counts must not be lost where it is kept.
+  // Rows counted by the checkpoint must not be lost.
   ranks_.on_root([&] { table_->force_to_disk(); });
 }
 

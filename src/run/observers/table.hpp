@@ -13,25 +13,26 @@
 
 namespace whipple::run {
 
-/// Writes a row of numbers every so many steps and at the end of a run (history.csv, gauges.csv).
+/// Writes a row of numbers at a fixed interval of steps and at the end of a run (history.csv, gauges.csv).
 class Table : public RunObserver {
  public:
   struct Options {
     std::filesystem::path file;
-    std::string rows_name;             ///< of the number of rows in checkpoints
+    std::string rows_name;             ///< key of the number of rows in checkpoints
     double Schedule::* every;          ///< steps between rows
-    bool accept_missing_rows = false;  ///< go on though the file has lost rows
+    bool accept_missing_rows = false;  ///< continue although the file has lost rows
   };
   Table(Options options, const io::Ranks& ranks) : options_(std::move(options)), ranks_(ranks) {}
 
   void begin(const Moment& moment) override;
+  /// Continues the file.
   /// @throws InputError if rows from before the checkpoint are missing
   void resume(const Moment& moment, const io::CheckpointValues& values) override;
   void after_step(const Moment& moment) override;
   void remember(io::CheckpointValues& values) override;
 
  protected:
-  /// Returns the numbers of now, on every rank; none: no row is written. Collective.
+  /// Returns the current values, on every rank; empty: no row is written. Collective.
   [[nodiscard]] virtual std::vector<io::HistoryValue> row(const solver::Simulation& simulation) = 0;
 
  private:
