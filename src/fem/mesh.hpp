@@ -71,8 +71,7 @@ struct Elements {
       hourglass_3x, hourglass_3y, hourglass_3z, hourglass_4x, hourglass_4y, hourglass_4z;
   std::vector<double> hourglass_energy;         ///< J, stored by the hourglass stiffness, never negative
   std::vector<double> hourglass_lead;           ///< J, by which it exceeds the work done (eq. 3.7)
-  std::vector<double> returned_plastic_strain;  ///< plastic strain already applied to hourglass forces (eq.
-                                                ///< 3.9)
+  std::vector<double> returned_plastic_strain;  ///< already applied to hourglass forces (eq. 3.9)
 
   [[nodiscard]] std::size_t size() const { return id.size(); }
 

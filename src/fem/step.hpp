@@ -95,8 +95,7 @@ struct DeformationReport {
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   double work = 0.0;                 ///< J, of the stresses, into internal energy
   double hourglass_work = 0.0;       ///< J, against the hourglass forces, into hourglass energy and heat
-  double hourglass_overdrawn = 0.0;  ///< J, part of it returned by the forces beyond the stored energy, from
-                                     ///< heat
+  double hourglass_overdrawn = 0.0;  ///< J, part of it returned beyond the stored energy, from heat
   double limited_hourglass = 0.0;    ///< elements whose forces were limited by the stored energy
   std::size_t inverted = 0;          ///< elements without positive volume (or Jacobian at a Gauss point)
   std::size_t first_inverted = none;
