@@ -34,7 +34,7 @@ struct Options {
 /// witness_*.csv and loads_*.csv where requested; and analysis.h5 with all of them, the radiographs and the views
 /// (docs/manual/output.md).
 /// @throws InputError if the run has no snapshots, does not contain a body named in the options, or the output cannot
-///     be written
+/// be written
 void analyse(const Run& run, const Options& options, const std::filesystem::path& folder);
 
 }  // namespace whipple::analysis

@@ -13,6 +13,7 @@ namespace whipple::analysis {
 /// section 5.1). Particles that start before the plane are counted when they first pass it.
 class Arrivals {
  public:
+  /// Sets up the record for a plane.
   /// @param frame     about the point where the line of flight meets the plane
   /// @param position  axial coordinate of the plane, m
   /// @param wall      body behind the plane, which does not count as a load

@@ -16,6 +16,7 @@ namespace whipple::analysis {
 /// smaller width of the face, at least one column.
 class Columns {
  public:
+  /// Sets up the columns from the first snapshot.
   /// @param size  edge of the columns, m
   Columns(const Snapshot& first, const Frame& frame, std::size_t body, double size);
 

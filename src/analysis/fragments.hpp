@@ -51,7 +51,7 @@ struct Fragments {
 /// Finds the fragments of each body. Gases and particles in the vapour phase belong to none. With `Links::intact`, none
 /// is found without the field `failed`.
 /// @param link linking length: distance within which particles are connected, and within which a failed particle
-///     belongs to the nearest intact one, m
+/// belongs to the nearest intact one, m
 /// @throws InputError if the distance is too small for the extent of the material
 Fragments find_fragments(const Snapshot& snapshot, std::span<const BodyInput> bodies, const Frame& frame,
                          double link, Links links = Links::intact);

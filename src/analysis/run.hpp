@@ -30,7 +30,7 @@ struct SnapshotEntry {
   std::filesystem::path file;
   double time = 0.0;           ///< s
   std::size_t bodies = 65536;  ///< number of bodies of the run; particles of others are rejected
-  Vector3 frame_velocity = Vector3::Zero();  ///< m/s, subtracted from velocities; its way from positions
+  Vector3 frame_velocity = Vector3::Zero();  ///< m/s, subtracted from velocities; displacement from positions
   /// Bounds the domain enlarged by its size on each side, m: points beyond indicate a damaged file.
   Vector3 lower = Vector3::Constant(-1e300), upper = Vector3::Constant(1e300);
 };
@@ -97,7 +97,7 @@ std::filesystem::path elements_file(const SnapshotEntry& entry);
 
 /// Reads a snapshot.
 /// @throws InputError if the file is not a snapshot of this run: arrays of different lengths, bodies that the case does
-///     not have, non-finite numbers, points far outside of the domain, non-positive masses
+/// not have, non-finite numbers, points far outside of the domain, non-positive masses
 Snapshot read_snapshot(const SnapshotEntry& entry);
 
 }  // namespace whipple::analysis

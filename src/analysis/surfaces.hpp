@@ -14,6 +14,7 @@ namespace whipple::analysis {
 /// size and axial coordinate lower + (layer + 1/2) size.
 class RingField {
  public:
+  /// Computes the field from the chosen particles.
   /// @param size edge of the bins, m
   /// @param chosen selects the particles that count
   /// @param wall_at_upper the upper end is a mirror plane: contributions beyond it are reflected

@@ -13,11 +13,11 @@
 namespace whipple::cases {
 
 struct OutputControl {
-  double snapshot_every = 0.0;      ///< s, simulated
-  double checkpoint_every = 600.0;  ///< s, wall clock
-  std::int64_t history_every = 1;   ///< steps
-  std::int64_t gauges_every = 1;    ///< infinite: the default of the scheme
-  double maximum_energy_error = std::numeric_limits<double>::infinity();  ///< infinite: that of the scheme
+  double snapshot_every = 0.0;                                            ///< s, simulated
+  double checkpoint_every = 600.0;                                        ///< s, wall clock
+  std::int64_t history_every = 1;                                         ///< steps
+  std::int64_t gauges_every = 1;                                          ///< steps
+  double maximum_energy_error = std::numeric_limits<double>::infinity();  ///< infinite: default of the scheme
   double maximum_speed_factor =
       10.0;  ///< relative to the initial speeds and those attainable from released energy
   std::vector<std::string> fields = default_fields();

@@ -69,7 +69,7 @@ struct Bars {
 /// Creates bars from lines.
 /// @param area  m^2, of the cross-section
 /// @throws InputError if density, stiffness or area is not positive, if a bar has zero length, a node that does not
-///     exist or the same node twice, or if a node belongs to no bar
+/// exist or the same node twice, or if a node belongs to no bar
 Bars make_bars(const Lines& lines, double area, const BarMaterial& material, const std::string& name,
                std::uint32_t body = 0, std::uint64_t first_node_id = 0, std::uint64_t first_element_id = 0);
 

@@ -67,8 +67,8 @@ class MeshFile {
   /// Returns the hexahedra of a group of volumes, checked.
   /// @param group  its name, or its tag: "physical 3" or "3"
   /// @throws InputError if there is no such group (the message lists the existing ones), if it is not a group of
-  ///     volumes, contains elements other than eight-node hexahedra, or a degenerate or inverted element (file, line
-  ///     and number of the element)
+  /// volumes, contains elements other than eight-node hexahedra, or a degenerate or inverted element (file, line and
+  /// number of the element)
   [[nodiscard]] Hexahedra hexahedra(const std::string& group) const;
 
   /// Returns the two-node lines of a group of curves, for bar elements.

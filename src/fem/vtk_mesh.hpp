@@ -12,7 +12,7 @@ bool is_vtk(const std::filesystem::path& path);
 /// zlib), or legacy ASCII (.vtk). Cells with the same value of an integer array form a group, "ARRAY VALUE"; without
 /// such an array, all cells form the group "all".
 /// @throws InputError naming the file: damaged, another dataset type, several pieces, another compression, a cell of an
-///     unknown type, a point that does not exist
+/// unknown type, a point that does not exist
 MeshData read_vtk(const std::filesystem::path& path, double length_unit);
 
 }  // namespace whipple::fem

@@ -72,7 +72,7 @@ struct MaterialPoints {
   std::vector<double> maximum_temperature;  ///< K, so far
   std::vector<double> melting_time;  ///< s, when half of the mass first melted; `never` (-1) if it has not
   std::vector<double> failure_threshold_factor;  ///< scatter of the failure threshold (1: none); optional
-  /// Pa, part of the artificial viscosity whose work is heat; the work of the rest becomes unresolved energy
+  /// Holds the part of the artificial viscosity whose work is heat, Pa; the work of the rest becomes unresolved energy
   /// (docs/theory/dissipation.md, 3); optional
   std::vector<double> heating_viscosity;
   Histories history;  ///< declared by the material models

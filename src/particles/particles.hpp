@@ -16,18 +16,19 @@ struct Particles : MaterialPoints {
   std::vector<std::uint32_t> body;  ///< index of the body in the case
   std::vector<Vector3> position;    ///< m
   std::vector<Vector3> velocity;    ///< m/s
-  /// 1/s: a_p(x) = v_p + C_p (x - x_p) (docs/theory/mpm.md, 1); optional
+  /// Holds the affine velocity field, 1/s: a_p(x) = v_p + C_p (x - x_p) (docs/theory/mpm.md, 1); optional
   std::vector<Matrix3> affine_velocity;
-  /// m^2: sum of r r^T over the three half-edges r of the particle's domain (docs/theory/mpm.md, 2); optional
-  std::vector<SymmetricTensor> extent;
-  /// J/kg, >= 0: kinetic energy that the transfers removed from the motion of the grid and that is not yet heat
-  /// (docs/theory/dissipation.md, 2); optional
-  std::vector<double> unresolved_energy;
-  /// J/kg, >= 0: part of the transfer losses that may still become heat immediately (docs/theory/dissipation.md, 3);
+  /// Holds the sum of r r^T over the three half-edges r of the domain of the particle, m^2 (docs/theory/mpm.md, 2);
   /// optional
+  std::vector<SymmetricTensor> extent;
+  /// Holds the kinetic energy that the transfers removed from the motion of the grid and that is not yet heat, J/kg,
+  /// >= 0 (docs/theory/dissipation.md, 2); optional
+  std::vector<double> unresolved_energy;
+  /// Holds the part of the transfer losses that may still become heat immediately, J/kg, >= 0
+  /// (docs/theory/dissipation.md, 3); optional
   std::vector<double> heat_allowance;
   std::vector<double> closing_rate;      ///< 1/s, -tr L of the last step, 0 in expansion; optional
-  std::vector<std::uint8_t> generation;  ///< number of splits from the seeded particle (0)
+  std::vector<std::uint8_t> generation;  ///< number of splits since seeding (0: as seeded)
 
   [[nodiscard]] std::size_t size() const { return mass.size(); }
 

@@ -104,7 +104,7 @@ void join_layers(const Case& setup, Bonds& bonds, ContactFields& found) {
     for (std::size_t b = a + 1; b < bodies.size(); ++b) {
       if (bodies[b].discretization.is_bars() || bonds.joined(a, b) || !bonds.may_join(a, b)) continue;
       if (!bodies[a].contact_group.empty() && !bodies[b].contact_group.empty()) continue;
-      if (burns(setup, a) != burns(setup, b)) continue;  // products slide
+      if (burns(setup, a) != burns(setup, b)) continue;  // detonation products slide
       if (!touch_and_move_alike(setup, bodies[a], bodies[b])) continue;
       found.remarks.push_back(
           fmt::format("contact: bodies \"{}\" and \"{}\" touch at the start and have the same velocity: they "

@@ -132,7 +132,7 @@ void Arrival::light_in_sight() {
 }
 
 void Arrival::light_shadows() {
-  using Entry = std::pair<double, std::size_t>;  // ties are taken by the number of the cell
+  using Entry = std::pair<double, std::size_t>;  // ties are resolved by the cell number
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
   // The front starts only at cells with neighbours still to be lit.
   for (std::size_t c = 0; c < time_.size(); ++c) {

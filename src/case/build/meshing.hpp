@@ -12,7 +12,7 @@ namespace whipple::cases {
 /// Returns the hexahedra of a body with finite elements, from its shape or its mesh file, without elements beyond
 /// mirror planes; nodes near a plane are moved exactly onto it.
 /// @throws InputError if the shape has no structured mesh, the file is not usable, elements are inverted, or a mirror
-///     plane cuts through elements
+/// plane cuts through elements
 fem::Hexahedra hexahedra_of(const Case& setup, const Body& body);
 
 /// Creates the meshes of all bodies with finite elements: masses, initial state, velocities, constraints at mirror

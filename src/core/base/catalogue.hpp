@@ -77,6 +77,7 @@ Entry catalogue_entry(
 template <class Entry>
 class Catalogue {
  public:
+  /// Creates a catalogue.
   /// @param kind  of the entries, for messages: "equation of state"
   Catalogue(std::string kind, std::vector<Entry> entries)
       : kind_(std::move(kind)), entries_(std::move(entries)) {}

@@ -12,10 +12,11 @@ class FileLock {
  public:
   enum class IfHeld { wait, refuse };
 
+  /// Acquires the lock.
   /// @param path lock file, created if it does not exist
   /// @param what the protected resource, for messages: "the run directory run/disk"
   /// @throws InputError if another process holds the lock and `refuse` is selected (stating its process and machine),
-  ///     or if the file cannot be created
+  /// or if the file cannot be created
   FileLock(std::filesystem::path path, const std::string& what, IfHeld if_held);
   FileLock(const FileLock&) = delete;
   FileLock& operator=(const FileLock&) = delete;

@@ -68,7 +68,7 @@ class PartialFile {
 
 /// Replaces a file atomically and forces it to disk: neither a kill nor a power failure leaves a partial file.
 /// @param copy  temporary file in the same folder; an existing file of this name is removed, so only one writer at a
-///     time is allowed
+/// time is allowed
 /// @throws InputError naming the file and the system error
 void replace_durably(const std::filesystem::path& path, const std::filesystem::path& copy,
                      std::string_view bytes);

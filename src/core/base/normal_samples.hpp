@@ -10,6 +10,7 @@ namespace whipple {
 /// Draws samples from a normal distribution of several correlated variables; equal seeds give equal samples.
 class NormalSamples {
  public:
+  /// Factorises the covariance.
   /// @param covariance  symmetric; may be singular, and its variables may differ by orders of magnitude
   /// @throws InputError if sizes differ, a variance is negative, or the correlations contradict each other
   NormalSamples(Eigen::VectorXd mean, const Eigen::MatrixXd& covariance, std::uint64_t seed);

@@ -10,6 +10,7 @@ namespace whipple {
 /// one line per minute. The cost is one clock reading per update.
 class Progress {
  public:
+  /// Starts the display.
   /// @param label  name of the operation, e.g. "run"
   /// @param total  amount of work in the unit passed to `update`
   Progress(std::string label, double total);

@@ -17,6 +17,7 @@ namespace whipple {
 /// Creates a folder for temporary files, which is removed with its contents on destruction.
 class TemporaryFolder {
  public:
+  /// Creates the folder.
   /// @param above  parent folder; by default the temporary folder of the system
   /// @throws InputError naming the folder and the system error
   explicit TemporaryFolder(const std::filesystem::path& above = std::filesystem::temp_directory_path()) {

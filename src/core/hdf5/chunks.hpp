@@ -36,6 +36,7 @@ struct Filters {
 /// 1.10 reads beyond the allocated memory if a chunk skips a filter, or decompresses to less than the declared size.
 class Chunks {
  public:
+  /// Reads the layout of the chunks.
   /// @param space  of the array; must outlive this object
   /// @throws InputError for filters that this program does not write
   Chunks(const Dataset& dataset, hid_t space);

@@ -39,7 +39,7 @@ class Document {
   /// @param link  key of the root that refers to the other document; it is removed
   /// @param own   keys of the root that are not inherited
   /// @param remarks  keys that describe the values next to them, such as their source; a table with values of its own
-  ///     does not inherit them
+  /// does not inherit them
   void inherit(Document base, std::string_view link, std::span<const std::string_view> own,
                std::span<const std::string_view> remarks = {});
   /// Returns the document as TOML, without comments.

@@ -12,7 +12,7 @@ namespace whipple::process {
 /// even if it is killed.
 /// @param program      name of the executable ("whipple-md") and its arguments
 /// @param environment  variables for the ranks, in addition to those that allow Open MPI to run with more ranks than
-///     cores and as root
+/// cores and as root
 /// @param patience_with_end  s: ranks that have not ended within this time after SIGINT or SIGTERM are killed
 /// @throws InputError if there are far more ranks than processors
 /// @returns the exit code of mpirun, or 128 + the signal that was passed on to end it

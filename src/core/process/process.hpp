@@ -17,10 +17,11 @@ struct Supervision {
   int end_signal = 0;
   /// Selects that a signal that ends the program is reported as exit code 128 + n, not as a defect.
   bool may_be_killed = false;
-  /// s: a program that does not reap a terminated child within this time is killed. (mpirun of Open MPI 4.1 may wait
-  /// forever after a rank was killed.) 0: no limit.
+  /// Sets the time, s, after which a program that has not reaped a terminated child is killed. (mpirun of Open MPI 4.1
+  /// may wait forever after a rank was killed.) 0: no limit.
   double patience = 0.0;
-  /// s: a program that has not ended within this time after `end_signal` is killed with its process group. 0: no limit.
+  /// Sets the time, s, after `end_signal` at which a program that has not ended is killed with its process group.
+  /// 0: no limit.
   double patience_with_end = 0.0;
 };
 
