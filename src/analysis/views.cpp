@@ -177,8 +177,8 @@ class CellCounts {
   std::unordered_map<std::uint64_t, std::size_t> counts_;
 };
 
-/// Returns the diameters (m) of the points of a scene, limited to some pixels or to the median edge: points of thin
-/// debris and gas would otherwise hide the items behind.
+/// Returns the diameters (m) of the points of a scene, limited to 24 pixels or to the median edge, whichever is larger:
+/// points of thin debris and gas would otherwise hide the items behind.
 std::vector<double> diameters_of(const Scene& scene, const Frame& frame, double pixel) {
   constexpr double widest = 24.0;  // pixels
   const Snapshot& snapshot = scene.snapshot;
