@@ -94,8 +94,8 @@ class CellList {
     if (found == keys_.end() || *found != key) return {};
     return members(static_cast<std::size_t>(found - keys_.begin()));
   }
-  /// Returns the key of the cell that contains a point, 21 bits per direction; nothing beyond the cells that surround
-  /// the bounding box of the points.
+  /// Returns the key of the cell that contains a position, 21 bits per direction; nothing if it is out of the range of
+  /// the keys, where no occupied cell is adjacent.
   [[nodiscard]] std::optional<std::uint64_t> key_at(const Vector3& place) const {
     // One cell of margin, so that neighbours have keys as well.
     const Vector3 cell = ((place - lower_) / size_).array().floor() + 1.0;
