@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t corner_count = 8;
 constexpr double place = 0.5;  ///< natural coordinates of the particles of a regular arrangement
 
-/// Trilinear functions of the corners and their derivatives at a point of natural coordinates.
+/// Holds the trilinear functions of the corners and their derivatives at a point in natural coordinates.
 struct ShapeFunctions {
   std::array<double, corner_count> value;
   std::array<Vector3, corner_count> derivative;
@@ -40,7 +40,7 @@ AtParticles make_at_particles(Arrangement arrangement) {
   for (std::size_t k = 0; k < corner_count; ++k) {
     const std::array<double, 3>& c = fem::corner_coordinates[k];
     Vector3 xi = place * Vector3(c[0], c[1], c[2]);
-    if (arrangement == Arrangement::layered) {  // the eighth of an element has the edge 1
+    if (arrangement == Arrangement::layered) {  // an octant of an element has edge 1 in natural coordinates
       xi += layer_offset((c[0] > 0 ? 1U : 0U) + (c[1] > 0 ? 2U : 0U) + (c[2] > 0 ? 4U : 0U));
     }
     functions[k] = shape_functions(xi);
@@ -55,7 +55,7 @@ const AtParticles& at_particles(Arrangement arrangement) {
   return arrangement == Arrangement::layered ? layered : regular;
 }
 
-/// Contribution of a corner: its part of the nodal mass with the motion of the node.
+/// Holds the contribution of a corner: its part of the nodal mass with the motion of the node.
 struct Corner {
   double mass;
   Vector3 position, velocity;
@@ -63,7 +63,7 @@ struct Corner {
 };
 
 struct Fragment {
-  double mass, share;  // kg; of its row's volumes
+  double mass, share;  // kg; fraction of the volumes of its row
   Vector3 position, velocity;
   SymmetricTensor extent;
 };
@@ -84,7 +84,7 @@ std::array<Corner, corner_count> corners_of(const fem::Mesh& mesh, std::size_t e
   return corners;
 }
 
-/// Masses, places and domains (3.1).
+/// Sets masses, positions and domains (3.1).
 void place_fragments(const fem::Mesh& mesh, std::size_t element,
                      const std::array<Corner, corner_count>& corners, const AtParticles& at,
                      std::array<Fragment, corner_count>& fragments) {
@@ -113,7 +113,7 @@ void place_fragments(const fem::Mesh& mesh, std::size_t element,
   }
 }
 
-/// Velocity gradient at the centre of the element.
+/// Returns the velocity gradient at the centre of the element.
 Matrix3 mean_gradient(const std::array<Corner, corner_count>& corners) {
   static const ShapeFunctions center = shape_functions(Vector3::Zero());
   Matrix3 x = Matrix3::Zero(), v = Matrix3::Zero();  // derivatives with respect to natural coordinates
@@ -124,7 +124,7 @@ Matrix3 mean_gradient(const std::array<Corner, corner_count>& corners) {
   return v * x.inverse();
 }
 
-/// Velocities (3.2) to (3.6).
+/// Computes the velocities (3.2) to (3.6).
 Conversion convert(const fem::Mesh& mesh, std::size_t element, double affine_inertia, const AtParticles& at) {
   const std::array<Corner, corner_count> corners = corners_of(mesh, element);
   Conversion out;
@@ -154,14 +154,14 @@ Conversion convert(const fem::Mesh& mesh, std::size_t element, double affine_ine
   }
   drift /= mass;
   offset /= mass;
-  double relative = 0.0;  // that of the fragments
+  double relative = 0.0;  // kinetic energy of the fragments
   for (Fragment& f : out.fragment) {
     f.velocity -= drift;
     f.position -= offset;
     relative += 0.5 * f.mass * f.velocity.squaredNorm();
   }
   const double factor = relative > available ? std::sqrt(available / relative) : 1.0;
-  Matrix3 missing = Matrix3::Zero();  // moment of the velocities that the fragments' places do not carry
+  Matrix3 missing = Matrix3::Zero();  // moment of the velocities not carried by the fragments
   for (const Corner& c : corners) {
     missing += c.mass *
                ((c.velocity - mean) * (c.position - center).transpose() + affine_inertia * c.affine_velocity);
@@ -188,7 +188,7 @@ Conversion convert(const fem::Mesh& mesh, std::size_t element, double affine_ine
   return out;
 }
 
-/// The rows of the particles that begin at `first`, from the Gauss points of an element.
+/// Writes the rows of the particles from `first` on, from the Gauss points of an element.
 void write_particles(const fem::Mesh& mesh, std::size_t element, const Conversion& conversion,
                      std::size_t first, Particles& particles) {
   const std::size_t rows = fem::points_per_element(mesh.quadrature);
@@ -200,7 +200,7 @@ void write_particles(const fem::Mesh& mesh, std::size_t element, const Conversio
       const auto& from = field.of(material_points);
       if (!from.empty()) field.of(particles)[p] = from[row];
     });
-    if (!particles.heating_viscosity.empty()) {  // that of elements heats as a whole
+    if (!particles.heating_viscosity.empty()) {  // the viscosity of elements heats entirely
       particles.heating_viscosity[p] = particles.artificial_viscosity[p];
     }
     const Fragment& f = conversion.fragment[k];
@@ -279,7 +279,7 @@ ConversionBalance convert_elements(fem::Mesh& mesh, std::span<const std::uint8_t
   const std::size_t before = particles.size();
   resize(particles, before + corner_count * list.size());
   const MaterialPoints& material_points = mesh.points;
-  for_each_field(material_points, [&](const auto& field) {  // optional ones that no particle needed so far
+  for_each_field(material_points, [&](const auto& field) {  // optional fields not yet needed by any particle
     if (!field.of(material_points).empty()) field.resize(particles, particles.size());
   });
   particles.affine_velocity.resize(particles.size());

@@ -14,33 +14,33 @@
 #include "src/particles/arrangement.hpp"
 #include "src/particles/particles.hpp"
 
-/// Adaptive finite element material point method: elements that deform too much become particles
+/// Adaptive finite element material point method: strongly deformed elements are converted to particles
 /// (docs/theory/afemp.md, section 3).
 namespace whipple::afemp {
 
-/// An element is converted as soon as one of its values passes its threshold; infinite or 0: not asked.
+/// Holds thresholds for conversion: an element is converted as soon as one is exceeded; infinite or 0: disabled.
 struct Thresholds {
   double plastic_strain = std::numeric_limits<double>::infinity();  ///< at any of its Gauss points
-  double time_step_ratio = 0.0;  ///< its stable time step over that of the grid falls below this
-  double jacobian = 0.0;         ///< its least scaled Jacobian (docs/theory/fem.md) falls below this
+  double time_step_ratio = 0.0;  ///< of its stable time step to that of the grid, lower bound
+  double jacobian = 0.0;         ///< minimum scaled Jacobian (docs/theory/fem.md), lower bound
   bool failed = false;           ///< a Gauss point has failed
 };
 
 /// Returns which elements exceed a threshold: one entry per element, nonzero if so.
-/// @param grid_time_step s, stable on the grid; infinite if there is nothing on it
+/// @param grid_time_step s, stable on the grid; infinite if the grid is empty
 std::vector<std::uint8_t> distorted_elements(const fem::Mesh& mesh, const Thresholds& thresholds,
                                              const fem::ViscosityCoefficients& viscosity,
                                              double grid_time_step);
 
-/// Range in which an element is a valid approximation; 0 or infinite: any.
+/// Describes the range in which an element is a valid approximation; 0 or infinite: unlimited.
 struct ElementRange {
-  double jacobian = 0.0;  ///< least scaled Jacobian (docs/theory/fem.md)
+  double jacobian = 0.0;  ///< minimum scaled Jacobian (docs/theory/fem.md)
   double time_step_ratio = 0.0;
   double hourglass_share = std::numeric_limits<double>::infinity();  ///< of its internal energy
   double speed = std::numeric_limits<double>::infinity();            ///< m/s, of its nodes
 };
 
-/// How an element has left its range.
+/// Classifies how an element has left its range.
 enum class RangeFault : std::uint8_t { none, jacobian, time_step, hourglass, speed };
 constexpr std::array<Word<RangeFault>, 5> words(RangeFault) {
   return {{{RangeFault::none, "is in its valid range"},
@@ -52,24 +52,24 @@ constexpr std::array<Word<RangeFault>, 5> words(RangeFault) {
 }
 
 /// Returns for every element how it has left its range.
-/// @param grid_time_step s, stable on the grid; infinite if there is nothing on it
+/// @param grid_time_step s, stable on the grid; infinite if the grid is empty
 std::vector<RangeFault> range_faults(const fem::Mesh& mesh, const ElementRange& range,
                                      const fem::ViscosityCoefficients& viscosity, double grid_time_step);
 
-/// Balance of the conversions.
+/// Holds the balance of the conversions.
 struct ConversionBalance {
   std::size_t elements = 0;
   double mass = 0.0;              ///< kg, of the converted elements
-  double kinetic_heat = 0.0;      ///< J, kinetic energy of nodes that no particle took, into internal energy
+  double kinetic_heat = 0.0;      ///< J, kinetic energy not carried by particles, into internal energy
   double hourglass_energy = 0.0;  ///< J, released into internal energy
 };
 
-/// Takes the chosen elements out of the mesh and appends eight particles for each: at the natural coordinates
-/// (+-0.5)^3, or in layers beside them, with the state of the element (of the Gauss point in their octant), ids 8 times that of the
-/// element and following, and velocities by (3.2) to (3.6). Mass, momentum and energy stay to round-off;
-/// angular momentum too unless the affine field is capped; the heat is not negative. Nodes that lost an
-/// element lie on the surface from now on; nodes without elements vanish.
-/// @param affine_inertia of the particles' affine field per mass, m^2 (`transfer::affine_inertia`); 0: none
+/// Removes the chosen elements from the mesh and appends eight particles for each: at the natural coordinates
+/// (+-0.5)^3, or offset from them in layers, with the state of the element (of the Gauss point in their octant), ids
+/// from 8 times that of the element on, and velocities by (3.2) to (3.6). Mass, momentum and energy are conserved to
+/// round-off, as is angular momentum unless the affine field is capped; the heat is not negative. Nodes that lost an
+/// element are marked as on the surface; nodes without elements are removed.
+/// @param affine_inertia of the affine field of the particles per mass, m^2 (`transfer::affine_inertia`); 0: none
 ConversionBalance convert_elements(fem::Mesh& mesh, std::span<const std::uint8_t> chosen,
                                    double affine_inertia, Particles& particles,
                                    Arrangement arrangement = Arrangement::regular);

@@ -15,7 +15,7 @@
 namespace whipple::afemp {
 namespace {
 
-/// The cells in or next to which (27 cells) somebody is, as bits of blocks of 4 x 4 x 4 cells.
+/// Marks the cells that contain a point or are next to such a cell (27 cells), as bits of blocks of 4 x 4 x 4 cells.
 class Neighbourhood {
  public:
   explicit Neighbourhood(const grid::Geometry& geometry) : geometry_(geometry) { table_.reserve(1024); }
@@ -24,7 +24,7 @@ class Neighbourhood {
     const Cell cell = cell_of(position);
     at(block_of(cell)) |= bit(cell);
   }
-  /// Cells of a block, as `cells_in` gives them.
+  /// Adds cells of a block, as returned by `cells_in`.
   void add(const grid::BlockCoordinate& block, std::uint64_t cells) { at(block) |= cells; }
   [[nodiscard]] std::uint64_t cells_in(const grid::BlockCoordinate& block) const {
     const std::int32_t found = table_.find(block);
@@ -32,7 +32,7 @@ class Neighbourhood {
   }
   [[nodiscard]] const std::vector<grid::BlockCoordinate>& blocks() const { return coordinates_; }
 
-  /// After the last one: adds the cells around theirs, direction by direction.
+  /// Adds the neighbours of all marked cells, direction by direction; call after the last `add`.
   void widen() {
     for (int axis = 0; axis < 3; ++axis) {
       const std::vector<std::uint64_t> cells = cells_;
@@ -68,7 +68,7 @@ class Neighbourhood {
     return floor_of_three(geometry_.in_cells(position));
   }
   static grid::BlockCoordinate block_of(const Cell& cell) {
-    // Shifts of negative numbers round down, as wanted.
+    // Shifts of negative numbers round down, as required.
     return {cell[0] >> 2, cell[1] >> 2, cell[2] >> 2};
   }
   static std::uint64_t bit(const Cell& cell) {
@@ -76,7 +76,7 @@ class Neighbourhood {
   }
 
   static int stride_of(int axis) { return cube.node(axis == 0, axis == 1, axis == 2); }
-  /// The cells with the coordinate 0 along an axis.
+  /// Returns the cells with the coordinate 0 along an axis.
   static std::uint64_t first_layer(int axis) {
     std::uint64_t layer = 0;
     for (int i = 0; i < cube.edge; ++i) {
@@ -88,7 +88,7 @@ class Neighbourhood {
   }
 
   std::uint64_t& at(const grid::BlockCoordinate& block) {
-    // Particles are sorted by blocks. (Arrays are compared by a call, which takes longer than all else here.)
+    // Particles are sorted by blocks. (Comparison of arrays is a function call, which would dominate the cost here.)
     const bool same = block[0] == last_block_[0] && block[1] == last_block_[1] && block[2] == last_block_[2];
     if (!same || last_ == grid::BlockTable::none) {
       last_block_ = block;
@@ -109,7 +109,8 @@ class Neighbourhood {
   std::int32_t last_ = grid::BlockTable::none;
 };
 
-/// Faces hold what lies on them, so that round-off does not take a node off a mirror plane.
+/// Returns whether a position is inside of the domain, including its faces with a tolerance, so that round-off does not
+/// exclude a node on a mirror plane.
 bool inside(const grid::Geometry& geometry, const Vector3& position) {
   for (int a = 0; a < 3; ++a) {
     if (position[a] < geometry.lower[a] - geometry.tolerance() ||
@@ -119,8 +120,8 @@ bool inside(const grid::Geometry& geometry, const Vector3& position) {
   return true;
 }
 
-/// Returns whether every prescribed component is that of a mirror plane containing the node, which the grid
-/// enforces as well.
+/// Returns whether every prescribed component is that of a mirror plane containing the node, which the grid enforces as
+/// well.
 bool keeps_to_planes_only(const fem::Nodes& nodes, std::size_t a, const grid::Geometry& geometry) {
   for (int axis = 0; axis < 3; ++axis) {
     if ((nodes.constrained[a] & fem::constraint::axis(axis)) == 0) continue;
@@ -146,7 +147,7 @@ bool lies_on_mirror(const fem::Mesh& mesh, const fem::Facet& facet, const grid::
   return false;
 }
 
-/// Calls f(mesh index, node, index among the transition nodes) for every one of them.
+/// Calls f(mesh index, node, index among the interface nodes) for every interface node.
 template <class Meshes, class Function>
 void for_each_transition_node(Meshes& meshes, Function&& f) {
   std::size_t index = 0;
@@ -155,8 +156,8 @@ void for_each_transition_node(Meshes& meshes, Function&& f) {
   }
 }
 
-/// Adds what other ranks have in the blocks around the surfaces of this rank's meshes.
-/// @param sets  the same number on all ranks, not widened yet
+/// Adds the cells of other ranks in the blocks around the surfaces of the meshes of this rank.
+/// @param sets  the same number on all ranks, not yet widened
 void add_of_other_ranks(const std::vector<fem::Mesh>& meshes, const grid::Geometry& geometry,
                         std::span<Neighbourhood* const> sets, MPI_Comm communicator) {
   const auto ranks = static_cast<std::size_t>(parallel::size(communicator));
@@ -213,7 +214,7 @@ std::vector<fem::Facet> free_facets(const fem::Mesh& mesh, const grid::Geometry&
 }
 
 void mark_surface(fem::Mesh& mesh, const grid::Geometry& geometry) {
-  std::ranges::fill(mesh.nodes.on_surface, std::uint8_t{1});  // look at all
+  std::ranges::fill(mesh.nodes.on_surface, std::uint8_t{1});  // search all nodes
   const std::vector<fem::Facet> facets = free_facets(mesh, geometry);
   std::ranges::fill(mesh.nodes.on_surface, std::uint8_t{0});
   for (const fem::Facet& facet : facets) {
@@ -311,7 +312,7 @@ void distribute(const transfer::TransitionNodes& nodes, std::vector<fem::Mesh>& 
     motions[m].mean[a] = nodes.mean_velocity[i];
     motions[m].end[a] = nodes.new_velocity[i];
     heat[m][a] = nodes.heat[i] + nodes.contact_heat[i];
-    for (int axis = 0; axis < 3; ++axis) {  // on mirror planes the grid gives 0 but for round-off
+    for (int axis = 0; axis < 3; ++axis) {  // on mirror planes, the grid velocity is 0 up to round-off
       if ((to.constrained[a] & fem::constraint::axis(axis)) == 0) continue;
       to.velocity[a][axis] = motions[m].end[a][axis] = to.prescribed[a][axis];
     }
@@ -328,8 +329,8 @@ Vector3 stop_at_faces(fem::Nodes& nodes, const grid::Geometry& geometry, double 
       const auto face = static_cast<std::size_t>(2 * axis + (low ? 0 : 1));
       if (geometry.boundary[face] == grid::Boundary::outflow) continue;
       const double plane = low ? geometry.lower[axis] : geometry.upper(axis);
-      // The displacement ends on the face. Work is done on the mean velocity: of nodes on the grid
-      // that of the grid, which has seen the face.
+      // The displacement ends on the face. Work is computed with the mean velocity; for interface nodes this is that of
+      // the grid, which accounts for the face.
       motion.end[a][axis] = (plane - nodes.position[a][axis]) / dt;
       if (nodes.in_transition[a] != 0) continue;
       const double mass = nodes.mass[a], after = motion.end[a][axis],

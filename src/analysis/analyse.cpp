@@ -32,7 +32,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Finds the fragments of a snapshot. @throws InputError naming its file
+/// Finds the fragments of a snapshot. @throws InputError naming the snapshot file
 Fragments fragments_of(const SnapshotEntry& entry, const Snapshot& snapshot, const Run& run,
                        const Frame& frame, double link) {
   try {
@@ -42,18 +42,18 @@ Fragments fragments_of(const SnapshotEntry& entry, const Snapshot& snapshot, con
   }
 }
 
-/// Holds what the first snapshot tells about the bodies.
+/// Holds the data of the bodies taken from the first snapshot.
 struct Start {
   Frame frame;
-  std::vector<Extent> extents;        ///< of each body along the axis
+  std::vector<Extent> extents;        ///< of each body, along the axis
   std::optional<std::size_t> target;  ///< the first body that the projectile hits
   double projectile_mass = 0.0, projectile_radius = 0.0, particle_mass = 0.0;
   std::vector<std::optional<Wall>> walls;  ///< of the bodies that may be perforated
-  bool planar = false;                     ///< the impact is planar: it makes neither craters nor holes
-  std::vector<std::uint64_t> near_axis;  ///< particles that begin within a quarter of the projectile's radius
+  bool planar = false;                     ///< planar impact: there are no craters or holes
+  std::vector<std::uint64_t> near_axis;    ///< particles starting within a quarter of the projectile radius
 };
 
-/// Returns whether all bodies fill the section of the domain, as in a planar impact.
+/// Returns whether all bodies fill the cross-section of the domain, as in a planar impact.
 bool is_planar(const Run& run, const Snapshot& first, const Frame& frame) {
   std::vector<Vector3> lower(run.bodies.size(), Vector3::Constant(std::numeric_limits<double>::infinity())),
       upper;
@@ -74,7 +74,7 @@ bool is_planar(const Run& run, const Snapshot& first, const Frame& frame) {
 }
 
 Start start_of(const Run& run, const Snapshot& first, const Options& options) {
-  // Where something moves at the start, the last snapshot says nothing about the axis.
+  // The last snapshot is needed for the axis only if no body moves at the start.
   std::optional<Snapshot> last;
   if (std::ranges::all_of(run.bodies, [](const BodyInput& body) { return body.velocity.isZero(0.0); })) {
     last = read_snapshot(run.snapshots.back());
@@ -105,7 +105,7 @@ Start start_of(const Run& run, const Snapshot& first, const Options& options) {
       start.near_axis.push_back(first.id[i]);
   }
   start.planar = is_planar(run, first, frame);
-  // What follows is measured about the point that an oblique flight hits.
+  // All following measures refer to the point hit by an oblique flight.
   if (start.target) start.frame = start.frame.at_face(start.extents[*start.target].lower);
   for (std::size_t b = 0; b < run.bodies.size(); ++b) {
     start.walls.emplace_back();
@@ -115,7 +115,7 @@ Start start_of(const Run& run, const Snapshot& first, const Options& options) {
   return start;
 }
 
-/// Median melted fraction of the material that began near the axis.
+/// Computes the median melted fraction of the material that started near the axis.
 Quantities axis_measures(const Snapshot& snapshot, const Start& start, const std::vector<BodyInput>& bodies) {
   const std::vector<double>* melted = snapshot.scalar("melted_fraction");
   if (melted == nullptr) return {};
@@ -134,8 +134,8 @@ Quantities axis_measures(const Snapshot& snapshot, const Start& start, const std
 
 void append(Quantities& row, Quantities more) { row.insert(row.end(), more.begin(), more.end()); }
 
-/// Measures craters, holes and perforation of the bodies that may be struck, and how deep those that fly at the first
-/// target have come.
+/// Measures craters, holes and perforation of the bodies that may be struck, and the penetration depth of the bodies
+/// flying at the first target.
 Quantities surface_measures(const Run& run, Start& start, const Snapshot& snapshot) {
   Quantities row;
   double perforated = nan;  // the first target
@@ -192,8 +192,8 @@ Quantities measure(const Run& run, Start& start, const Options& options, const O
   return row;
 }
 
-/// Front and radius are unknown from the time on at which the outermost debris comes within a cell of the
-/// border of the domain: what leaves cannot be followed.
+/// Sets front and radius to NaN from the time at which the outermost debris comes within a cell of the border of the
+/// domain, as debris that leaves cannot be followed.
 void end_at_the_border(const Run& run, const Frame& frame, Table& series) {
   const auto cut = [&](const char* outermost, std::initializer_list<const char*> names,
                        const std::function<double(double)>& limit) {
@@ -223,7 +223,7 @@ void end_at_the_border(const Run& run, const Frame& frame, Table& series) {
   });
 }
 
-/// Evenly spread indices, the first and the last among them.
+/// Returns evenly spread indices that include the first and the last.
 std::vector<std::size_t> spread(std::size_t n, int count) {
   std::vector<std::size_t> chosen;
   const auto m = std::min(static_cast<std::size_t>(std::max(count, 1)), n);
@@ -267,7 +267,7 @@ void write_radiographs(const Run& run, const Frame& frame, const Options& option
   }
 }
 
-/// Writes what programs that show the run need of its input, so that they do not read it by rules of their own.
+/// Writes the input that programs displaying the run need, so that they do not have to parse the case.
 void write_case(const Run& run, const hdf5::Group& root) {
   std::vector<std::string> names;
   for (const BodyInput& body : run.bodies) names.push_back(body.name);
@@ -294,12 +294,12 @@ void write_frame(const Run& run, const Start& start, const hdf5::Group& root) {
   }
 }
 
-/// Final values: the last row of the series and what is known only when all snapshots were seen.
+/// Collects the final values: the last row of the series, and values that require all snapshots.
 /// @param last  measures of the last snapshot
 Quantities final_values(const Table& series, const Quantities& last, const Run& run, const Start& start) {
   Quantities row;
   for (const Column& column : series.columns) {
-    // The series may end before its last row: the reason is that of the table then.
+    // The series may end before its last row; the default reason of the measure then applies.
     const auto found = std::ranges::find(last, column.name, &Quantity::name);
     const std::size_t dot = column.name.find('.');
     const double value = column.values.back();
@@ -310,7 +310,7 @@ Quantities final_values(const Table& series, const Quantities& last, const Run& 
   }
   const auto of = [&](const char* name) { return std::ranges::find(row, name, &Quantity::name); };
   for (const auto& [position, speed] : analysis::speeds) {
-    // A speed without the position that it belongs to would be one of the past.
+    // Without its position, a speed would be that of an earlier time.
     const double slope =
         std::isfinite(of(position)->value) ? final_slope(series["time"], series[position]) : nan;
     *of(speed) = measured(speed, slope);
@@ -332,7 +332,7 @@ Quantities final_values(const Table& series, const Quantities& last, const Run& 
   return row;
 }
 
-/// Says why values are missing.
+/// Logs why values are missing.
 void explain(const Quantities& values) {
   std::map<std::string, std::vector<std::string>> missing;
   for (const Quantity& value : values) {
@@ -341,7 +341,7 @@ void explain(const Quantities& values) {
   for (const auto& [text, names] : missing) log::info("not measured: {} ({})", fmt::join(names, ", "), text);
 }
 
-/// Says which bodies have no phases, whatever their temperature.
+/// Logs which bodies have no phases at any temperature.
 void explain_phases(const Run& run) {
   std::vector<std::string> names;
   for (const BodyInput& body : run.bodies) {
@@ -369,7 +369,8 @@ std::size_t body_named(const Run& run, const std::string& name) {
   return static_cast<std::size_t>(std::ranges::find(run.bodies, name, &BodyInput::name) - run.bodies.begin());
 }
 
-/// Plane of the loads asked for: before the face of a body by two cells, where what arrives still flies freely.
+/// Returns the plane of the requested loads: two cells before the face of the body, where arriving material is still in
+/// free flight.
 std::optional<Arrivals> arrivals_at(const Run& run, const Start& start, const Options& options) {
   if (!options.loads.empty()) {
     const std::size_t wall = body_named(run, options.loads);
@@ -470,7 +471,7 @@ void analyse(const Run& run, const Options& options, const fs::path& folder) {
   write_radiographs(run, frame, options, file.root);
   write_views(run, frame, options.views, file.root);
   file.close();
-  // Nothing is replaced before all of it is known.
+  // All output is computed before any existing file is replaced.
   for (const Table& table : tables) write_csv(table, folder);
   write_quantities(values, folder);
   partial.publish();

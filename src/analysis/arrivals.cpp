@@ -13,7 +13,7 @@ void Arrivals::add(const Snapshot& snapshot) {
     while (k < snapshot.size() && snapshot.id[k] < id) ++k;
     const double to_plane = position_ - frame_.axial(before_.position[i]);
     if (!(to_plane > 0.0) || before_.body[i] == wall_ || beyond_.contains(id)) continue;
-    Vector3 travel = interval * before_.velocity[i];  // of what has left the domain since: in free flight
+    Vector3 travel = interval * before_.velocity[i];  // if it has left the domain: free flight
     if (k < snapshot.size() && snapshot.id[k] == id) travel = snapshot.position[k] - before_.position[i];
     if (!(frame_.axial(travel) >= to_plane)) continue;
     const double part = to_plane / frame_.axial(travel);
@@ -21,7 +21,7 @@ void Arrivals::add(const Snapshot& snapshot) {
     hits_.push_back(hit_of(frame_, before_.position[i] + part * travel, before_.time + part * interval,
                            before_.mass[i], before_.velocity[i]));
   }
-  // What lies beyond has passed, or began there: it does not count when it comes back.
+  // Particles beyond the plane have passed it or started there; they do not count when they return.
   for (std::size_t k = 0; k < snapshot.size(); ++k) {
     if (frame_.axial(snapshot.position[k]) >= position_) beyond_.insert(snapshot.id[k]);
   }

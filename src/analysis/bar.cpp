@@ -15,7 +15,7 @@
 namespace whipple::analysis {
 namespace {
 
-/// Fraction of a layer that material fills within a radius.
+/// Computes the fraction of a layer that is filled with material within a radius.
 double core_fraction(const RingField& field, std::size_t layer, double radius) {
   double filled = 0.0, area = 0.0;
   for (std::size_t ring = 0; ring < field.rings(); ++ring) {
@@ -26,14 +26,14 @@ double core_fraction(const RingField& field, std::size_t layer, double radius) {
   return filled / area;
 }
 
-/// Diameters of circles with the cross-sections of layers, and where the last layer ends.
+/// Holds the diameters of the circles with the cross-sectional areas of the layers, and the end of the last layer.
 struct Profile {
   std::vector<double> diameter;
   double end;
 };
 
-/// Layers of thickness `size` above `lower`.
-/// @param may_stand_off  look whether the material ends before the wall, and begin there
+/// Computes the diameters in layers of thickness `size` above `lower`.
+/// @param may_stand_off  check whether the material ends before the wall, and begin the layers there
 Profile diameters(const Snapshot& snapshot, const Frame& frame, std::size_t body, double size, double lower,
                   double upper, bool wall_at_upper, bool may_stand_off) {
   double radius = 0.0;
@@ -48,7 +48,7 @@ Profile diameters(const Snapshot& snapshot, const Frame& frame, std::size_t body
     result[k] = 2.0 * std::sqrt(field.cross_section(k) / std::numbers::pi);
   }
   if (!may_stand_off || result.size() < 3) return {std::move(result), upper};
-  // A bar that has rebounded may leave a few particles at the wall: layers that are nearly empty are not its end.
+  // A rebounded bar may leave a few particles at the wall: nearly empty layers are not its end.
   constexpr std::size_t looked_at = 12;  // layers
   const auto near = std::span(result).last(std::min(looked_at, result.size()));
   const double widest = *std::ranges::max_element(near);
@@ -59,8 +59,8 @@ Profile diameters(const Snapshot& snapshot, const Frame& frame, std::size_t body
     const double gap = (static_cast<double>(result.size() - 1 - last) - share(last + 1)) * size;
     return diameters(snapshot, frame, body, size, lower - gap, upper - gap, true, true);
   }
-  // It stands a part of a cell before the wall: the layer there is not full, at the axis either. The layers begin at
-  // the bar's face then.
+  // The bar ends a fraction of a cell before the wall: the layer there is not full, even on the axis. The layers then
+  // begin at the face of the bar.
   const double core = 0.25 * result[last - 1], full = core_fraction(field, last - 1, core);
   const double filled = full > 0.0 ? core_fraction(field, last, core) / full : 1.0;
   if (filled > least_filled && filled < 1.0) {
@@ -70,7 +70,7 @@ Profile diameters(const Snapshot& snapshot, const Frame& frame, std::size_t body
   return {std::move(result), upper};
 }
 
-/// Twice the distance from the axis beyond which a thousandth of the mass of a body lies, and half a particle.
+/// Returns twice the distance from the axis that 0.1 % of the mass of a body exceeds, plus one particle spacing.
 double largest_diameter(const Snapshot& snapshot, const Frame& frame, std::size_t body, double spacing) {
   std::vector<std::pair<double, double>> places;  // radius, mass
   double left_out = 0.0;
@@ -111,12 +111,13 @@ Table diameter_profile(const Snapshot& snapshot, const Frame& frame, const Run& 
 
 Quantities bar_measures(const Snapshot& snapshot, const Frame& frame, std::size_t body,
                         const BodyInput& input, double cell_size, double diameter_at, bool held) {
-  // Axial coordinates grow towards the wall: the bar lies below it. What does not fly at it is no bar.
+  // Axial coordinates increase towards the wall, so the bar is below it. A body that does not fly at the wall is not a
+  // bar.
   if (!frame.wall || !(frame.axial(input.velocity) > 0.0)) return {};
   const Extent extent = axial_extent(snapshot, frame, body, input.spacing);
-  if (!std::isfinite(extent.length())) return {};  // nothing of it is left
+  if (!std::isfinite(extent.length())) return {};  // no material of the body is left
   const double size = cell_size;
-  // A bar that has not arrived, or has rebounded, ends in free space; within a cell of the wall, where it is not full.
+  // A bar that has not arrived, or has rebounded, has a free end, even within the last cell before the wall.
   const double face = *frame.wall - extent.upper > 0.5 * size ? extent.upper : *frame.wall;
   const double lower = face - std::ceil((face - extent.lower) / size + 1.0) * size;
   const auto [d, foot] = diameters(snapshot, frame, body, size, lower, face, true, !held);
@@ -170,9 +171,9 @@ Quantities spall_measures(const Snapshot& first, const Snapshot& last, const Fra
   }
   std::sort(material.begin(), material.end());
   const double length = axial_extent(first, frame, body, input.spacing).length();
-  // Gaps, from the foremost on, that have at least a layer of particles ahead of them and behind: a single particle
-  // is none. Their width is what is left of the distance of two layers beyond the spacing of the particles; at less
-  // than half a spacing the material is stretched, not parted.
+  // Considers gaps from the foremost one backwards that have at least one layer of particles ahead and behind: a single
+  // particle does not make a gap. The width is the distance of the two layers minus the particle spacing; below half a
+  // spacing the material is stretched, not separated.
   struct Gap {
     double width, ahead;
   };
@@ -186,7 +187,7 @@ Quantities spall_measures(const Snapshot& first, const Snapshot& last, const Fra
     gaps.push_back({width, ahead});
     largest = std::max(largest, width);
   }
-  // Metal often parts on several planes at once; the layer that flies off ends at the foremost.
+  // Metal often separates on several planes at once; the foremost gap bounds the spalled layer.
   constexpr double is_open = 0.5;  // of the largest gap
   const auto foremost =
       std::ranges::find_if(gaps, [&](const Gap& gap) { return gap.width >= is_open * largest; });
@@ -197,11 +198,11 @@ Quantities spall_measures(const Snapshot& first, const Snapshot& last, const Fra
 
 Quantities rod_measures(const Snapshot& first, const Snapshot& last, std::size_t body, const BodyInput& input,
                         double cell_size) {
-  constexpr double follows = 0.9;  // of the initial speed: material that still flies with the rod
+  constexpr double follows = 0.9;  // fraction of the initial speed: material still moving with the rod
   const double speed = input.velocity.norm();
   if (!(speed > 0.0)) return {};
   const Vector3 direction = input.velocity / speed;
-  // Mass in layers of a cell along the direction of flight, from the rearmost one on, and its momentum.
+  // Holds mass and momentum in layers of one cell along the direction of flight, from the rearmost layer forward.
   struct Layers {
     double rear;
     std::vector<double> mass, momentum;

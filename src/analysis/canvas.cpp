@@ -9,12 +9,12 @@
 namespace whipple::analysis {
 namespace {
 
-constexpr double ambient = 0.42;  // fraction of the light that comes from everywhere
+constexpr double ambient = 0.42;  // fraction of the light that is ambient
 
-/// Direction of the light: from the upper left in front.
+/// Returns the direction of the light: from the upper left in front.
 Vector3 light_direction() { return {-0.4, 0.55, 0.73}; }
 
-/// Light of a surface with a unit normal.
+/// Returns the brightness of a surface with a unit normal.
 double lit(const Vector3& normal) {
   return ambient + (1.0 - ambient) * std::max(0.0, normal.dot(light_direction()));
 }
@@ -24,8 +24,7 @@ double lit(const Vector3& normal) {
 std::vector<Face> surface_faces(std::span<const Corners> elements) {
   constexpr std::array<std::array<std::size_t, 4>, 6> faces_of_hexahedron = {
       {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
-  using Key =
-      std::array<std::uint32_t, 4>;  // corners in ascending order: the same for both elements of a face
+  using Key = std::array<std::uint32_t, 4>;  // ascending corners: equal for both elements of a face
   std::vector<Face> all;
   std::vector<std::pair<Key, std::uint32_t>> keys;
   for (std::uint32_t e = 0; e < elements.size(); ++e) {
@@ -69,7 +68,7 @@ void Canvas::sphere(const Vector3& centre, double radius, std::uint32_t label) {
   constexpr double largest =
       40.0;  // pixels: particles of coarse models touch, and single ones do not hide the others
   const double r = std::clamp(std::nearbyint(radius), 1.0, largest);
-  const double reach = r + 0.45;  // rounds the outline; the smallest have no gaps between them
+  const double reach = r + 0.45;  // rounds the outline; the smallest spheres leave no gaps
   const double column = std::floor(centre[0]), row = std::floor(centre[1]);
   for (double dy = -r; dy <= r; dy += 1.0) {
     for (double dx = -r; dx <= r; dx += 1.0) {
@@ -82,7 +81,7 @@ void Canvas::sphere(const Vector3& centre, double radius, std::uint32_t label) {
 }
 
 void Canvas::faces(std::span<const std::array<Vector3, 4>> corners, std::span<const std::uint32_t> labels) {
-  constexpr double smallest_with_edges = 7.0;  // pixels: edges of smaller elements would hide all else
+  constexpr double smallest_with_edges = 7.0;  // pixels: edges of smaller elements would hide everything else
   if (corners.empty()) return;
   std::vector<double> sizes;
   for (const auto& face : corners) {
@@ -96,7 +95,7 @@ void Canvas::faces(std::span<const std::array<Vector3, 4>> corners, std::span<co
   }
 }
 
-/// The edges p-q and q-r are those of an element, r-p is the diagonal of its face.
+/// Draws a triangle whose edges p-q and q-r are edges of an element; r-p is the diagonal of its face.
 void Canvas::triangle(const Vector3& p, const Vector3& q, const Vector3& r, std::uint32_t label, bool edged) {
   const Vector3 normal = (q - p).cross(r - p);
   const double twice = normal[2];         // area in the picture
@@ -127,7 +126,7 @@ void Canvas::triangle(const Vector3& p, const Vector3& q, const Vector3& r, std:
 
 void Canvas::shade(double fading) {
   constexpr double slope = 24.0,
-                   strength = 0.6;     // pixels of depth over which a neighbour takes light; of all of them
+                   strength = 0.6;     // depth (pixels) at which a neighbour darkens fully; by all of them
   constexpr std::ptrdiff_t reach = 2;  // pixels to the neighbours
   double nearest = -std::numeric_limits<double>::infinity(), farthest = -nearest;
   for (std::size_t pixel = 0; pixel < seen_.size(); ++pixel) {

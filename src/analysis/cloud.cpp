@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::array<const char*, 4> phases = {"solid", "melting", "liquid", "vapour"};
 
-/// Sums over particles; momentum along the axis. `warm`: mass of those that have a temperature (trusses have none);
-/// `phased`: mass of those whose equation of state has phases.
+/// Holds sums over particles; the momentum is axial. `warm`: mass of the particles with a temperature (trusses have
+/// none); `phased`: mass of the particles whose equation of state has phases.
 struct Sums {
   double mass = 0, momentum = 0, kinetic = 0, internal = 0, heat = 0, melted = 0, vaporised = 0, failed = 0;
   double warm = 0, phased = 0;
@@ -38,7 +38,7 @@ struct Sums {
   }
 };
 
-/// The fields that the sums are made of; nullptr if not written.
+/// Holds the fields that enter the sums; nullptr if not written.
 struct Fields {
   const Snapshot& snapshot;
   std::span<const BodyInput> bodies = {};
@@ -221,7 +221,7 @@ Quantities body_measures(const Snapshot& snapshot, const Frame& frame, std::size
                (sums.momentum + frame.axial(outflow.momentum)) / (sums.mass + outflow.mass));
   if (!(sums.mass > 0.0)) return outflow.mass > 0.0 ? Quantities{mean, left} : Quantities{};
   const Extent extent = axial_extent(snapshot, frame, body, input.spacing);
-  // Particles whose centre lies within one spacing of the foremost one: its outermost layer.
+  // Particles whose centre is within one spacing of the foremost one: the outermost layer.
   const Sums surface = sum(fields, frame, [&](std::size_t i) {
     return snapshot.body[i] == body && frame.axial(snapshot.position[i]) > extent.upper - input.spacing;
   });

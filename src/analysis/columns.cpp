@@ -36,7 +36,7 @@ Columns::Columns(const Snapshot& first, const Frame& frame, std::size_t body, do
       mirrored_[a][0] = true;
       lower_[a] = 0.0;
     }
-    // Columns begin at a mirror plane, so that none is cut by it.
+    // Columns begin at a mirror plane, so that no column is cut by it.
     for (const Plane& plane : frame.planes) {
       if (plane.axis != transverse_[a]) continue;
       mirrored_[a] = {lower_[a] - plane.position < size && lower_[a] >= plane.position,
@@ -54,7 +54,7 @@ Columns::Columns(const Snapshot& first, const Frame& frame, std::size_t body, do
   const auto whole = [&](std::ptrdiff_t i, std::ptrdiff_t j) {
     const std::array<std::ptrdiff_t, 2> at = {i, j};
     for (std::size_t a = 0; a < 2; ++a) {
-      // Beyond a mirror plane the body goes on.
+      // Beyond a mirror plane the body continues.
       if (at[a] < 0) return mirrored_[a][0];
       if (at[a] >= count_[a]) return mirrored_[a][1];
     }
@@ -89,7 +89,7 @@ std::vector<double> Columns::thickness(const Snapshot& snapshot, const Vector3& 
       first[a] = static_cast<std::ptrdiff_t>(std::floor(x));
       upper[a] = x - std::floor(x);
     }
-    // Beyond a mirror plane lies the image of the outermost column.
+    // The neighbour beyond a mirror plane is the image of the outermost column.
     const auto folded = [&](std::size_t a, std::ptrdiff_t c) {
       if (c == -1 && mirrored_[a][0]) return std::ptrdiff_t{0};
       if (c == count_[a] && mirrored_[a][1]) return count_[a] - 1;

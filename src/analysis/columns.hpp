@@ -9,29 +9,30 @@
 
 namespace whipple::analysis {
 
-/// Measures the thickness of the material of a body along the axis, in columns over the face of the body: tells how
-/// much of a plate is left anywhere, wherever it was hit.
+/// Measures the thickness of the material of a body along the axis, in columns over its face: the minimum thickness
+/// left in a plate, regardless of the point of impact.
 ///
-/// Columns near the rim do not count, nor do those where the body was thinner at the start: the margin is a twentieth
-/// of the lesser width of the face, at least a column.
+/// Excludes columns near the rim and columns where the body was thinner at the start. The margin is a twentieth of the
+/// smaller width of the face, at least one column.
 class Columns {
  public:
+  /// Sets up the columns from the first snapshot.
   /// @param size  edge of the columns, m
   Columns(const Snapshot& first, const Frame& frame, std::size_t body, double size);
 
-  /// Returns the least fraction of its initial thickness that the chosen material has in a column that counts; 1 if
-  /// none counts.
+  /// Returns the minimum fraction of its initial thickness that the chosen material has in any column that counts; 1 if
+  /// no column counts.
   /// @param chosen  1: the particle counts
   /// @param shift   displacement of the body since the start, m
   [[nodiscard]] double least_left(const Snapshot& snapshot, const std::vector<std::uint8_t>& chosen,
                                   const Vector3& shift) const;
 
-  /// Returns the area (m^2, of the full problem; in plane strain of 1 m) of the columns that count in which less than a
+  /// Returns the area (m^2, of the full problem; in plane strain per 1 m) of the counting columns in which less than a
   /// fraction of the initial thickness is left.
   [[nodiscard]] double area_below(double fraction, const Snapshot& snapshot,
                                   const std::vector<std::uint8_t>& chosen, const Vector3& shift) const;
 
-  /// Returns whether a place of the first snapshot (m) lies in a column that counts.
+  /// Returns whether a point of the first snapshot (m) is in a column that counts.
   [[nodiscard]] bool inside(const Vector3& place) const;
   /// Returns whether any column counts.
   [[nodiscard]] bool any() const;

@@ -14,7 +14,7 @@
 namespace whipple::analysis {
 namespace {
 
-/// The fields that fragments are made of; nullptr if not written.
+/// Holds the fields that fragments are computed from; nullptr if not written.
 struct Written {
   const Snapshot& snapshot;
   Links links;
@@ -30,7 +30,7 @@ struct Written {
   }
 };
 
-/// Sums up a piece and completes it at the mirror planes that it lies on.
+/// Sums up a piece and completes it at the mirror planes that it touches.
 Fragment sum_up(std::span<const std::uint32_t> members, const Written& fields, const Frame& frame,
                 double link) {
   const Snapshot& snapshot = fields.snapshot;
@@ -61,7 +61,7 @@ Fragment sum_up(std::span<const std::uint32_t> members, const Written& fields, c
   fragment.position /= fragment.mass;
   fragment.velocity /= fragment.mass;
   for (std::size_t p = 0; p < frame.cuts.size(); ++p) {
-    // A fragment and its image within the linking length are one: half of it was in the model.
+    // A fragment within the linking length of its image is connected to it: half of the fragment was in the model.
     if (2.0 * to_plane[p] >= link) {
       fragment.copies *= 2.0;
       continue;
@@ -86,7 +86,7 @@ Fragments find_fragments(const Snapshot& snapshot, std::span<const BodyInput> bo
   for (std::uint32_t i = 0; i < snapshot.size(); ++i) {
     const std::uint16_t b = snapshot.body[i];
     found.of_body[b].mass += frame.images() * snapshot.mass[i];
-    // A gas has no pieces, vapour neither.
+    // Gases and vapour form no pieces.
     if (!bodies[b].condensed || (fields.phase != nullptr && (*fields.phase)[i] == 3.0)) continue;
     condensed[b].push_back(i);
   }
@@ -103,7 +103,7 @@ Fragments find_fragments(const Snapshot& snapshot, std::span<const BodyInput> bo
       failed.push_back(fields.has_failed(i));
     }
     const std::vector<std::uint32_t> piece = pieces_of(points, failed, link);
-    // Members of one piece behind each other, in the order of the particle numbers; loose ones at the end.
+    // Groups the members of each piece, in the order of the particle numbers, with loose particles at the end.
     std::vector<std::uint32_t> order(mine.size()), begins, members;
     std::iota(order.begin(), order.end(), 0U);
     std::stable_sort(order.begin(), order.end(), [&](auto x, auto y) { return piece[x] < piece[y]; });
@@ -127,7 +127,7 @@ Fragments find_fragments(const Snapshot& snapshot, std::span<const BodyInput> bo
     }
     for (const Fragment& fragment : all) {
       const double in_all = fragment.copies * fragment.mass;
-      // What lies on a mirror plane has as many particles again beyond it.
+      // A fragment on a mirror plane has as many particles again beyond it.
       if (static_cast<double>(fragment.intact) * frame.images() / fragment.copies < least_particles) {
         of.loose += in_all;
         continue;
@@ -253,7 +253,7 @@ Quantities fragment_measures(const std::vector<Fragment>& fragments, double proj
     mass += f.copies * f.mass;
   }
   const double largest = debris.empty() ? 0.0 : debris.front().first;
-  // Masses are multiples of that of a particle: half of one below the least takes the place of the sum over
+  // Masses are multiples of the particle mass; a minimum smaller by half a particle mass approximates the sum over
   // multiples (Clauset et al., eq. 3.7).
   const std::span<const std::pair<double, double>> smaller =
       debris.empty() ? std::span<const std::pair<double, double>>{} : std::span(debris).subspan(1);

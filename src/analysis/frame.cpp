@@ -66,7 +66,7 @@ bool Frame::mirrored(int direction) const {
 
 namespace {
 
-/// Momentum over mass of every body of a snapshot.
+/// Computes the momentum over the mass of every body of a snapshot.
 std::vector<Vector3> mean_velocities(const Run& run, const Snapshot& snapshot) {
   std::vector<Vector3> momentum(run.bodies.size(), Vector3::Zero());
   std::vector<double> mass(run.bodies.size(), 0.0);
@@ -106,12 +106,12 @@ Frame find_frame(const Run& run, const Snapshot& first, std::optional<int> axis,
   } else {
     spread.maxCoeff(&frame.axis);
   }
-  // Where nothing moves initially there is no flight to point along: the axis is that of the domain.
+  // If nothing moves initially, there is no direction of flight: the axis is that of the domain.
   frame.sign = at_rest || fastest[frame.axis] >= 0.0 ? 1.0 : -1.0;
   Vector3 approach = run.bodies.size() > 1 ? Vector3(fastest - velocity[slowest]) : fastest;
   if (at_rest && approach[frame.axis] < 0.0) approach = -approach;
   (at_rest ? frame.parting_speed : frame.impact_speed) = approach.norm();
-  // Mean velocities of the sections of rings have a component away from the axis, along which nothing flies.
+  // Mean velocities of ring sections have a radial component, along which nothing flies.
   if (run.dimension == grid::Dimension::axisymmetric) approach = Vector3(approach[0], 0.0, 0.0);
   if (approach[frame.axis] != 0.0) {
     frame.direction = approach / std::abs(approach[frame.axis]);
@@ -135,7 +135,7 @@ Frame find_frame(const Run& run, const Snapshot& first, std::optional<int> axis,
     const bool flown_at = a == frame.axis && !at_rest && faces[frame.sign > 0.0 ? 1 : 0];
     if (plane && !slice && !flown_at) frame.cuts.push_back({a, *plane});
     if (a == frame.axis) {
-      // The projectile flies against it: the face of a wall, not of a model cut in halves.
+      // The projectile flies against this face: it is a wall, not the mirror plane of a half model.
       const std::optional<Run::Wall>& ahead =
           run.walls[static_cast<std::size_t>(a)][frame.sign > 0.0 ? 1 : 0];
       if (ahead && !at_rest && frame.sign * ahead->position > frame.start) {
@@ -150,8 +150,8 @@ Frame find_frame(const Run& run, const Snapshot& first, std::optional<int> axis,
     frame.centre[a] = *plane;
   }
   if (run.dimension == grid::Dimension::axisymmetric)
-    frame.centre[1] = 0.0;  // not that of the sections of rings
-  // A half model is seen across its mirror plane, which may hold an oblique flight.
+    frame.centre[1] = 0.0;  // not the centre of the ring sections
+  // A half model is viewed across its mirror plane, which may contain an oblique flight.
   other.insert(other.end(), mirrored.begin(), mirrored.end());
   frame.transverse = {other[0], other[1]};
   if (frame.is_planar()) frame.transverse = {frame.axis == 0 ? 1 : 0, 2};

@@ -7,17 +7,17 @@
 #include "src/analysis/frame.hpp"
 #include "src/analysis/table.hpp"
 
-/// Tabulates what hits a plane, by distance from the axis and over time.
+/// Tables of the hits on a plane, by distance from the axis and over time.
 namespace whipple::analysis {
 
-/// A particle that hits a plane, counted as often as in the full problem.
+/// Describes a particle that hits a plane, multiplied by its copies in the full problem.
 struct Hit {
   double radius = 0.0;                              ///< distance from the axis, m
   double time = 0.0;                                ///< s
   double mass = 0.0, momentum = 0.0, energy = 0.0;  ///< kg, axial kg m/s, kinetic J
 };
 
-/// Makes the hit of a particle that flies through a place at a time.
+/// Creates the hit of a particle that flies through a point at a time.
 Hit hit_of(const Frame& frame, const Vector3& place, double time, double mass, const Vector3& velocity);
 
 /// Holds the loads on a plane.
@@ -27,11 +27,11 @@ struct Loads {
   Quantities totals;
 };
 
-/// Sums hits over rings and intervals of time.
-/// @param name   begins the names of tables and totals: "witness", "loads"
-/// @param plane  what is hit, for the descriptions of the tables
+/// Sums hits over rings and time intervals.
+/// @param name   prefix of the names of tables and totals: "witness", "loads"
+/// @param plane  the plane that is hit, for the descriptions of the tables
 /// @param ring   width of the rings, m
-/// @param times  number of intervals between first and last hit
+/// @param times  number of intervals between the first and the last hit
 Loads tabulate(const std::vector<Hit>& hits, const Frame& frame, const std::string& name,
                const std::string& plane, double ring, int times);
 

@@ -29,7 +29,7 @@ constexpr std::string_view gone = "all of the body has left the domain";
 // clang-format off
 constexpr auto table = std::to_array<Measure>({
     {"time", "s", "time of the snapshot", ""},
-    // The cloud.
+    // Debris cloud.
     {"front", "m", "axial coordinate beyond which 0.1 % of the debris lies", no_debris},
     {"foremost", "m", "axial coordinate of the foremost particle of the debris", no_debris},
     {"rear", "m", "axial coordinate below which 0.1 % of the debris lies", no_debris},
@@ -140,7 +140,7 @@ constexpr std::string_view of_body = ".BODY";
 Quantity made(const Measure& measure, std::string name, double value, std::string reason) {
   Quantity quantity{std::move(name), std::string(measure.unit), std::string(measure.meaning), value};
   if (std::isfinite(value)) return quantity;
-  quantity.value = nan;  // without a sign, not infinite
+  quantity.value = nan;  // removes the sign of NaN, and infinities
   quantity.reason = reason.empty() ? std::string(measure.missing) : std::move(reason);
   return quantity;
 }

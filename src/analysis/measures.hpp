@@ -10,23 +10,23 @@
 
 namespace whipple::analysis {
 
-/// Describes a measure of a run: an entry of quantities.csv, and a column of series.csv where it exists at every time.
+/// Describes a measure of a run: an entry of quantities.csv, and a column of series.csv if it exists at every time.
 struct Measure {
-  std::string_view name;     ///< ends in ".BODY" if every body has one of its own
+  std::string_view name;     ///< ends in ".BODY" if there is one for every body
   std::string_view unit;     ///< SI
   std::string_view meaning;  ///< one phrase
-  std::string_view missing;  ///< reason why it is NaN, unless a more particular one is given; empty: never is
+  std::string_view missing;  ///< default reason why it is NaN; empty: it never is
 };
 
 /// Lists all measures, each once.
 std::span<const Measure> measures();
 
-/// Makes the quantity of a measure of the table.
+/// Creates the quantity of a measure of the table.
 /// @param reason  why the value is NaN, instead of the reason of the table
 /// @throws InternalError if the table has no such measure
 Quantity measured(std::string_view name, double value, std::string reason = {});
 
-/// Makes the quantity of a measure "NAME.BODY" of the table for a body.
+/// Creates the quantity of a measure "NAME.BODY" of the table for a body.
 /// @param reason  why the value is NaN, instead of the reason of the table
 /// @throws InternalError if the table has no such measure
 Quantity measured(std::string_view name, const std::string& body, double value, std::string reason = {});
@@ -34,7 +34,7 @@ Quantity measured(std::string_view name, const std::string& body, double value, 
 /// Writes the table of all measures for docs/manual/output.md.
 std::string measures_as_markdown();
 
-/// Writes FOLDER/quantities.csv: quantity, value, unit, meaning, and the reason where the value is NaN.
+/// Writes FOLDER/quantities.csv: quantity, value, unit, meaning, and the reason if the value is NaN.
 /// @throws InputError if the file cannot be written
 void write_quantities(const Quantities& values, const std::filesystem::path& folder);
 

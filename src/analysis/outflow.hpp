@@ -17,9 +17,9 @@ struct Outflow {
 /// Holds the outflow of the bodies over time, from history.csv.
 class OutflowHistory {
  public:
-  /// A run without a history, or one that does not tell the bodies apart, has lost nothing that is known.
+  /// Reads the history of a run; without a history, or without columns per body, the outflow is zero.
   explicit OutflowHistory(const Run& run);
-  /// Returns the outflow of a body until a time (s).
+  /// Returns the accumulated outflow of a body up to a time (s).
   [[nodiscard]] Outflow at(std::size_t body, double time) const;
 
  private:
@@ -27,7 +27,7 @@ class OutflowHistory {
     double time = 0.0;
     std::vector<Outflow> bodies;
   };
-  std::vector<Row> rows_;  // those in which it grew
+  std::vector<Row> rows_;  // rows in which the outflow grew
 };
 
 }  // namespace whipple::analysis

@@ -21,8 +21,8 @@ PeakDecay::PeakDecay(const Snapshot& first, const Frame& frame, std::size_t body
 }
 
 void PeakDecay::add(const Snapshot& snapshot) {
-  // The solver keeps the greatest pressure of every step. The pressure of the snapshots alone misses the top
-  // of a front that passes between two of them.
+  // The solver records the maximum pressure over all steps. The pressure in the snapshots alone misses the peak of a
+  // front that passes between two of them.
   const std::vector<double>* pressure = snapshot.scalar("maximum_pressure");
   if (pressure == nullptr) pressure = snapshot.scalar("pressure");
   if (pressure == nullptr)

@@ -15,8 +15,8 @@
 namespace whipple::analysis {
 namespace {
 
-/// Union-find with the least index as root: roots only ever get a smaller parent, so a failed exchange is
-/// tried again from the new root and the final components are the same whatever the order.
+/// Implements union-find with the smallest index as root: roots only ever get a smaller parent, so a failed exchange is
+/// retried from the new root and the final components do not depend on the order.
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0U); }
@@ -50,7 +50,7 @@ class DisjointSets {
   std::vector<std::uint32_t> parent_;
 };
 
-/// Points sorted by cells of edge `size`; cells in the order of their keys.
+/// Holds points sorted by cells of edge `size`, with the cells in the order of their keys.
 class CellList {
  public:
   CellList(std::span<const Vector3> points, double size) : order_(points.size()), size_(size) {
@@ -77,14 +77,14 @@ class CellList {
     begins_.push_back(static_cast<std::uint32_t>(order_.size()));
   }
 
-  /// Returns the number of cells that hold points.
+  /// Returns the number of occupied cells.
   [[nodiscard]] std::size_t count() const { return keys_.size(); }
   [[nodiscard]] std::uint64_t key(std::size_t cell) const { return keys_[cell]; }
   [[nodiscard]] std::span<const std::uint32_t> members(std::size_t cell) const {
     return std::span(order_).subspan(begins_[cell], begins_[cell + 1] - begins_[cell]);
   }
-  /// Returns the points of the n-th of the 27 cells around the one with a key, of which number 13 is itself; from 14 on they
-  /// are half of the others, so that each pair of cells is met once.
+  /// Returns the points of the n-th of the 27 cells around the cell with a key. Number 13 is the cell itself; the
+  /// numbers from 14 on are half of its neighbours, so that each pair of cells is visited once.
   [[nodiscard]] std::span<const std::uint32_t> around(std::uint64_t key, int n) const {
     const auto step = [](int by, unsigned shift) {
       return static_cast<std::uint64_t>(static_cast<std::int64_t>(by)) << shift;
@@ -94,9 +94,10 @@ class CellList {
     if (found == keys_.end() || *found != key) return {};
     return members(static_cast<std::size_t>(found - keys_.begin()));
   }
-  /// Returns the key of the cell of a place, 21 bits per direction; nothing where no cell is beside it.
+  /// Returns the key of the cell that contains a position, 21 bits per direction; nothing if it is out of the range of
+  /// the keys, where no occupied cell is adjacent.
   [[nodiscard]] std::optional<std::uint64_t> key_at(const Vector3& place) const {
-    // One cell of margin, so that neighbours have keys too.
+    // One cell of margin, so that neighbours have keys as well.
     const Vector3 cell = ((place - lower_) / size_).array().floor() + 1.0;
     if ((cell.array() < 0.0).any() || (cell.array() > most + 2.0).any()) return std::nullopt;
     return (static_cast<std::uint64_t>(cell.x()) << 42U) | (static_cast<std::uint64_t>(cell.y()) << 21U) |
@@ -139,8 +140,8 @@ std::vector<std::uint32_t> components(std::span<const Vector3> points, const Cel
   return label;
 }
 
-/// Returns the nearest of the points of a list closer than `distance` to a place; of equally near ones that with the
-/// least coordinates, so that the order of the points does not matter. Nothing if there is none.
+/// Returns the point of a list nearest to a position and closer than `distance`; among equidistant points the one with
+/// the smallest coordinates, so that the order of the points does not matter. Returns nothing if there is none.
 std::optional<std::uint32_t> nearest(const Vector3& place, std::span<const Vector3> points,
                                      const CellList& cells, double distance) {
   const std::optional<std::uint64_t> key = cells.key_at(place);

@@ -8,20 +8,21 @@
 
 #include "src/core/base/tensor.hpp"
 
-/// Which points belong together (docs/theory/analysis.md, section 3).
+/// Connected pieces of sets of points (docs/theory/analysis.md, section 3).
 namespace whipple::analysis {
 
-/// Components of points closer than `distance` to each other: for every point the least index of its
-/// component. Cell list and concurrent union-find; the result does not depend on the number of threads.
+/// Finds the connected components of points closer than `distance` to each other and returns for every point the
+/// smallest index of its component. Uses a cell list and concurrent union-find; the result is independent of the number
+/// of threads.
 std::vector<std::uint32_t> connected_components(std::span<const Vector3> points, double distance);
 
 /// Marks a point that belongs to no piece.
 constexpr std::uint32_t loose = std::numeric_limits<std::uint32_t>::max();
 
-/// Divides points into pieces: intact ones closer than `distance` to each other are connected, and a failed one belongs to
-/// the piece of the nearest intact one closer than that. Returns for every point the least index of the intact ones of
-/// its piece, or `loose`. The result does not depend on the number of threads.
-/// @param failed  of every point whether it has failed
+/// Divides points into pieces: intact points closer than `distance` to each other are connected, and a failed point
+/// belongs to the piece of the nearest intact point within that distance. Returns for every point the smallest index of
+/// the intact points of its piece, or `loose`. The result is independent of the number of threads.
+/// @param failed  for every point whether it has failed
 std::vector<std::uint32_t> pieces_of(std::span<const Vector3> points, const std::vector<bool>& failed,
                                      double distance);
 

@@ -11,7 +11,7 @@
 namespace whipple::analysis {
 namespace {
 
-constexpr double widest = 40.0;  // pixels that one particle is spread over at most, along a direction
+constexpr double widest = 40.0;  // maximum number of pixels per direction over which one particle is spread
 
 /// Spreads `amount` evenly over a square of edge `width` around (x, y), all in pixels from the lower corner.
 void deposit(std::vector<double>& image, std::size_t rows, std::size_t columns, double x, double y,
@@ -63,7 +63,7 @@ void blur(std::vector<double>& image, std::size_t rows, std::size_t columns, dou
     total += w;
   }
   for (double& w : weight) w /= total;
-  // One line of `length` pixels a `stride` apart; zero beyond the picture.
+  // Filters one line of `length` pixels with the given stride; zero beyond the picture.
   const auto along = [&](std::size_t lines, std::size_t line_stride, std::size_t length, std::size_t stride) {
     parallel::for_each(lines, [&](std::size_t line) {
       double* first = image.data() + line * line_stride;
@@ -88,7 +88,7 @@ Radiograph take_radiograph(const Snapshot& snapshot, const Frame& frame, const P
   Radiograph picture;
   picture.time = snapshot.time;
   picture.pixel = options.pixel;
-  // Room for the blur, so that it takes no mass out of the picture.
+  // Margin for the blur, so that it moves no mass out of the picture.
   const double margin = 2.0 * options.spot + 4.0 * options.pixel;
   picture.lower_axial = limits.lower_axial - margin;
   picture.lower_up = limits.lower_up - margin;
@@ -111,14 +111,15 @@ Radiograph take_radiograph(const Snapshot& snapshot, const Frame& frame, const P
     const Vector3 offset = snapshot.position[i] - frame.centre;
     const double x = (frame.axial(offset) - picture.lower_axial) / options.pixel;
     const double up = offset[frame.transverse[0]], amount = per_area * snapshot.mass[i];
-    // A particle of vapour or of spray fills its volume, voids included.
+    // A particle of vapour or spray fills its volume, voids included.
     const double edge = std::clamp(frame.edge(volumes[i], snapshot.position[i]) / options.pixel, 1.0, widest);
     const auto add = [&](double height, double part) {
       deposit(image, picture.rows, picture.columns, x, (height - picture.lower_up) / options.pixel, edge,
               part * amount);
     };
     if (frame.dimension == grid::Dimension::axisymmetric) {
-      // A ring by points a pixel apart at equal angles, of which each stands for those before and behind the axis.
+      // A ring is represented by points about one pixel apart at equal angles; each represents those before and behind
+      // the axis.
       const int points =
           static_cast<int>(std::ceil(std::numbers::pi * std::abs(up) / (edge * options.pixel))) + 1;
       for (int k = 0; k < points; ++k)

@@ -13,8 +13,8 @@ struct RadiographOptions {
   std::vector<double> attenuation;  ///< mass attenuation coefficient of each body, m^2/kg
 };
 
-/// A picture in the plane of the axis (horizontal) and the first transverse direction (up), completed at the
-/// mirror planes. Rows from below.
+/// Holds a picture in the plane of the axis (horizontal) and the first transverse direction (up), completed at the
+/// mirror planes. Rows are ordered from the bottom.
 struct Radiograph {
   double time = 0.0;
   double lower_axial = 0.0, lower_up = 0.0, pixel = 0.0;
@@ -23,18 +23,18 @@ struct Radiograph {
   std::vector<double> transmission;                ///< exp(-sum of attenuation times areal density)
 };
 
-/// Limits of a picture: lower and upper axial coordinate, reach upward and downward from the axis, m.
+/// Holds the limits of a picture: lower and upper axial coordinate, extent upward and downward from the axis, m.
 struct PictureLimits {
   double lower_axial = 0.0, upper_axial = 0.0, lower_up = 0.0, upper_up = 0.0;
-  /// So that it holds all but 0.05 % of the mass, and the limits of another.
+  /// Extends the limits to include all but 0.05 % of the mass of a snapshot.
   void include(const Snapshot& snapshot, const Frame& frame);
 };
 
 Radiograph take_radiograph(const Snapshot& snapshot, const Frame& frame, const PictureLimits& limits,
                            const RadiographOptions& options);
 
-/// Separable Gaussian of standard deviation `sigma` (in pixels); the sum is kept but for what leaves the
-/// picture.
+/// Convolves an image with a separable Gaussian of standard deviation `sigma` (in pixels); the sum is conserved except
+/// for what leaves the picture.
 void blur(std::vector<double>& image, std::size_t rows, std::size_t columns, double sigma);
 
 }  // namespace whipple::analysis

@@ -47,8 +47,8 @@ void take_domain(const cases::Domain& domain, Run& run) {
   }
 }
 
-/// Reads what the copy of a material file in the run tells about phases. A file that is missing, lies elsewhere, or that
-/// this program does not accept, tells nothing.
+/// Reads phases and initial state from the copy of a material file in the run folder. Does nothing if the file is
+/// missing, is located elsewhere, or is not accepted by this program.
 void read_material_traits(const fs::path& folder, const std::string& name, BodyInput& body) {
   const fs::path file = folder / name;
   if (!fs::is_regular_file(file) || !lies_in(file, folder)) return;
@@ -61,8 +61,8 @@ void read_material_traits(const fs::path& folder, const std::string& name, BodyI
   }
 }
 
-/// Returns the mean section (m^2) of a body across a direction: its volume over its length along it; in two dimensions that
-/// of the rectangle around it (m).
+/// Returns the mean cross-section (m^2) of a body normal to a direction: its volume over its length along it; in two
+/// dimensions that of its bounding rectangle (m).
 double section_of(const cases::Shape& shape, const Vector3& direction, bool planar) {
   const cases::Shape::Bounds bounds = shape.bounds();
   Vector3 edge = bounds.upper - bounds.lower;
@@ -71,9 +71,9 @@ double section_of(const cases::Shape& shape, const Vector3& direction, bool plan
   return (planar ? edge[0] * edge[1] : shape.volume()) / length;
 }
 
-/// Returns the velocity (m/s) of the target: of the bodies that move alike and have the largest section across the flight;
-/// among equal ones the slowest, the longest along it, the last. Zero where walls, or bodies without a shape of their
-/// own, leave no choice.
+/// Returns the velocity (m/s) of the target: the body with the largest cross-section normal to the flight; among equal
+/// ones the slowest, then the longest along the flight, then the last. Returns zero where walls, or bodies without a
+/// shape, fix the frame.
 Vector3 velocity_of_target(const std::vector<cases::Body>& bodies, const Run& run) {
   const auto has_shape = [](const cases::Body& body) { return body.shape != nullptr; };
   if (bodies.size() < 2 || !std::ranges::all_of(bodies, has_shape)) return Vector3::Zero();
@@ -87,7 +87,7 @@ Vector3 velocity_of_target(const std::vector<cases::Body>& bodies, const Run& ru
   const Vector3 direction = flight.normalized();
   const bool planar = run.dimension != grid::Dimension::space;
   const auto rank = [&](const cases::Body& body) {
-    // A millionth is the round-off of what a case says twice.
+    // Relative differences below 1e-6 are round-off of equal values in the case.
     const auto rounded = [](double x) { return x > 0.0 ? std::round(1e6 * std::log(x)) : -1e300; };
     const cases::Shape::Bounds bounds = body.shape->bounds();
     return std::tuple(rounded(section_of(*body.shape, direction, planar)), -rounded(body.velocity.norm()),
@@ -108,7 +108,7 @@ void take_bodies(const std::vector<cases::Body>& bodies, Run& run) {
   run.frame_velocity = velocity_of_target(bodies, run);
   for (const cases::Body& body : bodies) {
     const Vector3 velocity = body.velocity - run.frame_velocity;
-    // An element counts as the eight particles that it may become.
+    // An element counts as the eight particles into which it may be converted.
     const cases::Discretization& made = body.discretization;
     const double spacing = made.has_particles()
                                ? run.cell_size / std::cbrt(static_cast<double>(made.per_cell))
@@ -126,7 +126,7 @@ std::vector<SnapshotEntry> read_index(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (entry.path().filename().string().ends_with(".particles.hdf.series")) found.push_back(entry.path());
   }
-  if (found.empty()) return {};  // the run has not come to its first snapshot
+  if (found.empty()) return {};  // the run has not yet written its first snapshot
   if (found.size() > 1) {
     throw InputError(fmt::format("{}: error: has {} files *.particles.hdf.series, expected one",
                                  folder.string(), found.size()));
@@ -149,7 +149,7 @@ std::vector<SnapshotEntry> read_index(const fs::path& folder) {
   return entries;
 }
 
-/// Values in the order of the particle numbers.
+/// Returns the values in the order of the particle numbers.
 template <class Value>
 std::vector<Value> sorted(const std::vector<Value>& values, const std::vector<std::uint32_t>& order) {
   std::vector<Value> result(order.size());
@@ -177,7 +177,7 @@ std::vector<double> as_reals(const hdf5::Group& data, const std::string& name,
   return widen(set.read_all<float>(list));
 }
 
-/// Checks what every measurement relies on: known bodies, finite positions and velocities, positive masses.
+/// Checks the prerequisites of all measures: valid bodies, finite positions and velocities, positive masses.
 /// @throws InputError naming the file and the particle
 void require_sound(const Snapshot& snapshot, const SnapshotEntry& entry) {
   for (std::size_t i = 0; i < snapshot.size(); ++i) {
@@ -245,7 +245,7 @@ std::vector<double> Snapshot::volumes() const {
 namespace {
 
 /// Appends the elements of the snapshot: eight points for each, at the natural coordinates (+-0.5)^3, and one for a
-/// bar, at its middle, with parts of its mass and the fields of its particles.
+/// bar, at its middle, with equal parts of its mass and the fields of the element.
 void append_elements(const fs::path& path, Snapshot& snapshot) {
   constexpr std::uint8_t vtk_line = 3;
   const hdf5::File file = hdf5::File::open(path);
@@ -260,7 +260,7 @@ void append_elements(const fs::path& path, Snapshot& snapshot) {
   std::iota(order.begin(), order.end(), 0U);
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return id[a] < id[b]; });
   std::vector<std::int64_t> corners = vtk.open_dataset("Connectivity").read_all<std::int64_t>();
-  // Those of each rank count from its first point.
+  // The corners of each rank count from its first point.
   const auto points_of = vtk.open_dataset("NumberOfPoints").read_all<std::int64_t>();
   const auto cells_of = vtk.open_dataset("NumberOfCells").read_all<std::int64_t>();
   const auto types = vtk.open_dataset("Types").read_all<std::uint8_t>({id.size(), 1});
@@ -290,7 +290,7 @@ void append_elements(const fs::path& path, Snapshot& snapshot) {
   for (std::int64_t node = 0; node < std::int64_t(nodes); ++node) {
     snapshot.nodes.push_back(Eigen::Map<const Eigen::Vector3f>(points.data() + 3 * node).cast<double>());
   }
-  // A node that ranks share is one of them from here on.
+  // Merges the copies of nodes shared by ranks.
   const auto node_id =
       vtk.open_group("PointData").open_dataset("node_id").read_all<std::uint64_t>({nodes, 1});
   std::unordered_map<std::uint64_t, std::uint32_t> first_of_node;
@@ -343,7 +343,7 @@ void append_elements(const fs::path& path, Snapshot& snapshot) {
   }
 }
 
-/// Brings all points into the order of their numbers.
+/// Sorts all points by their numbers.
 void sort_by_number(Snapshot& snapshot) {
   std::vector<std::uint32_t> order(snapshot.size());
   std::iota(order.begin(), order.end(), 0U);

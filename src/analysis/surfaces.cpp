@@ -14,8 +14,8 @@ std::size_t bins(double length, double size) {
   return static_cast<std::size_t>(std::max(std::ceil(length / size - 1e-9), 1.0));
 }
 
-/// Index of the lower of the two bins that share a value at `x` (in bins), and the fraction of the upper one; -1
-/// where the lower one lies outside.
+/// Holds the index of the lower of the two bins between which a value at `x` (in bins) is divided, and the fraction of
+/// the upper one; the index is -1 if the lower bin is outside.
 struct Split {
   std::ptrdiff_t lower;
   double upper_share;
@@ -25,14 +25,14 @@ Split split(double x) {
   return {static_cast<std::ptrdiff_t>(below), x - 0.5 - below};
 }
 
-/// Volume-weighted mean over the two innermost rings: a single ring holds few particles.
+/// Returns the volume-weighted mean over the two innermost rings: a single ring holds few particles.
 double on_axis(const RingField& field, std::size_t layer) {
   if (field.rings() < 2) return field.fraction(0, layer);
   const double a = field.ring_area(0), b = field.ring_area(1);
   return (a * field.fraction(0, layer) + b * field.fraction(1, layer)) / (a + b);
 }
 
-/// Depths (m) below `face` at which the material begins and ends that begins first on the axis; NaN where it does not.
+/// Holds the depths (m) below `face` at which the first material on the axis begins and ends; NaN if it does not.
 struct OnAxis {
   double begin = nan, end = nan;
 };
@@ -76,7 +76,7 @@ RingField::RingField(const Snapshot& snapshot, const Frame& frame, double size, 
     const Split r = split(frame.radius(snapshot.position[i]) / size);
     const Split z = split((frame.axial(snapshot.position[i]) - lower) / size);
     for (int dr = 0; dr < 2; ++dr) {
-      // Within half a bin of the axis everything belongs to the innermost ring.
+      // Within half a bin of the axis everything is assigned to the innermost ring.
       const std::ptrdiff_t ring = std::max<std::ptrdiff_t>(r.lower + dr, 0);
       if (ring >= static_cast<std::ptrdiff_t>(rings_)) continue;
       for (int dz = 0; dz < 2; ++dz) {
@@ -121,13 +121,13 @@ Crater measure_crater(const Snapshot& snapshot, const Frame& frame, std::size_t 
   for (std::size_t i = 0; i < snapshot.size(); ++i) {
     if (mine(i)) outermost = std::max(outermost, frame.radius(snapshot.position[i]));
   }
-  // Layer boundaries lie on the original surface; what stands out of it is not looked at.
+  // Layer boundaries coincide with the original surface; material protruding beyond it is ignored.
   const RingField field(snapshot, frame, cell_size, face, rear, outermost, mine);
   Crater crater;
   std::vector<double> along_axis(field.layers());
   for (std::size_t layer = 0; layer < field.layers(); ++layer) along_axis[layer] = on_axis(field, layer);
   crater.depth = first_surface(along_axis, cell_size);
-  // Radius in the two uppermost layers, continued to the surface.
+  // Radius in the two uppermost layers, extrapolated to the surface.
   std::array<double, 2> radius{};
   for (std::size_t layer = 0; layer < 2 && layer < field.layers(); ++layer) {
     std::vector<double> outward(field.rings());

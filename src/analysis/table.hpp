@@ -10,10 +10,10 @@
 
 namespace whipple::analysis {
 
-/// Marks a quantity that is not there to be measured.
+/// Marks a quantity that could not be measured.
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// One measured number.
+/// Holds one measured number.
 struct Quantity {
   std::string name;
   std::string unit;
@@ -30,27 +30,27 @@ struct Column {
   std::vector<double> values;
 };
 
-/// Numbers in columns, with labels of the rows or without.
+/// Holds numbers in columns, with or without row labels.
 struct Table {
   std::string name;     ///< of the CSV file and of the HDF5 group
   std::string meaning;  ///< one sentence
-  std::string label;    ///< what the labels are; empty: the rows have none
+  std::string label;    ///< meaning of the labels; empty: no labels
   std::vector<std::string> labels;
   std::vector<Column> columns;
 
   [[nodiscard]] std::size_t rows() const { return columns.empty() ? 0 : columns.front().values.size(); }
-  /// Adds a row; columns that a row lacks hold NaN there.
+  /// Adds a row; columns missing from the row are filled with NaN.
   void append(const Quantities& row, const std::string& row_label = {});
-  /// Values of a column. @throws InternalError if there is none
+  /// Returns the values of a column. @throws InternalError if there is none
   [[nodiscard]] const std::vector<double>& operator[](const std::string& column) const;
 };
 
-/// FOLDER/NAME.csv: a header "name [unit]", numbers with the shortest text that reads back to the same
+/// Writes FOLDER/NAME.csv: a header "name [unit]", numbers with the shortest text that converts back to the same
 /// double.
 /// @throws InputError if the file cannot be written
 void write_csv(const Table& table, const std::filesystem::path& folder);
 
-/// A group NAME with one data set per column; labels as attribute `labels`, one a line.
+/// Writes a group NAME with one dataset per column; the labels are stored as attribute `labels`, one per line.
 void write_hdf5(const Table& table, const hdf5::Group& parent);
 
 }  // namespace whipple::analysis

@@ -18,16 +18,17 @@ namespace whipple::analysis {
 namespace {
 
 constexpr const char* density = "density";
-constexpr double fading = 0.3;             // of the light, from the nearest to the farthest of what is seen
-constexpr double beyond_the_scale = 0.02;  // fraction of the mass that moves, at each end
+constexpr double fading = 0.3;  // of the brightness, from the nearest to the farthest visible point
+constexpr double beyond_the_scale = 0.02;  // fraction of the moving mass outside of the scale, at each end
 
-/// A field of the views. Its values are those of the points; of an element the mean of its points.
+/// Describes a field of the views. Its values are those of the points; the value of an element is the mean over its
+/// points.
 struct ShownField {
   const char* name;
-  bool on_scale = false;  ///< coloured by a scale, whose ends are quantiles; else by classes
+  bool on_scale = false;  ///< coloured by a scale with quantiles as ends; otherwise by classes
   std::vector<double> (*made)(const Snapshot&) = nullptr;  ///< null: the field of this name in the snapshot
 
-  /// Returns nothing if the snapshot does not have the field.
+  /// Returns the values of the field, nothing if the snapshot does not have it.
   [[nodiscard]] std::optional<std::vector<double>> values(const Snapshot& snapshot) const {
     if (made != nullptr) return made(snapshot);
     const std::vector<double>* stored = snapshot.scalar(name);
@@ -52,7 +53,7 @@ const ShownField fields[] = {
     {"burn_fraction", true},
 };
 
-/// Reads a snapshot and keeps what views show of it.
+/// Reads a snapshot and keeps the fields that the views show.
 Snapshot read_shown(const SnapshotEntry& entry) {
   Snapshot snapshot = read_snapshot(entry);
   std::erase_if(snapshot.scalars, [](const auto& scalar) {
@@ -62,10 +63,10 @@ Snapshot read_shown(const SnapshotEntry& entry) {
   return snapshot;
 }
 
-/// Lists what a snapshot shows: points, then elements, whose values are those of their first of eight points.
+/// Lists the items of a snapshot: points, then elements, each identified by the first of its eight points.
 struct Scene {
   const Snapshot& snapshot;
-  std::vector<std::size_t> points;    ///< that are no parts of elements
+  std::vector<std::size_t> points;    ///< those that are not part of elements
   std::vector<std::size_t> elements;  ///< first point of each
 
   explicit Scene(const Snapshot& of) : snapshot(of) {
@@ -92,7 +93,7 @@ struct Scene {
   }
 };
 
-/// The projection of all views: limits common to all times, so that growth is seen.
+/// Holds the projection of all views, with limits common to all times, so that growth is visible.
 struct Projection {
   const Frame& frame;
   PictureLimits limits;
@@ -102,12 +103,12 @@ struct Projection {
   [[nodiscard]] bool is_mirrored() const {
     return frame.mirrored(frame.transverse[0]) || frame.dimension == grid::Dimension::axisymmetric;
   }
-  /// Returns the axial coordinate, the one upward, and the one toward the viewer, m from the axis.
+  /// Returns the coordinates relative to the axis: axial, upward, and toward the viewer, m.
   [[nodiscard]] Vector3 coordinates(const Vector3& position) const {
     const Vector3 offset = position - frame.centre;
     return {frame.axial(offset), offset[frame.transverse[0]], -offset[frame.transverse[1]]};
   }
-  /// Returns the place in the picture (pixels). @param side  -1: of the image below the axis
+  /// Returns the position in the picture (pixels). @param side  -1: for the image below the axis
   [[nodiscard]] Vector3 place(const Vector3& coordinates, double side, bool from_outside) const {
     const bool both = from_outside && frame.mirrored(frame.transverse[1]);
     return {(coordinates[0] - limits.lower_axial) / pixel, (side * coordinates[1] - limits.lower_up) / pixel,
@@ -140,7 +141,7 @@ class CellCounts {
       : width_(width), deep_(planar ? 0 : 1) {
     for (const Vector3& x : positions) ++counts_[key(cell_of(x))];
   }
-  /// Returns the number of points in the cell of a place and in its neighbours.
+  /// Returns the number of points in the cell of a position and in its neighbours.
   [[nodiscard]] double around(const Vector3& x) const {
     const std::array<std::int64_t, 3> cell = cell_of(x);
     std::size_t points = 0;
@@ -164,7 +165,7 @@ class CellCounts {
     }
     return cell;
   }
-  /// Cells are within 100,000 of the origin; what is farther away shares the outermost ones.
+  /// Cells are limited to 100,000 from the origin; positions farther away are assigned to the outermost cells.
   static std::uint64_t key(const std::array<std::int64_t, 3>& cell) {
     constexpr std::int64_t middle = 1 << 20;
     return static_cast<std::uint64_t>(cell[0] + middle) << 42U |
@@ -176,8 +177,8 @@ class CellCounts {
   std::unordered_map<std::uint64_t, std::size_t> counts_;
 };
 
-/// Diameters (m) of the points of a scene; those of thin debris and gas have at most some pixels, or the median of all
-/// edges, as they would hide what is behind.
+/// Returns the diameters (m) of the points of a scene, limited to 24 pixels or to the median edge, whichever is larger:
+/// points of thin debris and gas would otherwise hide the items behind.
 std::vector<double> diameters_of(const Scene& scene, const Frame& frame, double pixel) {
   constexpr double widest = 24.0;  // pixels
   const Snapshot& snapshot = scene.snapshot;
@@ -197,8 +198,8 @@ std::vector<double> diameters_of(const Scene& scene, const Frame& frame, double 
   return diameters;
 }
 
-/// Draws a scene; labels are the numbers of its items. @param outside  from outside; else cut along the plane of sight
-/// through the axis
+/// Draws a scene; labels are the indices of its items. @param outside  view from outside; otherwise a section through
+/// the axis along the picture plane
 Canvas draw(const Scene& scene, const std::vector<double>& diameters, const Projection& projection,
             bool outside) {
   const Snapshot& snapshot = scene.snapshot;
@@ -239,7 +240,8 @@ Canvas draw(const Scene& scene, const std::vector<double>& diameters, const Proj
   return canvas;
 }
 
-/// Writes a picture: `light`, `seen` (0: nothing, else the number of an item, from 1 on, in the lists of the fields).
+/// Writes a picture: `light` and `seen` (0: nothing, otherwise the number of an item, from 1 on, in the lists of the
+/// fields).
 void write_picture(const Canvas& canvas, const Scene& scene, std::span<const ShownField> shown,
                    const hdf5::Group& group) {
   constexpr int deflate = 4;
@@ -265,9 +267,8 @@ void write_picture(const Canvas& canvas, const Scene& scene, std::span<const Sho
   }
 }
 
-/// Writes the ends of the scale of a field. Of the mass that moves at a time all but a fraction lies between two values;
-/// the ends are the widest of all times but the first, which is before the impact. A field that is zero everywhere has
-/// no scale.
+/// Writes the ends of the scale of a field: the widest range over all times except the first, which is before the
+/// impact, between two quantiles over the moving mass. A field that is zero everywhere has no scale.
 void write_scale(const ShownField& field, const std::vector<Snapshot>& snapshots, const Frame& frame,
                  const hdf5::Group& group) {
   std::vector<double> ends;
@@ -279,7 +280,7 @@ void write_scale(const ShownField& field, const std::vector<Snapshot>& snapshots
     is_zero = is_zero && std::ranges::all_of(*values, [](double value) { return value == 0.0; });
     if (k == 0 && snapshots.size() > 1) continue;
     const auto moves = [&](std::size_t i) { return snapshot.velocity[i].norm() > 0.05 * frame.impact_speed; };
-    bool any = false;  // cold walls at rest set no scale, unless there is nothing else
+    bool any = false;  // stationary cold walls set no scale, unless there is nothing else
     for (std::size_t i = 0; i < snapshot.size() && !any; ++i) any = moves(i);
     std::vector<std::pair<double, double>> value_and_mass;
     for (std::size_t i = 0; i < snapshot.size(); ++i) {
@@ -313,12 +314,12 @@ std::vector<std::size_t> shown_snapshots(const std::vector<SnapshotEntry>& entri
 
 std::vector<double> drawn_diameters(const std::vector<Vector3>& positions, const std::vector<double>& edges,
                                     bool planar) {
-  // Mean distances are those in the smallest of some boxes, three cells wide, that holds enough points: small for compact
-  // fragments, large for thin debris. Widths of the cells in median edges.
+  // Computes mean distances in the smallest of several boxes, three cells wide, that holds enough points: small for
+  // compact fragments, large for thin debris. The widths of the cells are in median edges.
   constexpr std::array widths = {1.5, 3.0, 6.0};
   const double enough = planar ? 5.0 : 12.0;
   constexpr double connected = 5.0,
-                   apart = 7.0;  // edges: distances up to which spheres reach, and from which they do not
+                   apart = 7.0;  // edges: distances up to which spheres touch, and from which they do not
   std::vector<double> diameters = edges;
   if (positions.empty()) return diameters;
   std::vector<double> sorted = edges;
@@ -341,7 +342,8 @@ std::vector<double> drawn_diameters(const std::vector<Vector3>& positions, const
       return true;
     });
   }
-  // The cross-section of a ring of thin debris grows without bound: alone, it is not a ball of that width.
+  // The cross-section of a ring of thin debris grows without bound; an isolated one is not drawn as a ball of that
+  // width.
   if (planar) {
     for (const std::size_t i : left) diameters[i] = std::min(diameters[i], edge);
   }

@@ -14,20 +14,21 @@
 namespace whipple::analysis {
 namespace {
 
-/// Two lattice planes a reach apart do not touch: a layer of failed particles between them separates.
+/// Reduces the linking length so that two lattice planes one length apart do not touch: a layer of failed particles
+/// between them separates.
 constexpr double touching = 0.99;
 
-/// Fraction of the thickness below which a place of a wall counts as damaged.
+/// Sets the fraction of the thickness below which a point of a wall counts as damaged.
 constexpr double undamaged = 0.9;
 
-/// Smallest distance within which particles of a body touch: a cell, within which they interact through the grid, or
-/// half as much again as their initial spacing, if that is more.
+/// Returns the distance within which particles of a body touch: one cell, within which they interact through the grid,
+/// or 1.5 initial spacings if that is larger.
 double reach_of(const Run& run, std::size_t body) {
   return std::max(run.cell_size, 1.5 * run.bodies[body].spacing);
 }
 
-/// Frame of a body: along the axis of the flight, or along the direction in which a plate is thin, if the flight has a
-/// component in it.
+/// Returns the frame of a body: along the axis of the flight, or along the thin direction of a plate if the flight has
+/// a component in that direction.
 Frame frame_of(const Run& run, const Snapshot& first, const Frame& flight, std::size_t body) {
   constexpr double thin = 0.5, component = 0.05;
   const double spacing = run.bodies[body].spacing;
@@ -44,7 +45,7 @@ Frame frame_of(const Run& run, const Snapshot& first, const Frame& flight, std::
   return frame.at_face(axial_extent(first, frame, body, spacing).lower);
 }
 
-/// The lower of the two cells nearest to a coordinate in cells; the other one is the next.
+/// Returns the lower of the two cells nearest to a coordinate in cells; the other is the next one.
 std::ptrdiff_t lower_cell(double x) { return static_cast<std::ptrdiff_t>(std::floor(x - 0.5)); }
 
 }  // namespace
@@ -91,7 +92,7 @@ std::string Wall::undecided(const Snapshot& snapshot) const {
   return {};
 }
 
-/// Connected pieces of the material that has neither failed nor melted, by decreasing number of particles.
+/// Finds the connected pieces of the material that has neither failed nor melted, by decreasing number of particles.
 std::vector<Wall::Piece> Wall::pieces(const Snapshot& snapshot) const {
   const std::vector<double>& failed = *snapshot.scalar("failed");
   const std::vector<double>* damage = snapshot.scalar("damage");
@@ -142,9 +143,9 @@ Vector3 Wall::shift_of(const Snapshot& snapshot, const Piece& piece) const {
   return sum;
 }
 
-/// Fills the cells around the particles of a piece and seeks a path of empty ones, over the face of the body, from
-/// before the piece to behind it. Every particle fills the eight nearest cells: openings narrower than about two cells
-/// are not seen.
+/// Fills the cells around the particles of a piece and searches for a path of empty cells, over the face of the body,
+/// from before the piece to behind it. Every particle fills the eight nearest cells: openings narrower than about two
+/// cells are not detected.
 bool Wall::closes(const Snapshot& snapshot, const Piece& piece, const Vector3& shift) const {
   if (4 * piece.size() < face_cells_) return false;  // cannot cover the face
   double front = std::numeric_limits<double>::infinity(), rear = -front;
@@ -212,14 +213,14 @@ Wall::Remains Wall::remains(const Snapshot& snapshot) const {
   const auto take = [&](const Piece& piece) {
     for (const std::uint32_t i : piece) result.wall[i] = 1;
   };
-  // Layers that a spall plane divides may each close the body.
+  // Layers separated by a spall plane may each close the body.
   for (const Piece& piece : all) {
     if (!closes(snapshot, piece, shift_of(snapshot, piece))) continue;
     result.closed = true;
     take(piece);
   }
   if (result.closed) return result;
-  // Debris does not hang on the rim, from which only small pieces may stem.
+  // Debris is not attached to the rim, from which only small pieces may originate.
   constexpr double much = 0.1;
   for (const Piece& piece : all) {
     const auto from_rim = std::ranges::count_if(piece, [&](std::uint32_t i) {
@@ -231,7 +232,7 @@ Wall::Remains Wall::remains(const Snapshot& snapshot) const {
   return result;
 }
 
-/// Returns whether the wall has come to an end of the domain along the axis, beyond which it cannot be followed.
+/// Returns whether the wall has reached an end of the domain along the axis, beyond which it cannot be followed.
 bool Wall::at_border(const Snapshot& snapshot, const Remains& remains) const {
   double lower = run_.lower_at(snapshot.time)[frame_.axis], upper = run_.upper_at(snapshot.time)[frame_.axis];
   if (frame_.sign < 0.0) std::tie(lower, upper) = std::pair(-upper, -lower);
@@ -246,7 +247,8 @@ bool Wall::at_border(const Snapshot& snapshot, const Remains& remains) const {
 }
 
 double Wall::spall_mass(const Snapshot& snapshot, const Remains& remains) const {
-  // The rear of what is left, by cells over the face; where nothing is left, that of the body at the start.
+  // Rear surface of the remaining wall, by cells over the face; where nothing is left, the initial rear face of the
+  // body.
   std::vector<double> rear(cells_[0] * cells_[1], -std::numeric_limits<double>::infinity());
   const auto cell_at = [&](std::size_t p) -> std::optional<std::size_t> {
     std::array<std::size_t, 2> at{};
@@ -280,7 +282,7 @@ Quantities Wall::measure(const Snapshot& snapshot) {
   Remains left;
   if (reason.empty()) {
     left = remains(snapshot);
-    // A bulge that has left the domain looks like a hole; a hole that was there before stays one.
+    // A bulge that has left the domain looks like a hole; a hole found earlier remains one.
     if (!perforated_ && at_border(snapshot, left)) reason = "the wall has come to the border of the domain";
   }
   if (!reason.empty()) {

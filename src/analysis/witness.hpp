@@ -3,7 +3,7 @@
 
 #include "src/analysis/hits.hpp"
 
-/// Measures the impacts on a witness plate (docs/theory/analysis.md, section 5).
+/// Measurement of the impacts on a witness plate (docs/theory/analysis.md, section 5).
 namespace whipple::analysis {
 
 struct WitnessOptions {
@@ -12,8 +12,8 @@ struct WitnessOptions {
   int times = 50;         ///< intervals of the flux over time
 };
 
-/// Measures the debris in free flight from its state in the snapshot: particle i passes the plate at
-/// t + (X - z_i) / v_i, which lies before the snapshot for those already beyond.
+/// Computes the hits of the debris in free flight from its state in the snapshot: particle i passes the plate at t + (X
+/// - z_i) / v_i, which is before the snapshot for particles already beyond it.
 Loads witness_plate(const Snapshot& snapshot, const Frame& frame, const WitnessOptions& options);
 
 }  // namespace whipple::analysis

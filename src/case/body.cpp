@@ -83,7 +83,7 @@ std::array<bool, 3> Body::guided_axes(const Case& setup) const {
                        box.upper[axis] >= geometry.upper(axis) - near;
     guided[a] = below || above;
   }
-  // Rings have no direction across the axis, plane bodies none across the plane.
+  // Axisymmetric bodies do not move in the circumferential direction, nor plane bodies normal to the plane.
   if (setup.domain.is_planar()) guided[2] = true;
   if (geometry.is_axisymmetric()) guided[1] = true;
   return guided;

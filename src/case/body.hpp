@@ -22,10 +22,10 @@
 
 namespace whipple::cases {
 
-/// How an equation of state is evaluated.
+/// Selects how an equation of state is evaluated.
 enum class Evaluation : std::uint8_t {
-  model,  ///< by the model itself
-  table,  ///< by a table of it
+  model,  ///< directly by the model
+  table,  ///< by a table of the model
 };
 constexpr std::array<Word<Evaluation>, 2> words(Evaluation) {
   return {{{Evaluation::model, "model"}, {Evaluation::table, "table"}}};
@@ -52,8 +52,8 @@ struct Body {
   Failure failure;
   FailureScatter failure_scatter;
   FailureGrains failure_grains;
-  std::optional<ArtificialViscosity> viscosity;  ///< instead of that of the case
-  std::shared_ptr<const Shape> shape;            ///< of bars and meshes: made by `complete`
+  std::optional<ArtificialViscosity> viscosity;  ///< overrides that of the case
+  std::shared_ptr<const Shape> shape;            ///< for bars and meshes: set by `complete`
 
   static ParameterTable<Body> parameters();
   static std::span<const Section<Body>> sections();
@@ -63,23 +63,23 @@ struct Body {
   [[nodiscard]] std::string rest_to_toml() const;
   void check(const Case& setup, const Faults& faults) const;
 
-  /// Returns the initial velocity at a place.
+  /// Returns the initial velocity at a position.
   /// @param centre  of the bounding box
   [[nodiscard]] Vector3 velocity_at(const Vector3& x, const Vector3& centre) const {
     return velocity + angular_velocity.cross(x - centre) + expansion_rate.cwiseProduct(x - centre);
   }
 
-  /// Returns the directions in which mirror planes that the body touches, or the section of a plane or axisymmetric case,
-  /// hold it: nothing drives it there.
+  /// Returns the directions in which the body is guided by mirror planes that it touches, or by the section of a plane
+  /// or axisymmetric case: it is not driven in these directions.
   [[nodiscard]] std::array<bool, 3> guided_axes(const Case& setup) const;
 
-  /// Returns whether the failure thresholds of its points differ.
+  /// Returns whether the failure thresholds of its particles differ.
   [[nodiscard]] bool varies_failure() const { return failure_scatter.given() || failure_grains.given(); }
-  /// Returns the factor of the failure thresholds of a point of this volume (m^3) at a place.
+  /// Returns the factor of the failure thresholds of a particle with this volume (m^3) at a position.
   [[nodiscard]] double failure_factor(std::uint64_t id, double volume, const Vector3& place,
                                       const grid::Geometry& geometry) const;
 
-  /// Returns whether the shape is a key of the body, not made of its bars or its mesh.
+  /// Returns whether the shape is given by a key of the body, rather than by its bars or its mesh.
   [[nodiscard]] bool has_own_shape() const {
     return !discretization.is_bars() && discretization.mesh.empty();
   }

@@ -21,7 +21,7 @@ ParameterTable<Case> Case::parameters() {
   return {text("title", &Case::title, "one line: what is simulated").optional()};
 }
 
-/// One line per section.
+/// Lists the sections of a case file, one per line.
 std::span<const Section<Case>> Case::sections() {
   static const std::vector<Section<Case>> all = {
       section<&Case::domain>("domain"),
@@ -70,7 +70,7 @@ std::vector<Gauge> Case::all_gauges() const {
 
 namespace {
 
-/// Gives keys that were not given the values that depend on other keys.
+/// Sets keys that were not given to values that depend on other keys.
 void fill_in(Case& setup) {
   if (setup.transfer.particle_update == ParticleUpdate::by_scheme) {
     setup.transfer.particle_update = default_update(setup.time.scheme);
@@ -82,7 +82,7 @@ void fill_in(Case& setup) {
   lay_into_section(setup.gauges, setup.tracers, setup.domain.dimension);
 }
 
-/// Makes the shapes of bodies that bring their own geometry.
+/// Creates the shapes of bodies defined by bars or by a mesh.
 void make_shapes(Case& setup, const Faults& bodies) {
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     Body& body = setup.bodies[b];
@@ -96,7 +96,7 @@ void make_shapes(Case& setup, const Faults& bodies) {
   }
 }
 
-/// Reads the materials that are not there; bodies of one file share its material.
+/// Reads the missing materials; bodies with the same file share its material.
 void read_materials(Case& setup, const Faults& bodies) {
   std::map<std::string, std::shared_ptr<const Material>> known;
   std::map<std::tuple<std::shared_ptr<const Material>, Ignition, double>, std::shared_ptr<const Material>>
@@ -122,7 +122,7 @@ void read_materials(Case& setup, const Faults& bodies) {
     }
     if (material == nullptr) continue;
     try {
-      // Bodies of one material that burn alike share it.
+      // Bodies of one material with the same burn settings share it.
       const auto form = std::tuple(material, setup.bodies[b].ignition, setup.bodies[b].detonation_velocity);
       std::shared_ptr<const Material>& of_form = forms[form];
       if (of_form == nullptr) of_form = ignited(setup, b, material);
@@ -138,7 +138,7 @@ void read_materials(Case& setup, const Faults& bodies) {
   }
 }
 
-/// Adds what cannot be in two dimensions.
+/// Adds faults for settings that are impossible in two dimensions.
 void check_planar(const Case& setup, const Faults& faults) {
   const bool axisymmetric = setup.domain.dimension == grid::Dimension::axisymmetric;
   const auto lies_in_plane = [&](const Vector3& v) { return v[2] == 0.0 && !(axisymmetric && v[1] != 0.0); };
@@ -166,7 +166,7 @@ void check_planar(const Case& setup, const Faults& faults) {
   }
 }
 
-/// Adds bodies, and rims of bodies that rotate or expand, that are faster than light: slips of a unit.
+/// Adds faults for bodies, and rims of rotating or expanding bodies, that are faster than light: wrong units.
 void check_speeds(const Case& setup, const Faults& faults) {
   constexpr double light = 299792458.0;  // m/s
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
@@ -189,7 +189,7 @@ bool can_be_placed(const Case& setup) {
          std::ranges::all_of(setup.bodies, [](const Body& body) { return body.shape != nullptr; });
 }
 
-/// Completes a case as far as it can be. @returns what is wrong with it
+/// Completes a case as far as possible. @returns its faults
 std::vector<InputFault> settle(Case& setup) {
   std::vector<InputFault> list;
   const Faults faults(list), bodies = faults.in("body");
@@ -202,7 +202,7 @@ std::vector<InputFault> settle(Case& setup) {
   if (setup.domain.is_planar()) check_planar(setup, faults);
   check_speeds(setup, faults);
   check_explosives(setup, faults);
-  // Only sound values can be placed.
+  // Bodies can only be placed if all values are valid.
   if (list.size() > of_files || !can_be_placed(setup)) return list;
   setup.contact_fields = find_contact_fields(setup);
   choose_volumes(setup);
@@ -212,7 +212,7 @@ std::vector<InputFault> settle(Case& setup) {
   return list;
 }
 
-/// Reads what says how vectors are to be read.
+/// Reads the keys that determine how vectors are read.
 Domain peek_dimension(input::Table& root) {
   Domain domain;
   auto table = root.optional_table("domain");

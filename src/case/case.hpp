@@ -27,14 +27,14 @@
 
 namespace whipple::cases {
 
-/// One simulation: everything that stands in a case file, in SI, and what follows from it.
+/// Describes one simulation: the contents of a case file in SI units, and the quantities derived from it.
 struct Case {
   std::string title;
   Domain domain;
   TimeControl time;
   TransferControl transfer;
   Splitting splitting;
-  ArtificialViscosity viscosity;  ///< of bodies that bring none of their own
+  ArtificialViscosity viscosity;  ///< default for the bodies
   Dissipation dissipation;
   HeatControl heat;
   ContactControl contact;
@@ -46,9 +46,9 @@ struct Case {
   std::vector<Gauge> gauges;
   std::vector<Tracers> tracers;
 
-  std::filesystem::path file;  ///< that it was read from; materials are looked for beside it
+  std::filesystem::path file;  ///< the case file; materials are searched for in its folder
 
-  // Found by `complete`; materials that are there stay.
+  // Set by `complete`, which keeps materials that are already set.
   grid::Geometry geometry;
   std::vector<std::shared_ptr<const Material>> materials;  ///< of each body
   ContactFields contact_fields;
@@ -62,38 +62,38 @@ struct Case {
   }
   [[nodiscard]] bool has_elements() const;
   [[nodiscard]] bool has_bars() const;
-  /// Returns whether a body is an explosive that burns.
+  /// Returns whether any body is a burning explosive.
   [[nodiscard]] bool has_burn() const;
-  /// Returns whether a body holds a point; in two dimensions its section, on the side of z = 0 that models with a mirror
-  /// plane there hold.
+  /// Returns whether a body contains a point; in two dimensions whether its section does, evaluated just above z = 0,
+  /// the side that models with a mirror plane there include.
   [[nodiscard]] bool holds(const Body& body, Vector3 point) const;
-  /// Returns all gauges, those of the tracers last.
+  /// Returns all gauges, with those of the tracers last.
   [[nodiscard]] std::vector<Gauge> all_gauges() const;
 };
 
-/// Returns what is wrong with a case, each fault with the key that it belongs to; nothing if it can run.
+/// Returns the faults of a case, each with its key; empty if the case can run.
 std::vector<InputFault> check(const Case& setup);
 
-/// Returns a case built in code with all that follows from its keys: materials, grid, contact fields, values
-/// that depend on others.
-/// @throws InputError with all that `check` finds
+/// Completes a case built in code with everything derived from its keys: materials, grid, contact fields, dependent
+/// defaults.
+/// @throws InputError with all faults that `check` finds
 Case complete(Case setup);
 
-/// Reads, checks and completes a case: all errors at once, as InputError.
-/// @param overrides pairs of key and value as of --set
+/// Reads, checks and completes a case. Throws all errors together as one InputError.
+/// @param overrides pairs of key and value as given by --set
 Case read_case(const std::filesystem::path& path,
                const std::vector<std::pair<std::string, std::string>>& overrides);
 Case read_case_text(const std::string& text, const std::string& name);
 
-/// Reads the keys of a case that a run wrote (run.toml), neither checked nor completed: for measures of finished runs.
-/// Keys of other versions of the program are ignored. @throws InputError for a file that is no case
+/// Reads the keys of a case written by a run (run.toml), without checks and completion, for measures of finished runs.
+/// Ignores keys of other versions of the program. @throws InputError if the file is not a case
 Case read_written_case(const std::filesystem::path& path);
 
-/// The complete case as TOML, with every default, readable by `read_case`.
+/// Writes the complete case as TOML, including all defaults, readable by `read_case`.
 /// @param material_of_body file names to write instead of those of the case (copies in the run directory)
 std::string to_toml(const Case& setup, const std::vector<std::string>& material_of_body);
 
-/// All keys of a case file for `whipple describe case`.
+/// Describes all keys of a case file for `whipple describe case`.
 std::string describe_case();
 
 /// Returns the JSON schema of case files, for editors (src/core/input/schema.hpp).

@@ -9,11 +9,11 @@
 
 namespace whipple::cases {
 
-/// Which bodies have velocity fields of their own.
+/// Selects the bodies that have separate velocity fields.
 enum class ContactMethod : std::uint8_t {
-  automatic,    ///< all but those that touch at the start and move alike
-  none,         ///< one field for all
-  multi_field,  ///< all, or each contact group
+  automatic,    ///< all except bodies that initially touch and have the same velocity
+  none,         ///< one field for all bodies
+  multi_field,  ///< each body, or each contact group
 };
 constexpr std::array<Word<ContactMethod>, 3> words(ContactMethod) {
   return {{{ContactMethod::automatic, "auto"},
@@ -21,7 +21,7 @@ constexpr std::array<Word<ContactMethod>, 3> words(ContactMethod) {
            {ContactMethod::multi_field, "multi_field"}}};
 }
 
-/// Contact of bodies (docs/theory/contact.md).
+/// Controls the contact of bodies (docs/theory/contact.md).
 struct ContactControl {
   ContactMethod method = ContactMethod::automatic;
   contact::Normal normal = contact::Normal::separating;
@@ -33,7 +33,7 @@ struct ContactControl {
   bool everywhere = false;
 
   static ParameterTable<ContactControl> parameters();
-  /// Adds what contact needs of scheme and bodies.
+  /// Adds faults if scheme or bodies are incompatible with contact.
   void check(const Case& setup, const Faults& faults) const;
 };
 

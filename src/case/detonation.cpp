@@ -77,7 +77,7 @@ Detonation::Ray Detonation::ray_to(const Vector3& point, double detonation_veloc
   const Vector3 along = (end - position) / length;
   const double foot = along.dot(offset);
   if (shape == DetonatorShape::line) return {position + std::clamp(foot, 0.0, length) * along, delay};
-  // From where on the cord the point is reached first: its own wave runs at the angle of Mach to the cord.
+  // Point of the cord from which the detonation arrives first: the wave along the cord makes the Mach angle with it.
   const double across = (offset - foot * along).norm(), ratio = detonation_velocity / velocity;
   const double behind = ratio < 1.0 ? across * ratio / std::sqrt(1.0 - ratio * ratio) : foot;
   const double start = std::clamp(foot - behind, 0.0, length);
@@ -112,7 +112,7 @@ ParameterTable<BurnControl> BurnControl::parameters() {
 std::shared_ptr<const Material> ignited(const Case& setup, std::size_t body,
                                         std::shared_ptr<const Material> material) {
   const Body& of_body = setup.bodies[body];
-  if (material->burns()) return material;  // of a case that has been completed
+  if (material->burns()) return material;  // the case was already completed
   if (material->explosive == nullptr) {
     if (of_body.ignition == Ignition::detonators && std::isinf(of_body.detonation_velocity)) return material;
     throw InputError(fmt::format("material '{}' is no explosive: omit the key", material->name));
@@ -126,7 +126,7 @@ std::shared_ptr<const Material> ignited(const Case& setup, std::size_t body,
       break;
   }
   if (setup.detonations.empty() && !material->explosive->reaction)
-    return material;  // a fault: check_explosives
+    return material;  // reported by check_explosives
   const double velocity = of_body.detonation_velocity;
   return std::make_shared<const Material>(burning(*material, std::isinf(velocity) ? 0.0 : velocity));
 }

@@ -153,7 +153,8 @@ void check_elements(const Discretization& control, const Case& setup, const Faul
   }
 }
 
-/// The mass of a ring belongs to its radius, which balances a uniform pressure: it has no place beside it.
+/// Adds faults for layered lattices. A ring must be at the radius that balances a uniform pressure, so it cannot be
+/// offset.
 void check_layers(const Discretization& control, const Case& setup, const Faults& faults) {
   if (setup.geometry.is_axisymmetric()) {
     faults.add("lattice",
@@ -178,7 +179,7 @@ void Discretization::check(const Case& setup, const Faults& faults) const {
   if (has_elements() || is_bars()) {
     check_elements(*this, setup, faults);
   }
-  if (utf8(mesh) != mesh) {  // run.toml holds the path, and texts of TOML are UTF-8
+  if (utf8(mesh) != mesh) {  // run.toml contains the path, and TOML strings are UTF-8
     faults.add("mesh",
                fmt::format("'mesh' is {}: a run could not name this file again: rename what is not UTF-8",
                            utf8(mesh)));

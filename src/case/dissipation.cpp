@@ -47,7 +47,7 @@ ParameterTable<Dissipation> Dissipation::parameters() {
           .optional()};
 }
 
-/// Only the work identity of the symplectic scheme says what the transfers lose.
+/// Adds a fault unless the scheme is symplectic: only its work identity yields the losses of the transfers.
 void Dissipation::check(const Case& setup, const Faults& faults) const {
   if (setup.time.scheme == Scheme::symplectic || !keeps_losses()) return;
   faults.add("losses",

@@ -11,24 +11,24 @@ namespace whipple::cases {
 
 /// Selects the energy that receives the kinetic energy lost in transfers.
 enum class Losses : std::uint8_t {
-  unresolved,  ///< motion that the grid does not resolve
+  unresolved,  ///< motion not resolved by the grid
   heat,
   by_scheme,  ///< not given: `default_losses`
 };
 constexpr std::array<Word<Losses>, 2> words(Losses) {
   return {{{Losses::unresolved, "unresolved"}, {Losses::heat, "heat"}}};
 }
-/// Returns the losses of a case that names none.
+/// Returns the default treatment of losses for a scheme.
 constexpr Losses default_losses(Scheme scheme) {
   return scheme == Scheme::symplectic ? Losses::unresolved : Losses::heat;
 }
 
-/// Distributes the kinetic energy that a step takes from the motion of the grid
-/// (docs/theory/dissipation.md): one set of numbers for all cases.
+/// Holds the parameters that distribute the kinetic energy removed from the grid motion in a step
+/// (docs/theory/dissipation.md): one set of values for all cases.
 struct Dissipation {
   Losses losses = Losses::by_scheme;
   double heat_share = 0.1;           ///< f of eq. 3
-  double allowance_time = 5.0;       ///< tau of eq. 3, in transits of sound through a cell
+  double allowance_time = 5.0;       ///< tau of eq. 3, in acoustic transit times of a cell
   double collision_rate = 1.0;       ///< r of eq. 4
   double affine_gain = 1.5;          ///< a of eq. 6
   double affine_compression = 0.25;  ///< g of eq. 6

@@ -59,7 +59,7 @@ std::span<const Section<Domain>> Domain::sections() {
 
 namespace {
 
-/// Cells of an extent: whole but for round-off or not.
+/// Holds the number of cells along an extent, and whether it is an integer up to round-off.
 struct Count {
   double exact, nearest;
   [[nodiscard]] bool whole() const { return std::abs(exact - nearest) < 1e-6 * std::max(nearest, 1.0); }
@@ -95,7 +95,7 @@ grid::Geometry Domain::geometry() const {
 }
 
 void Domain::check(const Case& setup, const Faults& faults) const {
-  if (!(cell_size > 0.0)) return;  // out of its range
+  if (!(cell_size > 0.0)) return;  // reported as out of range
   for (std::size_t a = 0; a < 3; ++a) {
     const auto axis = static_cast<Eigen::Index>(a);
     const Count count = cells_along(*this, axis);

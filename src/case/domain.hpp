@@ -20,18 +20,18 @@ struct Faces {
     return {x_lower, x_upper, y_lower, y_upper, z_lower, z_upper};
   }
   [[nodiscard]] bool any(grid::Boundary kind) const;
-  /// Returns the faces by the directions of a section whose first one is `first` of space.
+  /// Returns the faces in the directions of a section whose first direction is `first` in space.
   [[nodiscard]] Faces in_section(std::size_t first) const;
 };
 
-/// Part of space that is simulated, and its cells.
+/// Describes the simulated region and its cells.
 struct Domain {
   Vector3 lower = Vector3::Zero();  ///< m
   Vector3 upper = Vector3::Zero();  ///< m
   double cell_size = 0.0;           ///< m
   grid::Dimension dimension = grid::Dimension::space;
-  /// Direction of space that is the first one of a section, read from `axis`; once read, the case is in those of the
-  /// section.
+  /// Selects the spatial direction that becomes the first one of a section, as read from `axis`; after reading, the
+  /// case uses the directions of the section.
   Axis axis = Axis::x;
   Faces boundary;
 
@@ -41,8 +41,9 @@ struct Domain {
   void check(const Case& setup, const Faults& faults) const;
 
   [[nodiscard]] bool is_planar() const { return dimension != grid::Dimension::space; }
-  /// Returns the grid of whole cells, in two dimensions one cell along z from z = 0 on: walls lie on faces of cells, an
-  /// outflow face at an upper end is moved outwards to one. An axis along which `check` finds a fault may have no cells.
+  /// Returns the grid of whole cells; in two dimensions it has one cell along z, starting at z = 0. Walls coincide with
+  /// cell faces; an outflow face at an upper end is moved outwards to one. An axis for which `check` finds a fault may
+  /// have no cells.
   [[nodiscard]] grid::Geometry geometry() const;
 };
 

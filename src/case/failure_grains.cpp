@@ -39,8 +39,8 @@ double FailureGrains::factor(const Vector3& place, double cell_size, bool planar
   const std::array<int, 3> reach = {2, 2, planar ? 0 : 2};
   std::array<std::int64_t, 3> cube{};
   for (std::size_t a = 0; a < 3; ++a) cube[a] = static_cast<std::int64_t>(std::floor(x[static_cast<int>(a)]));
-  // The nearest seed lies within two cubes, as that of the own cube is at most 1.73 edges away; those beyond the nearest
-  // face do so but for shapes that hardly occur.
+  // The nearest seed is within two cubes, as the seed of the containing cube is at most 1.73 edges away; the seeds that
+  // bound the nearest face are too, except for very unlikely arrangements.
   std::array<Vector3, 125> seeds;
   std::size_t count = 0, nearest = 0;
   for (int i = -reach[0]; i <= reach[0]; ++i) {

@@ -10,8 +10,9 @@
 
 namespace whipple::cases {
 
-/// `failure_grains` of a body: polyhedra of a size along whose faces it fails (docs/theory/cracks.md, 3). A seed lies at
-/// random in each cube (square in two dimensions) of that edge; a grain is what is nearer to its seed than to others.
+/// Describes `failure_grains` of a body: polyhedra of a given size along whose faces it fails (docs/theory/cracks.md,
+/// 3). One seed is placed at random in each cube (square in two dimensions) of that edge; a grain is the Voronoi cell
+/// of its seed.
 struct FailureGrains {
   double size =
       std::numeric_limits<double>::infinity();  ///< m, edge of a cube of the mean volume; infinite: none
@@ -20,10 +21,10 @@ struct FailureGrains {
   static ParameterTable<FailureGrains> parameters();
 
   [[nodiscard]] bool given() const;
-  /// Adds a fault if grains are smaller than cells: all of the material would lie at a face.
+  /// Adds a fault if grains are smaller than cells: all material would then be close to a face.
   void check(const Case& setup, const Faults& faults) const;
-  /// Returns the factor of the thresholds at a place: 1 within half a cell of a face, else `strength`.
-  /// @param planar  seeds lie in the plane of the first two coordinates
+  /// Returns the factor of the thresholds at a position: 1 within half a cell of a face, otherwise `strength`.
+  /// @param planar  seeds are in the plane of the first two coordinates
   [[nodiscard]] double factor(const Vector3& place, double cell_size, bool planar) const;
 };
 

@@ -46,7 +46,7 @@ void check_name(const std::string& name, const Faults& faults) {
   }
 }
 
-/// Adds a name that one of the gauges before has.
+/// Adds a fault if the name is used by one of the preceding gauges.
 void check_twice(const std::string& name, std::span<const Gauge> before, const Faults& faults) {
   if (name.empty() || std::ranges::count(before, name, &Gauge::name) == 0) return;
   faults.add("name", fmt::format("two gauges are called \"{}\"", name));

@@ -13,14 +13,14 @@
 namespace whipple::cases {
 
 enum class GaugeKind : std::uint8_t {
-  fixed,   ///< in space
-  moving,  ///< with the particle nearest to it at the start
+  fixed,   ///< fixed in space
+  moving,  ///< moving with the particle that is initially nearest
 };
 constexpr std::array<Word<GaugeKind>, 2> words(GaugeKind) {
   return {{{GaugeKind::fixed, "fixed"}, {GaugeKind::moving, "moving"}}};
 }
 
-/// A place whose state is written over time.
+/// Describes a location whose state is written over time.
 struct Gauge {
   std::string name;
   GaugeKind kind = GaugeKind::fixed;
@@ -32,9 +32,9 @@ struct Gauge {
   [[nodiscard]] bool moving() const { return kind == GaugeKind::moving; }
 };
 
-/// Moving gauges at equal distances on a line.
+/// Describes moving gauges at equal distances on a line.
 struct Tracers {
-  std::string name;                                      ///< of the gauges, with _1, _2, ...
+  std::string name;  ///< prefix of the gauge names, followed by _1, _2, ...
   Vector3 from = Vector3::Zero(), to = Vector3::Zero();  ///< m
   std::int64_t count = 2;
 
@@ -45,11 +45,11 @@ struct Tracers {
   [[nodiscard]] std::vector<Gauge> gauges() const;
 };
 
-/// Lays gauges and tracers of a case that was written in three dimensions into its section: at z = 0, in axisymmetry
-/// at their distance from the axis.
+/// Projects gauges and tracers of a case written in three dimensions onto its section: to z = 0, in axisymmetry to
+/// their distance from the axis.
 void lay_into_section(std::vector<Gauge>& gauges, std::vector<Tracers>& tracers, grid::Dimension dimension);
 
-/// Adds each gauge that cannot be: outside of the domain, or moving and where no material is. For a case with
+/// Adds a fault for each gauge outside of the domain, and for each moving gauge outside of all material. Requires
 /// geometry and shapes.
 void check_places_of_gauges(const Case& setup, const Faults& faults);
 

@@ -13,7 +13,7 @@ struct Gravity {
   static ParameterTable<Gravity> parameters();
   void check(const Case& setup, const Faults& faults) const;
 
-  /// Returns the acceleration at a time (s), which grows linearly from 0 to `rise_time`.
+  /// Returns the acceleration at a time (s); it increases linearly from 0 up to `rise_time`.
   [[nodiscard]] Vector3 at(double time) const {
     return rise_time > time ? Vector3(time / rise_time * acceleration) : acceleration;
   }

@@ -9,7 +9,7 @@ struct HeatControl {
   bool conduction = false;
 
   static ParameterTable<HeatControl> parameters();
-  /// Adds what conduction needs of the transfer and of the materials.
+  /// Adds faults if transfer or materials do not support conduction.
   void check(const Case& setup, const Faults& faults) const;
 };
 

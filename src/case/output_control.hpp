@@ -17,19 +17,20 @@ struct OutputControl {
   double checkpoint_every = 600.0;                                        ///< s, wall clock
   std::int64_t history_every = 1;                                         ///< steps
   std::int64_t gauges_every = 1;                                          ///< steps
-  double maximum_energy_error = std::numeric_limits<double>::infinity();  ///< infinite: that of the scheme
+  double maximum_energy_error = std::numeric_limits<double>::infinity();  ///< infinite: default of the scheme
   double maximum_speed_factor =
-      10.0;  ///< of the speed that bodies bring along and can reach by what they set free
+      10.0;  ///< relative to the initial speeds and those attainable from released energy
   std::vector<std::string> fields = default_fields();
 
-  /// Returns the error at which a run with a scheme stops. Schemes that do not conserve energy have no limit of their own.
+  /// Returns the energy error at which a run stops. Schemes that do not conserve energy have no default limit.
   [[nodiscard]] double energy_error_limit(Scheme scheme) const {
     constexpr double of_exact_energy = 0.01;
     if (std::isfinite(maximum_energy_error) || scheme != Scheme::symplectic) return maximum_energy_error;
     return of_exact_energy;
   }
 
-  /// Snapshots of a run beyond which their interval is taken for a mistake: steps would be cut to it, and the disk full.
+  /// Limits the number of snapshots: a shorter interval is treated as a mistake, as it would shorten the time steps and
+  /// fill the disk.
   static constexpr double most_snapshots = 1e6;
 
   static std::vector<std::string> default_fields();

@@ -19,7 +19,7 @@ namespace {
 constexpr std::array<const char*, 6> face_names = {"x_lower", "x_upper", "y_lower",
                                                    "y_upper", "z_lower", "z_upper"};
 
-/// Along each axis, 0 where they overlap; m.
+/// Returns the gap along each axis, 0 where the boxes overlap; m.
 Vector3 gap(const Shape::Bounds& a, const Shape::Bounds& b) {
   return (b.lower - a.upper).cwiseMax(a.lower - b.upper).cwiseMax(Vector3::Zero());
 }
@@ -39,7 +39,7 @@ bool meet(const Shape::Bounds& a, const Shape::Bounds& b, const Vector3& velocit
   return first <= last;
 }
 
-/// Between bodies whose boxes overlap in two directions there is a gap in the third one.
+/// Remarks on bodies whose boxes overlap in two directions and have a narrow gap in the third.
 void remark_on_gaps(const Case& setup, std::vector<std::string>& remarks) {
   constexpr double round_off = 1e-6;  // cells
   const double h = setup.domain.cell_size;
@@ -55,7 +55,7 @@ void remark_on_gaps(const Case& setup, std::vector<std::string>& remarks) {
   }
 }
 
-/// Returns whether a body flies towards a wall or a mirror plane, which may be what it is meant to meet.
+/// Returns whether a body flies towards a wall or a mirror plane, which may be its intended target.
 bool flies_at_a_face(const Case& setup, const Body& body) {
   constexpr double none = 1e-9;
   for (std::size_t face = 0; face < setup.geometry.boundary.size(); ++face) {
@@ -81,7 +81,8 @@ void remark_on_directions(const Case& setup, std::vector<std::string>& remarks) 
   }
 }
 
-/// Material behind the shock of bodies that are alike moves with half the speed at which they meet.
+/// Remarks on impacts beyond the audited shocks. In impacts of identical materials, the particle velocity behind the
+/// shock is half the impact speed.
 void remark_on_speeds(const Case& setup, std::vector<std::string>& remarks) {
   double fastest = 0.0;
   for (const Body& a : setup.bodies) {
@@ -123,7 +124,8 @@ void remark_on_burn(const Case& setup, std::size_t b, std::vector<std::string>& 
   }
 }
 
-/// A detonator outside of all explosive lights their surfaces; beside a mirror plane it has an image that lights, too.
+/// Remarks on detonators: one outside of all explosive lights the surfaces of the explosive; one near a mirror plane
+/// has an image that also lights.
 void remark_on_detonators(const Case& setup, std::vector<std::string>& remarks) {
   if (!setup.has_burn()) return;
   constexpr double still_pushes = 1e9;  // Pa: a hundredth or more of detonation pressures
@@ -177,7 +179,7 @@ void remark_on_detonators(const Case& setup, std::vector<std::string>& remarks) 
   }
 }
 
-/// Products of an explosive are a gas that starts at the pressure of a burn at constant volume.
+/// Remarks on detonation products: a gas that starts at the pressure of a constant-volume burn.
 void remark_on_explosives(const Case& setup, std::vector<std::string>& remarks) {
   constexpr double much = 0.1e9;  // Pa
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
@@ -195,7 +197,8 @@ void remark_on_explosives(const Case& setup, std::vector<std::string>& remarks) 
   }
 }
 
-/// Particles of an expanding gas that are not divided part, and their heat is lost to motion that nothing resolves.
+/// Remarks on expanding gas without particle splitting: its particles separate numerically, and its heat is lost to
+/// unresolved motion.
 void remark_on_splitting(const Case& setup, std::vector<std::string>& remarks) {
   if (setup.splitting.length > 0.0) return;
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
@@ -208,8 +211,9 @@ void remark_on_splitting(const Case& setup, std::vector<std::string>& remarks) {
   }
 }
 
-/// A body that a symmetry plane cuts is one with its mirror image: it cannot move along the normal, nor turn
-/// about an axis in the plane. One that only touches may move into the plane: it meets its image there.
+/// Remarks on a body at a symmetry plane. A body cut by the plane is continuous with its mirror image: it cannot move
+/// along the normal, nor rotate about an axis in the plane. A body that only touches the plane may move into it: it
+/// then meets its image.
 void remark_on_plane(const Case& setup, const Body& body, std::size_t face,
                      std::vector<std::string>& remarks) {
   const grid::Geometry& g = setup.geometry;
@@ -226,7 +230,7 @@ void remark_on_plane(const Case& setup, const Body& body, std::size_t face,
   }
   const bool away = lower ? normal > 0.0 : normal < 0.0;
   constexpr double none = 1e-9;
-  const double least = expands ? 1e-3 : none;  // a rate of few digits leaves a rest
+  const double least = expands ? 1e-3 : none;  // a rate with few digits leaves a residual velocity
   if (std::abs(normal) > least * body.velocity.norm() && (cut || away)) {
     remarks.push_back(fmt::format(
         "'{}' {} the symmetry plane {} and moves along its normal, at {:.6g} m/s {}: its mirror image "
@@ -254,7 +258,8 @@ void remark_on_symmetry(const Case& setup, std::vector<std::string>& remarks) {
   }
 }
 
-/// The size of the pieces comes near that of the grains from ten cells in a grain on (docs/theory/cracks.md, 3).
+/// Remarks on small grains: the fragment size approaches the grain size from ten cells per grain on
+/// (docs/theory/cracks.md, 3).
 void remark_on_grains(const Case& setup, std::vector<std::string>& remarks) {
   constexpr double least = 10.0;
   for (const Body& body : setup.bodies) {

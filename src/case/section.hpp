@@ -13,7 +13,7 @@ using input::Faults;
 template <class Owner>
 using Section = input::Section<Owner, Case>;
 
-/// Makes the entry of a member of a case or of one of its sections.
+/// Creates the entry of a member of a case or of one of its sections.
 template <auto Member, class Owner = decltype(input::detail::owner_of(Member))>
 Section<Owner> section(const char* name, const char* remark = "",
                        bool (*applies)(const std::type_identity_t<Owner>&) = nullptr) {

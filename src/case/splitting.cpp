@@ -28,7 +28,7 @@ ParameterTable<Splitting> Splitting::parameters() {
           .optional()};
 }
 
-/// A length below that of the particles would divide all of them, as often as generations allow.
+/// Adds a fault for a length below that of the particles: all of them would be split as often as the generations allow.
 void Splitting::check(const Case& setup, const Faults& faults) const {
   for (const Body& body : setup.bodies) {
     const double own = std::cbrt(1.0 / static_cast<double>(body.discretization.per_cell));

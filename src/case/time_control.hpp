@@ -9,7 +9,7 @@
 
 namespace whipple::cases {
 
-/// Time integration (docs/theory/mpm.md, section 5).
+/// Selects the time integration (docs/theory/mpm.md, section 5).
 enum class Scheme : std::uint8_t {
   symplectic,  ///< exact energy balance
   musl,        ///< modified update stress last
@@ -22,7 +22,7 @@ constexpr std::array<Word<Scheme>, 4> words(Scheme) {
            {Scheme::usl, "usl"},
            {Scheme::usf, "usf"}}};
 }
-/// Returns how often particles bring something to the nodes in a step.
+/// Returns the number of transfers from particles to nodes per step.
 constexpr int transfers_per_step(Scheme scheme) {
   return scheme == Scheme::musl || scheme == Scheme::usf ? 2 : 1;
 }

@@ -10,7 +10,7 @@
 
 namespace whipple::cases {
 
-/// Transfer of velocity from the grid to the particles (docs/theory/mpm.md, section 4).
+/// Selects the transfer of velocity from the grid to the particles (docs/theory/mpm.md, section 4).
 enum class ParticleUpdate : std::uint8_t {
   relaxed_affine,
   apic,
@@ -32,15 +32,15 @@ constexpr std::array<Word<ParticleUpdate>, 6> words(ParticleUpdate) {
 constexpr bool is_affine(ParticleUpdate update) {
   return update == ParticleUpdate::relaxed_affine || update == ParticleUpdate::apic;
 }
-/// Returns the update of a case that names none.
+/// Returns the default update for a scheme.
 constexpr ParticleUpdate default_update(Scheme scheme) {
   return scheme == Scheme::symplectic ? ParticleUpdate::relaxed_affine : ParticleUpdate::flip;
 }
 
-/// How the affine field of a particle is carried on.
+/// Selects how the affine field of a particle is convected.
 enum class AffineTransport : std::uint8_t {
   deformed,  ///< with the deformation of the step
-  turned,    ///< with its rotation only
+  turned,    ///< with the rotation of the step only
 };
 constexpr std::array<Word<AffineTransport>, 2> words(AffineTransport) {
   return {{{AffineTransport::deformed, "deformed"}, {AffineTransport::turned, "turned"}}};

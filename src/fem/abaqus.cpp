@@ -33,7 +33,7 @@ std::string_view trimmed(std::string_view text) {
   if (begin == std::string_view::npos) return {};
   return text.substr(begin, text.find_last_not_of(" \t\r\"") - begin + 1);
 }
-/// The cells of a line between commas, without blanks around them.
+/// Returns the comma-separated cells of a line, trimmed.
 std::vector<std::string_view> cells_of(std::string_view line) {
   std::vector<std::string_view> cells;
   for (;;) {
@@ -44,7 +44,7 @@ std::vector<std::string_view> cells_of(std::string_view line) {
   }
 }
 
-/// Element types by their beginnings, the longest first, with the kinds that they are; 0: no mesh.
+/// Maps element types, by prefix with the longest first, to element kinds.
 struct Type {
   std::string_view beginning;
   int kind;
@@ -65,23 +65,24 @@ constexpr std::array types = {Type{"C3D8", hexahedron_kind},
                               Type{"SFM3D4", 3},
                               Type{"MASS", 15}};
 
-/// Coordinates of nodes.
+/// Selects the coordinate system of nodes.
 enum class System { cartesian, cylindrical };
 constexpr std::array<Word<System>, 2> words(System /*of*/) {
   return {{{System::cartesian, "R"}, {System::cylindrical, "C"}}};
 }
 
-/// What a keyword is to a mesh.
+/// Classifies a keyword by its relevance to a mesh.
 enum class Meaning {
   nodes,
   elements,
   set,
   assembly,  ///< parts and instances
   other_file,
-  geometry,  ///< makes or moves nodes or elements in a way that is not read
+  geometry,  ///< creates or moves nodes or elements in an unsupported way
   none       ///< materials, sections, loads, contact, steps, output
 };
-/// Keywords, without blanks, with the parameters that are read; a keyword that is not here is refused.
+/// Describes a keyword, written without blanks, and its supported parameters; keywords that are not listed are
+/// rejected.
 struct Keyword {
   Meaning meaning = Meaning::none;
   std::vector<std::string_view> parameters = {};
@@ -101,12 +102,12 @@ const std::map<std::string_view, Keyword>& keywords() {
       table[word] = {Meaning::geometry};
     }
     for (const std::string_view word :
-         {// of a model as a whole
+         {// the model as a whole
           "*HEADING", "*PREPRINT", "*RESTART", "*PART", "*ENDPART", "*ASSEMBLY", "*ENDASSEMBLY", "*NSET",
           "*SURFACE", "*AMPLITUDE", "*ORIENTATION", "*DISTRIBUTION", "*DISTRIBUTIONTABLE", "*TRANSFORM",
           "*PHYSICALCONSTANTS", "*FILTER", "*TIMEPOINTS", "*PARAMETERDEPENDENCE", "*NORMAL",
           "*NODALTHICKNESS",
-          // sections and elements' properties
+          // sections and element properties
           "*SOLIDSECTION", "*SHELLSECTION", "*SHELLGENERALSECTION", "*MEMBRANESECTION", "*BEAMSECTION",
           "*BEAMGENERALSECTION", "*COHESIVESECTION", "*SURFACESECTION", "*CONNECTORSECTION",
           "*CONNECTORBEHAVIOR", "*CONNECTORELASTICITY", "*SECTIONCONTROLS", "*HOURGLASSSTIFFNESS", "*MASS",
@@ -122,7 +123,7 @@ const std::map<std::string_view, Keyword>& keywords() {
           "*BRITTLECRACKING", "*BRITTLESHEAR", "*BRITTLEFAILURE", "*POROUSMETALPLASTICITY", "*POTENTIAL",
           "*ANNEALTEMPERATURE", "*USERMATERIAL", "*DEPVAR", "*VISCOSITY", "*REACTIONRATE", "*DETONATIONPOINT",
           "*GASSPECIFICHEAT", "*MODULUS",
-          // constraints, contact, loads and their history
+          // constraints, contact, loads and load history
           "*EQUATION", "*MPC", "*TIE", "*COUPLING", "*KINEMATIC", "*DISTRIBUTING", "*EMBEDDEDELEMENT",
           "*CONTACT", "*CONTACTPAIR", "*CONTACTINCLUSIONS", "*CONTACTEXCLUSIONS",
           "*CONTACTPROPERTYASSIGNMENT", "*CONTACTINITIALIZATIONASSIGNMENT", "*CONTACTFORMULATION",
@@ -155,7 +156,7 @@ class AbaqusReader {
     while (more) {
       if (!line_text_.starts_with('*')) fail("expected a keyword (*...)");
       std::string head(line_text_);
-      while (head.ends_with(',') && next()) head += line_text_;  // it goes on in the next line
+      while (head.ends_with(',') && next()) head += line_text_;  // continued on the next line
       const std::vector<std::string_view> words = cells_of(head);
       std::string name = upper(words.front());
       std::erase(name, ' ');
@@ -179,7 +180,7 @@ class AbaqusReader {
   [[noreturn]] void fail(const std::string& what) const {
     throw InputError(fmt::format("{}:{}: error: {}", data_.path.string(), line_, what));
   }
-  /// Takes the parameters of a keyword; of those that are read it must have no others.
+  /// Stores the parameters of a keyword; for keywords with a list of supported parameters, others are rejected.
   void parameters(const std::vector<std::string_view>& words, const Keyword& keyword) {
     parameters_.clear();
     for (std::size_t i = 1; i < words.size(); ++i) {
@@ -195,7 +196,7 @@ class AbaqusReader {
           equals == std::string_view::npos ? "" : std::string(trimmed(words[i].substr(equals + 1)));
     }
   }
-  /// Reads the lines of data of a keyword.
+  /// Reads the data lines of a keyword.
   void block(Meaning meaning) {
     switch (meaning) {
       case Meaning::nodes:
@@ -220,7 +221,7 @@ class AbaqusReader {
     }
   }
 
-  /// The next line that is no comment and not blank.
+  /// Advances to the next line that is not blank and not a comment.
   bool next() {
     while (std::getline(stream_, buffer_)) {
       ++line_;
@@ -230,7 +231,7 @@ class AbaqusReader {
     }
     return false;
   }
-  /// Calls f(cells) for the lines of data of a keyword.
+  /// Calls f(cells) for the data lines of a keyword.
   template <class Function>
   void for_each_line(Function&& f) {
     while (more_ && !line_text_.starts_with('*')) {
@@ -249,7 +250,7 @@ class AbaqusReader {
   }
   double coordinate(std::string_view cell) const {
     std::string text(cell);
-    std::ranges::replace(text, 'D', 'E');  // of Fortran
+    std::ranges::replace(text, 'D', 'E');  // Fortran exponents
     std::ranges::replace(text, 'd', 'e');
     char* end = nullptr;
     const double value = std::strtod(text.c_str(), &end);
@@ -258,7 +259,7 @@ class AbaqusReader {
     return value;
   }
 
-  /// The place of a node, from coordinates in the system of the keyword.
+  /// Returns the position of a node, from coordinates in the system of the keyword.
   Vector3 place(const Vector3& x, System system) const {
     if (system == System::cartesian) return unit_ * x;
     const double angle = x[1] * std::numbers::pi / 180.0;
@@ -303,7 +304,7 @@ class AbaqusReader {
       for (const std::string_view cell : cells) {
         if (!cell.empty()) numbers.push_back(number(cell, "a number of an element or node"));
       }
-      if (numbers.size() <= kind.nodes) return;  // it goes on in the next line
+      if (numbers.size() <= kind.nodes) return;  // continued on the next line
       add(kind, numbers, begin, members);
       numbers.clear();
     });
@@ -334,7 +335,7 @@ class AbaqusReader {
     if (members != nullptr) members->push_back(index);
   }
 
-  /// Names of sets do not distinguish capital letters.
+  /// Returns the elements of a set; names of sets are case-insensitive.
   std::vector<std::uint32_t>& set_of(const std::string& name) {
     const auto [entry, is_new] = set_.try_emplace(upper(name), sets_.size());
     if (is_new) sets_.emplace_back(name, std::vector<std::uint32_t>());
@@ -366,7 +367,7 @@ class AbaqusReader {
     all.insert(all.end(), members.begin(), members.end());
   }
 
-  /// First, last, increment.
+  /// Adds the elements of a range given by first, last and increment.
   void generate(const std::vector<std::string_view>& cells, std::vector<std::uint32_t>& members) {
     if (cells.size() < 2) fail("expected the first and the last number of a set, and their increment");
     constexpr const char* what = "the number of an element";
@@ -383,9 +384,10 @@ class AbaqusReader {
     return found->second;
   }
 
-  /// A set of elements of several dimensions is a group of the largest; without sets all elements are the group "all".
+  /// Creates the groups: a set with elements of several dimensions becomes a group of the largest dimension; without
+  /// sets, all elements form the group "all".
   void groups() {
-    if (sets_.empty()) {  // as a file of VTK without arrays
+    if (sets_.empty()) {  // as for VTK files without arrays
       std::vector<std::uint32_t>& all = set_of("all");
       for (std::uint32_t e = 0; e < data_.elements.size(); ++e) all.push_back(e);
     }
@@ -407,7 +409,7 @@ class AbaqusReader {
   std::string buffer_;
   std::string_view line_text_;
   std::size_t line_ = 0;
-  bool more_ = false;  // line_text_ is a line
+  bool more_ = false;  // line_text_ contains a line
   std::map<std::string, std::string> parameters_;
   std::unordered_map<std::uint64_t, std::uint32_t> node_, element_;
   std::map<std::string, std::size_t> set_;

@@ -19,10 +19,10 @@ Vector3 along(const Bars& bars, std::size_t b) {
   return bars.nodes.position[ends[1]] - bars.nodes.position[ends[0]];
 }
 
-/// Volume at the start, m^3.
+/// Returns the initial volume, m^3.
 double volume(const Bars& bars, std::size_t b) { return bars.elements.mass[b] / bars.material.density; }
 
-/// Stress at the end of a step from its logarithmic strain increment: elastic trial, return to the yield
+/// Computes the stress at the end of a step from the logarithmic strain increment: elastic trial, return to the yield
 /// stress (eq. 6.2).
 void update_stress(Bars& bars, std::size_t b, double strain_increment) {
   BarElements& e = bars.elements;
@@ -39,7 +39,7 @@ void update_stress(Bars& bars, std::size_t b, double strain_increment) {
   e.plastic_strain[b] += plastic;
   if (e.plastic_strain[b] > m.failure_strain) {
     e.broken[b] = 1;
-    e.stress[b] = 0.0;  // the elastic energy becomes heat: internal energy stays
+    e.stress[b] = 0.0;  // the elastic energy becomes heat; the internal energy is unchanged
   }
 }
 

@@ -13,17 +13,17 @@
 #include "src/fem/mesh.hpp"
 #include "src/fem/step.hpp"
 
-/// Two-node bars that carry an axial force only: reinforcement, fibres, wires (docs/theory/fem.md, 6). Their
-/// nodes are nodes of finite elements: they move by themselves, or with the velocity field of a grid.
+/// Two-node trusses that carry axial forces only: reinforcement, fibres, wires (docs/theory/fem.md, 6). Their nodes are
+/// finite element nodes: they move independently, or with the velocity field of a grid.
 namespace whipple::fem {
 
-/// Points and the two ends of every bar.
+/// Holds points and the two ends of every bar.
 struct Lines {
   std::vector<Vector3> nodes;  ///< m
   std::vector<std::array<std::uint32_t, 2>> elements;
 };
 
-/// Elastic-plastic bar of logarithmic strain (eq. 6.2).
+/// Describes an elastic-plastic bar based on the logarithmic strain (eq. 6.2).
 struct BarMaterial {
   double density = 0.0;                                           ///< kg/m^3
   double young = 0.0;                                             ///< Pa
@@ -36,11 +36,11 @@ struct BarElements {
   std::vector<std::uint64_t> id;
   std::vector<std::array<std::uint32_t, 2>> ends;
   std::vector<double> mass;              ///< kg
-  std::vector<double> reference_length;  ///< m, free of stress
-  std::vector<double> stress;            ///< Pa, Kirchhoff (per volume at the start), positive in tension
+  std::vector<double> reference_length;  ///< m, stress-free
+  std::vector<double> stress;            ///< Pa, Kirchhoff (per initial volume), positive in tension
   std::vector<double> plastic_strain;    ///< equivalent
   std::vector<double> internal_energy;   ///< J, elastic and heat
-  std::vector<std::uint8_t> broken;      ///< 1: carries nothing any more
+  std::vector<std::uint8_t> broken;      ///< 1: carries no force any more
 
   [[nodiscard]] std::size_t size() const { return id.size(); }
 
@@ -54,46 +54,48 @@ struct BarElements {
   }
 };
 
-/// Bars of one material.
+/// Holds the bars of one material.
 struct Bars {
   BarMaterial material;
   std::uint32_t body = 0;  ///< index of the body in the case
   Nodes nodes;
   BarElements elements;
 
-  // Derived by `connect`: the ends that meet at node a, each 2 bar + end, ascending.
+  // Derived by `connect`: the ends that meet at node a, each as 2 bar + end, ascending.
   std::vector<std::uint32_t> first_end, node_ends;
   std::vector<Vector3> axial_force;  ///< scratch of `internal_forces`: N, on the second end
 };
 
+/// Creates bars from lines.
 /// @param area  m^2, of the cross-section
-/// @throws InputError if density, stiffness or area is not positive, if a bar has no length, a node that does
-/// not exist or one node twice, or a node belongs to no bar
+/// @throws InputError if density, stiffness or area is not positive, if a bar has zero length, a node that does not
+/// exist or the same node twice, or if a node belongs to no bar
 Bars make_bars(const Lines& lines, double area, const BarMaterial& material, const std::string& name,
                std::uint32_t body = 0, std::uint64_t first_node_id = 0, std::uint64_t first_element_id = 0);
 
-/// Rebuilds what is derived from the ends.
+/// Rebuilds the data derived from the ends.
 void connect(Bars& bars);
 
-/// Sums the masses of the bars at the nodes, half at either end.
+/// Sums the masses of the bars at the nodes, half at each end.
 void lump_masses(Bars& bars);
 
-/// Least l/c of the bars that are not broken (s), c^2 = E/rho (eq. 6.4).
+/// Returns the minimum l/c of the unbroken bars (s), c^2 = E/rho (eq. 6.4).
 double critical_time_step(const Bars& bars);
 
-/// Forces on the nodes, into `nodes.force` (eq. 6.1).
+/// Computes the nodal forces into `nodes.force` (eq. 6.1).
 void internal_forces(Bars& bars);
 
-/// Work of the step, then strain and stress at its end, exactly those of the moved nodes (eq. 6.2, 6.3).
+/// Computes the work of the step, then strain and stress at its end, which are exactly those of the moved nodes (eq.
+/// 6.2, 6.3).
 /// @returns J, work into internal energy
 double deform(Bars& bars, const Motion& motion, double dt);
 
 double internal_energy(const Bars& bars);
 
-/// Shares heat given at the nodes (J) among their bars by mass.
+/// Distributes heat given at the nodes (J) over their bars by mass.
 void add_heat(Bars& bars, std::span<const double> node_heat);
 
-/// Takes bars (`removed` != 0) away, with the mass that they gave to their nodes; nodes without bars vanish.
+/// Removes bars (`removed` != 0) and their contributions to the nodal masses; nodes without bars are removed.
 void remove_bars(Bars& bars, std::span<const std::uint8_t> removed);
 
 }  // namespace whipple::fem

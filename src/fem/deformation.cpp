@@ -34,7 +34,7 @@ std::array<const double*, 9> VelocityGradients::from(std::size_t first) const {
 
 namespace {
 
-/// Forces of a block of elements whose nodes are at `position`, at its slots.
+/// Computes the forces of a block of elements with nodes at `position`, at its slots.
 template <class Kernels>
 void forces_of_block(Mesh& mesh, std::size_t block, typename Kernels::Field& position) {
   if (mesh.quadrature == Quadrature::b_bar) {
@@ -44,7 +44,7 @@ void forces_of_block(Mesh& mesh, std::size_t block, typename Kernels::Field& pos
   }
 }
 
-/// @param position  of the nodes, at the end of the step
+/// Deforms the elements of a block. @param position  of the nodes, at the end of the step
 template <class Kernels>
 DeformationReport deform_block(const DeformationStep& step, const Motion& motion, std::size_t block,
                                typename Kernels::Field& position) {

@@ -18,7 +18,7 @@ using Key = std::array<std::uint64_t, 2>;  // mesh, id of the node
 
 std::size_t ranks_of(MPI_Comm communicator) { return static_cast<std::size_t>(parallel::size(communicator)); }
 
-/// Rows of Gauss points of a list of elements.
+/// Returns the rows of the Gauss points of a list of elements.
 std::vector<std::uint32_t> rows_of(const std::vector<std::uint32_t>& elements, Quadrature quadrature) {
   const auto n = static_cast<std::uint32_t>(points_per_element(quadrature));
   std::vector<std::uint32_t> rows;
@@ -29,7 +29,7 @@ std::vector<std::uint32_t> rows_of(const std::vector<std::uint32_t>& elements, Q
   return rows;
 }
 
-/// Nodes of items by their links, ascending.
+/// Returns the nodes of items according to their links, ascending.
 template <class Links>
 std::vector<std::uint32_t> nodes_of(const Links& links, std::span<const std::uint32_t> items) {
   std::vector<std::uint32_t> nodes;
@@ -44,8 +44,8 @@ std::vector<std::uint32_t> nodes_of(const Links& links, std::span<const std::uin
 SharedNodes::SharedNodes(std::span<const Mesh> meshes, MPI_Comm communicator)
     : communicator_(communicator), own_(parallel::rank(communicator)) {
   const std::size_t ranks = ranks_of(communicator);
-  // Only nodes on the surface of this rank's part can have copies. The rank that a node's id names is told
-  // of all copies, and tells those that are not alone.
+  // Only nodes on the surface of the local part can have copies. The rank given by the id of a node receives all
+  // copies, and reports the nodes with more than one copy.
   std::vector<std::vector<Key>> candidates(ranks);
   std::vector<std::unordered_map<std::uint64_t, std::uint32_t>> node_of(meshes.size());
   for (std::size_t m = 0; m < meshes.size(); ++m) {
@@ -63,7 +63,7 @@ SharedNodes::SharedNodes(std::span<const Mesh> meshes, MPI_Comm communicator)
     for (const Key& key : told[r]) copies.push_back({key[0], key[1], r});
   }
   std::ranges::sort(copies);
-  std::vector<std::vector<Copy>> answers(ranks);  // to each rank: its node, and who else has it
+  std::vector<std::vector<Copy>> answers(ranks);  // for each rank: its node, and the other ranks with copies
   for (auto begin = copies.begin(), end = begin; begin != copies.end(); begin = end) {
     while (end != copies.end() && (*end)[0] == (*begin)[0] && (*end)[1] == (*begin)[1]) ++end;
     for (auto to = begin; to != end; ++to) {
@@ -85,7 +85,7 @@ SharedNodes::SharedNodes(std::span<const Mesh> meshes, MPI_Comm communicator)
   places_.erase(std::ranges::unique(places_).begin(), places_.end());
   for (const Place& place : places_) id_.push_back(meshes[place.mesh].nodes.id[place.node]);
   std::vector<std::vector<std::uint32_t>> shared_with(ranks);
-  for (const Copy& copy : all) {  // by mesh and id: the same order on both sides
+  for (const Copy& copy : all) {  // ordered by mesh and id: the same order on both sides
     const std::size_t m = copy[0];
     const Place place{static_cast<std::uint32_t>(m), node_of[m].at(copy[1])};
     shared_with[copy[2]].push_back(
@@ -99,7 +99,7 @@ SharedNodes::SharedNodes(std::span<const Mesh> meshes, MPI_Comm communicator)
 void SharedNodes::elements_removed(std::span<Mesh> meshes) {
   constexpr std::uint32_t gone = 0xffffffff;
   constexpr std::uint8_t exists = 1, surface = 2;
-  // The nodes have new numbers.
+  // The nodes have been renumbered.
   std::vector<std::unordered_map<std::uint64_t, std::uint32_t>> place_of(meshes.size());
   for (std::uint32_t i = 0; i < places_.size(); ++i) {
     place_of[places_[i].mesh].emplace(id_[i], i);
@@ -133,7 +133,7 @@ void SharedNodes::elements_removed(std::span<Mesh> meshes) {
     }
     peer.places.swap(kept);
   }
-  // Removal keeps the order of the nodes, so the places stay sorted.
+  // Removal preserves the order of the nodes, so the places remain sorted.
   std::vector<std::uint32_t> number(places_.size(), 0);
   std::uint32_t count = 0;
   for (std::size_t i = 0; i < places_.size(); ++i) {
@@ -198,7 +198,7 @@ void SharedNodes::drop_inner_facets(std::span<const Mesh> meshes,
   }
 }
 
-/// Returns for each shared node whether this rank is the lowest with a copy.
+/// Returns for each shared node whether this rank is the lowest one with a copy.
 std::vector<std::uint8_t> SharedNodes::kept_here() const {
   std::vector<std::uint8_t> kept(places_.size(), 1);
   for (const Peer& peer : peers_) {
@@ -243,7 +243,7 @@ std::vector<Mesh> SharedNodes::numbered_together(std::span<const Mesh> meshes) c
     std::vector<std::uint32_t> number(leaves.size(), 0), of_place(places_.size(), 0);
     for (std::uint32_t i = 0; i < order.size(); ++i) number[order[i]] = first + i;
     for (std::size_t i = 0; i < places_.size(); ++i) {
-      if (places_[i].mesh == m) of_place[i] = number[places_[i].node];  // 0 where another rank keeps it
+      if (places_[i].mesh == m) of_place[i] = number[places_[i].node];  // 0 if kept by another rank
     }
     reduce(of_place, [](std::uint32_t a, std::uint32_t b) { return std::max(a, b); });
     for (std::size_t i = 0; i < places_.size(); ++i) {
@@ -259,7 +259,7 @@ std::vector<Mesh> SharedNodes::numbered_together(std::span<const Mesh> meshes) c
 
 namespace {
 
-/// Marks all but this rank's part of n items.
+/// Marks all items except the part of this rank of n items.
 std::vector<std::uint8_t> those_of_others(std::size_t n, int rank, int ranks) {
   const auto of = static_cast<std::size_t>(ranks), own = static_cast<std::size_t>(rank);
   std::vector<std::uint8_t> marked(n, 1);
@@ -279,11 +279,9 @@ void keep_share(Bars& bars, int rank, int ranks) {
 
 namespace {
 
-/// Sends items with their nodes to other ranks. Afterwards the nodes may have copies on one rank; `links`,
-/// the nodes of every item, name the first of them.
-/// @param exchange_items  called with the items that stay and those that leave: exchanges their fields,
-/// `links`
-///                        among them
+/// Sends items with their nodes to other ranks. Afterwards a rank may hold several copies of a node; `links`, the nodes
+/// of every item, refers to the first of them.
+/// @param exchange_items  called with the remaining and the departing items; exchanges their fields, including `links`
 template <class Links, class Exchange>
 void send_with_nodes(Nodes& nodes, Links& links, std::span<const int> destination, MPI_Comm communicator,
                      Exchange&& exchange_items) {
@@ -316,14 +314,14 @@ void send_with_nodes(Nodes& nodes, Links& links, std::span<const int> destinatio
   exchange_items(staying, leaving);
   exchange_rows(nodes, staying_nodes, leaving_nodes, communicator);
 
-  std::unordered_map<std::uint64_t, std::uint32_t> node_of;  // the first copy of each; they are all the same
+  std::unordered_map<std::uint64_t, std::uint32_t> node_of;  // the first copy of each; all are equal
   for (std::uint32_t a = 0; a < nodes.size(); ++a) node_of.emplace(nodes.id[a], a);
   for (std::size_t i = 0; i < ids.size(); ++i) {
     for (std::size_t a = 0; a < per_item; ++a) links[i][a] = node_of.at(ids[i][a]);
   }
 }
 
-/// Puts the nodes into an order and drops the others.
+/// Reorders the nodes and drops all others.
 template <class Links>
 void renumber(Nodes& nodes, Links& links, std::span<const std::uint32_t> order) {
   std::vector<std::uint32_t> number(nodes.size());
@@ -375,7 +373,7 @@ void gather_nodes(Mesh& mesh, MPI_Comm communicator) {
   std::vector<double> count(ranks, 0.0);
   count[static_cast<std::size_t>(parallel::rank(communicator))] = static_cast<double>(mesh.nodes.size());
   parallel::sum(communicator, count);
-  std::vector<std::uint32_t> first(ranks + 1, 0);  // of the nodes that each rank has read
+  std::vector<std::uint32_t> first(ranks + 1, 0);  // first node read by each rank
   for (std::size_t r = 0; r < ranks; ++r) first[r + 1] = first[r] + static_cast<std::uint32_t>(count[r]);
   std::vector<std::uint32_t> elements(mesh.elements.size());
   std::iota(elements.begin(), elements.end(), 0U);
@@ -385,7 +383,7 @@ void gather_nodes(Mesh& mesh, MPI_Comm communicator) {
     const auto rank = static_cast<std::size_t>(std::ranges::upper_bound(first, node) - first.begin() - 1);
     wanted[rank].push_back(node - first[rank]);
   }
-  // In the order of the ranks, so in that of `needed`.
+  // In the order of the ranks, hence in that of `needed`.
   exchange_rows(mesh.nodes, {}, parallel::exchange(communicator, wanted), communicator);
   for (Corners& corners : mesh.elements.corners) {
     for (std::uint32_t& node : corners) {

@@ -13,13 +13,12 @@
 #include "src/fem/facets.hpp"
 #include "src/fem/mesh.hpp"
 
-/// Elements on several ranks (docs/theory/fem.md, 10). Every element belongs to one rank. A node whose
-/// elements belong to several ranks has a copy on each of them: place, velocity and marks are the same bit
-/// for bit, mass and force are the contributions of the rank's own elements, so that sums over ranks are sums over
-/// nodes.
+/// Elements on several ranks (docs/theory/fem.md, 10). Every element belongs to one rank. A node whose elements belong
+/// to several ranks has a copy on each of them: position, velocity and flags are bitwise identical, while mass and
+/// force are the contributions of the local elements, so that sums over ranks are sums over nodes.
 namespace whipple::fem {
 
-/// The nodes that this rank shares with others.
+/// Holds the nodes that this rank shares with others.
 class SharedNodes {
  public:
   struct Place {
@@ -28,18 +27,18 @@ class SharedNodes {
   };
 
   SharedNodes() = default;
-  /// Collective.
+  /// Finds the shared nodes. Collective.
   SharedNodes(std::span<const Mesh> meshes, MPI_Comm communicator);
 
-  /// Elements were removed on some rank (`remove_elements`): copies that went with them are forgotten, and
-  /// their fellows lie on the surface from now on, as they do if one of them does. Collective.
+  /// Updates the shared nodes after elements were removed on any rank (`remove_elements`): removed copies are
+  /// dropped, and the remaining copies are marked as on the surface, as are all copies if one of them is. Collective.
   void elements_removed(std::span<Mesh> meshes);
 
-  /// The shared nodes of this rank, by mesh and node.
+  /// Returns the shared nodes of this rank, ordered by mesh and node.
   [[nodiscard]] std::span<const Place> places() const { return places_; }
 
-  /// Combines the values of all copies of each node, one per place, in the order of the ranks: every copy
-  /// gets the same bits. Collective.
+  /// Combines the values of all copies of each node, one per place, in the order of the ranks, so that every copy gets
+  /// bitwise the same result. Collective.
   template <class Value, class Combine>
   void reduce(std::vector<Value>& values, Combine&& combine) const {
     const std::vector<std::vector<Value>> incoming = exchange(values);
@@ -63,20 +62,19 @@ class SharedNodes {
     values.swap(result);
   }
 
-  /// Number of marked nodes (!= 0) of a mesh, of those with copies only the one on the lowest rank.
+  /// Returns the number of marked nodes (!= 0) of a mesh; shared nodes are counted on the lowest rank only.
   [[nodiscard]] double count(std::size_t mesh, std::span<const std::uint8_t> marked) const;
 
-  /// Faces of the meshes (`surface_facets`), without those that an element of another rank shares.
-  /// Collective.
+  /// Removes faces shared with an element of another rank from the faces of the meshes (`surface_facets`). Collective.
   void drop_inner_facets(std::span<const Mesh> meshes, std::span<std::vector<Facet>> facets_of_mesh) const;
 
-  /// The meshes as a file holds them: every node on one rank only, with its whole mass; the corners are
-  /// numbers of the nodes of all ranks, one rank after the other. Collective.
+  /// Returns the meshes as stored in a file: every node on one rank only, with its total mass; corners are global node
+  /// numbers, one rank after the other. Collective.
   [[nodiscard]] std::vector<Mesh> numbered_together(std::span<const Mesh> meshes) const;
 
  private:
   [[nodiscard]] std::vector<std::uint8_t> kept_here() const;
-  /// A rank and the places that it shares, in the order of their node ids on both sides.
+  /// Holds a rank and the places shared with it, in the order of the node ids on both sides.
   struct Peer {
     int rank;
     std::vector<std::uint32_t> places;
@@ -99,18 +97,18 @@ class SharedNodes {
   std::vector<Peer> peers_;        // by rank
 };
 
-/// Keeps the part of this rank of a mesh that all ranks hold: an equal number of consecutive elements.
+/// Keeps the part of this rank of a mesh held by all ranks: an equal number of consecutive elements.
 void keep_share(Mesh& mesh, int rank, int ranks);
 void keep_share(Bars& bars, int rank, int ranks);
 
-/// Sends every element to the rank that is named for it, with copies of its nodes; brings those of each rank
-/// into an order that keeps neighbours together. Collective.
+/// Sends every element to its destination rank, with copies of its nodes, and reorders the elements of each rank so
+/// that neighbours are close in memory. Collective.
 void migrate(Mesh& mesh, std::span<const int> destination, MPI_Comm communicator);
 /// Migrates bars, in the order of their ids. Collective.
 void migrate(Bars& bars, std::span<const int> destination, MPI_Comm communicator);
 
-/// The inverse of `numbered_together`, of a mesh of which every rank has read any consecutive nodes and any
-/// consecutive elements: gets the nodes of this rank's elements. Collective.
+/// Inverts `numbered_together` for a mesh of which every rank has read some consecutive nodes and some consecutive
+/// elements: gets the nodes of the local elements. Collective.
 void gather_nodes(Mesh& mesh, MPI_Comm communicator);
 
 }  // namespace whipple::fem

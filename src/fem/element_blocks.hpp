@@ -8,28 +8,28 @@
 
 #include "src/core/base/vector_math.hpp"
 
-/// How the kernels of elements divide a mesh (docs/theory/fem.md).
+/// Division of a mesh by the element kernels (docs/theory/fem.md).
 namespace whipple::fem {
 
-/// Consecutive elements that the kernels take at a time, one per lane of a register.
+/// Describes consecutive elements that the kernels process together, one per register lane.
 struct ElementGroup {
   static constexpr std::size_t size = 8;
 
-  std::uint32_t first;  ///< element
-  std::uint16_t count;  ///< of elements
-  std::uint8_t is_row;  ///< corner a of its elements: consecutive slots
-  std::uint8_t along;   ///< 1 xi, 2 eta, 3 zeta: of rows in which each shares a face with the next; else 0
-  /// Slot of each corner of each element, counted within the block; 0 for lanes without an element.
+  std::uint32_t first;  ///< first element
+  std::uint16_t count;  ///< number of elements
+  std::uint8_t is_row;  ///< 1: corner a of consecutive elements is at consecutive slots
+  std::uint8_t along;   ///< 1 xi, 2 eta, 3 zeta: rows whose elements share faces along it; else 0
+  /// Holds the slot of each corner of each element, relative to the block; 0 for lanes without an element.
   std::array<std::array<std::uint16_t, size>, 8> slot;
-  /// Location, for each corner, of the contiguous values of all elements: their slots if they are a row,
-  /// otherwise `gathered_place`.
+  /// Holds, for each corner, the location of the contiguous values of all elements: their slots for a row, otherwise
+  /// `gathered_place`.
   std::array<std::uint16_t, 8> place;
 
   static constexpr std::size_t gathered_place(std::size_t corner);
 };
 
-/// Consecutive elements whose nodes the kernels take together: positions and velocities of the nodes are
-/// copied to the first-level cache, forces are summed there first. Derived from the corners by `connect`.
+/// Describes blocks of consecutive elements whose nodes the kernels process together: positions and velocities of the
+/// nodes are copied to the first-level cache, and forces are first summed there. Derived from the corners by `connect`.
 struct Blocks {
   static constexpr std::size_t size = 256;  ///< elements
 
@@ -40,17 +40,17 @@ struct Blocks {
   std::vector<std::uint32_t> slot_node;   ///< node of each slot, ascending in a block
   std::vector<std::uint32_t> first_of_node,
       slots_of_node;  ///< of node a, ascending, as in Mesh::first_corner
-  /// `count` nodes from `node` on that have one slot each, from `slot` on.
+  /// Describes `count` nodes from `node` on with a single slot each, from `slot` on.
   struct Run {
     std::uint32_t node, slot, count;
   };
-  std::vector<Run> runs;                    ///< of nodes that have one slot
-  std::vector<std::uint32_t> shared_nodes;  ///< those that have more, in several blocks
+  std::vector<Run> runs;                    ///< of nodes with a single slot
+  std::vector<std::uint32_t> shared_nodes;  ///< nodes with several slots, in several blocks
   std::vector<Vector3> slot_force;          ///< N, scratch of `internal_forces`
-  bool forces_stand = false;                ///< `slot_force` is of the present positions and stresses
+  bool forces_stand = false;                ///< `slot_force` is up to date with positions and stresses
 };
 
-/// Behind all slots that a block may have.
+/// Returns a location behind all slots of a block.
 constexpr std::size_t ElementGroup::gathered_place(std::size_t corner) {
   return 8 * Blocks::size + size * corner;
 }

@@ -15,17 +15,16 @@
 #include "src/fem/mesh.hpp"
 #include "src/fem/step.hpp"
 
-/// The loops over the elements of a block, element_kernels/, compiled for two sets of registers, one
-/// element per lane: `narrow` for AVX2, four elements at a time, and `wide` for AVX-512, eight. Lane by lane
-/// both compute the same in the same order, and sums go over four lanes after four, so their results are the
-/// same bits.
+/// The loops over the elements of a block, element_kernels/, compiled for two register widths, one element per lane:
+/// `narrow` for AVX2, four elements at a time, and `wide` for AVX-512, eight. Each lane performs the same operations in
+/// the same order in both, and sums over lanes are taken in groups of four, so the results are bitwise identical.
 namespace whipple::fem {
 
 inline constexpr double root8 = 2.8284271247461900976;  ///< norm of a mode's corner values
-inline constexpr double negligible_cut = 0.02;  ///< of the energy of hourglass forces: not counted as a limit
-inline constexpr double negligible_energy = 1e-12;  ///< of m c^2, the same
+inline constexpr double negligible_cut = 0.02;  ///< energy fraction cut from hourglass forces, not counted
+inline constexpr double negligible_energy = 1e-12;  ///< of m c^2, likewise not counted as a limit
 
-/// Quantities that are the same for all groups of elements.
+/// Holds the quantities common to all groups of elements.
 struct DeformationStep {
   Mesh& mesh;
   double dt;
@@ -39,18 +38,18 @@ using Vector = Lanes;
 constexpr std::size_t width = 4;
 
 WHIPPLE_INLINE inline Vector in_all(double x) { return broadcast(x); }
-/// The first `count` lanes, at least one, from and to memory.
+/// Loads the first `count` lanes, at least one, from memory.
 WHIPPLE_INLINE inline Vector load_lanes(const double* from, std::size_t count) {
   return whipple::load(from, count, 0.0);
 }
 WHIPPLE_INLINE inline void store_lanes(double* to, Vector x, std::size_t count) {
   whipple::store(to, x, count);
 }
-/// Numbers at as many places as there are lanes.
+/// Loads numbers from as many places as there are lanes.
 WHIPPLE_INLINE inline Vector gather_lanes(const double* from, const std::uint16_t* places) {
   const __m128i four = _mm_cvtepu16_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(places)));
   const __m256d all =
-      _mm256_castsi256_pd(_mm256_set1_epi64x(-1));  // (the plain one warns of what is not set)
+      _mm256_castsi256_pd(_mm256_set1_epi64x(-1));  // (avoids a compiler warning about uninitialised values)
   return Vector(_mm256_mask_i32gather_pd(_mm256_setzero_pd(), from, four, all, sizeof(double)));
 }
 WHIPPLE_INLINE inline Vector root(Vector x) { return whipple::sqrt(x); }
@@ -61,7 +60,7 @@ WHIPPLE_INLINE inline Vector first_lanes(Vector x, std::size_t count) {
   for (std::size_t l = count; l < width; ++l) x[l] = 0.0;
   return x;
 }
-/// As many vectors of three as there are lanes, one after the other, by components, and back.
+/// Loads as many consecutive 3-vectors as there are lanes, by component.
 WHIPPLE_INLINE inline std::array<Vector, 3> load_vectors(const double* from) {
   const FourVectors four = load_four_vectors(from);
   return {four.x, four.y, four.z};
@@ -73,8 +72,8 @@ WHIPPLE_INLINE inline void store_vectors(double* to, Vector x, Vector y, Vector 
   whipple::store(to + 4, __builtin_shufflevector(yx, z, 0, 5, 1, 2));
   whipple::store(to + 8, __builtin_shufflevector(xy_last, z, 6, 0, 1, 7));
 }
-/// Adds what the elements of a row give to the nodes behind and before each of them, to a line of nodes. Four
-/// elements after four, so that sums are the same bits in all registers.
+/// Adds the contributions of the elements of a row to the nodes behind and ahead of each of them, to a line of nodes.
+/// Elements are processed in groups of four, so that sums are bitwise identical for all register widths.
 WHIPPLE_INLINE inline void add_to_line(double* line, Vector behind, Vector before, std::size_t count) {
   behind = first_lanes(behind, count);
   before = first_lanes(before, count);
@@ -82,7 +81,7 @@ WHIPPLE_INLINE inline void add_to_line(double* line, Vector behind, Vector befor
   whipple::store(line, (whipple::load(line) + behind) + ahead);
   line[width] += before[width - 1];
 }
-/// Four numbers of each element (a row) to one register per number (a column).
+/// Transposes four numbers per element (rows) to one register per number (columns).
 WHIPPLE_INLINE inline std::array<Vector, 4> columns(const std::array<Lanes, width>& rows) {
   return transposed(rows);
 }
@@ -152,7 +151,7 @@ WHIPPLE_INLINE inline void store_vectors(double* to, Vector x, Vector y, Vector 
   store_lanes(to + 8, __builtin_shufflevector(b, z, 10, 1, 2, 11, 4, 5, 12, 7), 8);
   store_lanes(to + 16, __builtin_shufflevector(c, z, 0, 13, 2, 3, 14, 5, 6, 15), 8);
 }
-/// Pairs of halves: row n in the lower one, row n + 4 in the upper one.
+/// Transposes pairs of halves: row n in the lower half, row n + 4 in the upper half.
 WHIPPLE_INLINE inline std::array<Vector, 4> columns(const std::array<Lanes, width>& rows) {
   std::array<Vector, 4> pair;
   for (std::size_t n = 0; n < 4; ++n) {
@@ -176,7 +175,7 @@ WHIPPLE_INLINE inline std::array<Vector, 4> columns(const std::array<Lanes, widt
 #endif
 #endif
 
-/// Calls f(Kernels{}) with the set that the processor runs.
+/// Calls f(Kernels{}) with the kernel set of the processor.
 template <class Function>
 void with_kernels(Function&& f) {
 #if WHIPPLE_WIDE_KERNELS

@@ -11,7 +11,7 @@
 namespace whipple::fem {
 namespace {
 
-/// Corners of the six faces, round the outward normal.
+/// Lists the corners of the six faces, counter-clockwise about the outward normal.
 constexpr std::array<std::array<std::size_t, 4>, 6> corners_of_face = {
     {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
 
@@ -21,7 +21,7 @@ Facet face(const Corners& corners, std::size_t number) {
   return facet;
 }
 
-/// Three common nodes make a common face.
+/// Returns whether another element shares a face; three common nodes imply a common face.
 bool is_shared(const Mesh& mesh, std::size_t element, const Facet& facet) {
   return std::ranges::any_of(mesh.corners_at(facet[0]), [&](std::uint32_t corner) {
     const std::size_t other = corner / 8;
@@ -32,7 +32,7 @@ bool is_shared(const Mesh& mesh, std::size_t element, const Facet& facet) {
   });
 }
 
-/// A face of an element by its sorted nodes, and from which side the element sees it.
+/// Describes a face of an element by its sorted nodes, and the side of it on which the element is.
 struct Side {
   Facet nodes;
   bool turned;
@@ -74,7 +74,7 @@ std::vector<Facet> surface_facets(const Mesh& mesh, std::span<const std::uint8_t
   const auto all_marked = [&](const auto& nodes) {
     return marked.empty() || std::ranges::all_of(nodes, [&](std::uint32_t a) { return marked[a] != 0; });
   };
-  std::vector<std::uint8_t> free(mesh.elements.size(), 0);  // of each element: a bit per face
+  std::vector<std::uint8_t> free(mesh.elements.size(), 0);  // one bit per face of each element
   parallel::for_each(free.size(), [&](std::size_t e) {
     const Corners& corners = mesh.elements.corners[e];
     for (std::size_t f = 0; f < 6; ++f) {

@@ -11,23 +11,21 @@
 
 namespace whipple::fem {
 
-/// Nodes of a face of a hexahedron; they go round its outward normal.
+/// Holds the nodes of a face of a hexahedron, counter-clockwise about its outward normal.
 using Facet = std::array<std::uint32_t, 4>;
 
-/// Faces that belong to one element only: the surface of a mesh, in the order of the elements.
-/// The mesh must be connected (`connect`).
-/// @param marked  empty, or of each node whether it may be on the surface (!= 0): faces of other nodes are
-/// not
-///                looked at
+/// Returns the faces that belong to one element only, the surface of a mesh, in the order of the elements. The mesh
+/// must be connected (`connect`).
+/// @param marked  empty, or nonzero for each node that may be on the surface: faces with other nodes are skipped
 std::vector<Facet> surface_facets(const Mesh& mesh, std::span<const std::uint8_t> marked = {});
 
-/// Two elements on the same side of a common face: they lie in one another.
+/// Describes two elements on the same side of a common face, which therefore overlap.
 struct Overlap {
   std::size_t element, other;
-  bool same;  ///< all eight nodes are the same
+  bool same;  ///< all eight nodes are identical
 };
-/// The first pair of elements that overlap, by common nodes. Where there is none, the elements fill the
-/// volume that the surface of the mesh bounds.
+/// Finds the first pair of elements that overlap, judged by common nodes. Without such a pair, the elements fill the
+/// volume bounded by the surface of the mesh.
 std::optional<Overlap> first_overlap(const Hexahedra& hexahedra);
 
 }  // namespace whipple::fem

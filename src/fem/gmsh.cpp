@@ -19,7 +19,7 @@
 namespace whipple::fem {
 namespace {
 
-/// Reads line by line; knows where it is.
+/// Reads line by line and tracks the line number.
 class GmshReader {
  public:
   GmshReader(MeshData& file, const std::filesystem::path& path, double length_unit)
@@ -63,7 +63,7 @@ class GmshReader {
   void next(const char* section) {
     if (!next_or_end()) fail(fmt::format("the file ends inside ${}", section));
   }
-  /// The next word of the line.
+  /// Returns the next word of the line.
   std::string_view word(const char* what) {
     const std::size_t begin = rest_.find_first_not_of(" \t");
     if (begin == std::string_view::npos) fail(fmt::format("the line ends where {} is expected", what));
@@ -86,9 +86,10 @@ class GmshReader {
     }
     return value;
   }
-  /// A number of things that follow. They take memory one by one: a file may declare more than it holds.
+  /// Reads the number of items that follow. Memory is allocated item by item, as a file may declare more than it
+  /// contains.
   std::size_t count(const char* what) { return number<std::size_t>(what); }
-  /// So many numbers of the line.
+  /// Reads the given number of integers from the line.
   std::vector<int> numbers(std::size_t size, const char* what) {
     std::vector<int> result;
     for (; size > 0; --size) result.push_back(number<int>(what));
@@ -210,7 +211,7 @@ class GmshReader {
       element.nodes.push_back(found->second);
     }
     for (const int p : physical) {
-      // Negative in format 4.1 where the entity is reversed.
+      // Negative in format 4.1 if the entity is reversed.
       if (p == std::numeric_limits<int>::min())
         fail(fmt::format("\"{}\" is not the tag of a physical group", p));
       if (p != 0)

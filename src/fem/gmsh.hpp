@@ -5,7 +5,7 @@
 
 namespace whipple::fem {
 
-/// Reads a file of Gmsh, format 2.2 or 4.1, ASCII. @throws InputError naming file and line
+/// Reads a Gmsh file, format 2.2 or 4.1, ASCII. @throws InputError naming file and line
 MeshData read_gmsh(const std::filesystem::path& path, double length_unit);
 
 }  // namespace whipple::fem

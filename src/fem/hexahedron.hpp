@@ -7,13 +7,12 @@
 
 #include "src/core/base/vector_math.hpp"
 
-/// The trilinear hexahedron in its modes (docs/theory/fem.md, 2): a nodal field u_a = sum_k u_k phi_k(xi_a)
-/// with phi = 1, xi, eta, zeta, eta zeta, zeta xi, xi eta, xi eta zeta. T is a number, or a register of them:
-/// several elements at a time. The formulas, hexahedron.inl, are compiled for each set of registers
-/// (element_kernels.hpp).
+/// The trilinear hexahedron expanded in modes (docs/theory/fem.md, 2): a nodal field u_a = sum_k u_k phi_k(xi_a) with
+/// phi = 1, xi, eta, zeta, eta zeta, zeta xi, xi eta, xi eta zeta. T is a number, or a register of numbers for several
+/// elements. The formulas, hexahedron.inl, are compiled for each register width (element_kernels.hpp).
 namespace whipple::fem {
 
-/// Natural coordinates of corner (or of the Gauss point next to it, times 1/sqrt(3)).
+/// Lists the natural coordinates of the corners (or of the adjacent Gauss points, times sqrt(3)).
 constexpr std::array<std::array<double, 3>, 8> corner_coordinates = {
     {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}};
 constexpr double gauss_coordinate = 0.57735026918962576451;  ///< 1/sqrt(3)

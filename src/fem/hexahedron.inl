@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Included by hexahedron.hpp for numbers and by element_kernels.hpp for each set of registers. `root`,
-// `minimum`, `maximum` and `all_positive` are those of the number.
+// Included by hexahedron.hpp for numbers and by element_kernels.hpp for each register width. `root`, `minimum`,
+// `maximum` and `all_positive` are those of the number type.
 
 template <class T>
 struct Triple {
@@ -40,7 +40,7 @@ template <class T>
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Columns of a 3 x 3 matrix.
+/// Holds the columns of a 3 x 3 matrix.
 template <class T>
 struct Columns {
   Triple<T> x, y, z;
@@ -53,25 +53,25 @@ template <class T>
 [[gnu::always_inline]] inline T determinant(const Columns<T>& m) {
   return dot(m.x, cross(m.y, m.z));
 }
-/// Cofactors: the inverse transposed, times the determinant.
+/// Returns the cofactors: the transposed inverse times the determinant.
 template <class T>
 [[gnu::always_inline]] inline Columns<T> cofactors(const Columns<T>& m) {
   return {cross(m.y, m.z), cross(m.z, m.x), cross(m.x, m.y)};
 }
-/// a b^T
+/// Adds a b^T.
 template <class T>
 [[gnu::always_inline]] inline void add_dyad(Columns<T>& m, const Triple<T>& a, const Triple<T>& b) {
   m.x += b.x * a;
   m.y += b.y * a;
   m.z += b.z * a;
 }
-/// a : b
+/// Returns a : b.
 template <class T>
 [[gnu::always_inline]] inline T contraction(const Columns<T>& a, const Columns<T>& b) {
   return dot(a.x, b.x) + dot(a.y, b.y) + dot(a.z, b.z);
 }
 
-/// Coefficients of a nodal vector field, without the constant one.
+/// Holds the coefficients of a nodal vector field, without the constant mode.
 template <class T>
 struct Modes {
   Triple<T> xi, eta, zeta, eta_zeta, zeta_xi, xi_eta, xi_eta_zeta;
@@ -92,8 +92,7 @@ template <class S, class T>
   return {s * a.xi, s * a.eta, s * a.zeta, s * a.eta_zeta, s * a.zeta_xi, s * a.xi_eta, s * a.xi_eta_zeta};
 }
 
-/// From the corners to the modes: u_k = sum_a phi_ka u_a / 8 (eq. 2.2) of one component of a field, given
-/// u_a / 8.
+/// Transforms corner values to modes: u_k = sum_a phi_ka u_a / 8 (eq. 2.2) for one component of a field, given u_a / 8.
 template <class T>
 [[gnu::always_inline]] inline std::array<T, 7> modes_of_eighths(const std::array<T, 8>& u) {
   const T s0 = u[1] + u[0], d0 = u[1] - u[0], s1 = u[2] + u[3], d1 = u[2] - u[3];
@@ -102,7 +101,7 @@ template <class T>
   const T ss1 = s3 + s2, ds1 = s3 - s2, sd1 = d3 + d2, dd1 = d3 - d2;
   return {sd1 + sd0, ds1 + ds0, ss1 - ss0, ds1 - ds0, sd1 - sd0, dd1 + dd0, dd1 - dd0};
 }
-/// The modes of a field by those of its components.
+/// Assembles the modes of a field from those of its components.
 template <class T>
 [[gnu::always_inline]] inline Modes<T> modes_by_components(const std::array<T, 7>& x,
                                                            const std::array<T, 7>& y,
@@ -121,7 +120,7 @@ template <class T>
   return modes_by_components(modes_of_eighths(x), modes_of_eighths(y), modes_of_eighths(z));
 }
 
-/// From the modes to the corners: u_a = sum_k phi_ka u_k, without the constant mode.
+/// Transforms modes to corner values: u_a = sum_k phi_ka u_k, without the constant mode.
 template <class T>
 [[gnu::always_inline]] inline std::array<Triple<T>, 8> corners_of(const Modes<T>& m) {
   const Triple<T> xi_low = m.xi - m.zeta_xi, xi_high = m.xi + m.zeta_xi;
@@ -137,21 +136,21 @@ template <class T>
           even_high + sum_high,        -(odd_high + difference_high)};
 }
 
-/// Derivatives of an eighth of the volume with respect to the modes of the position (eq. 2.4); none to the
-/// last one. With them sum_a u_a B_a^T = 8 sum_k u_k beta_k^T, B_a = dV/dx_a.
+/// Holds the derivatives beta_k of one eighth of the volume with respect to the modes of the position (eq. 2.4); that
+/// of the last mode vanishes. They satisfy sum_a u_a B_a^T = 8 sum_k u_k beta_k^T, B_a = dV/dx_a.
 template <class T>
 struct VolumeGradient {
   Triple<T> xi, eta, zeta, eta_zeta, zeta_xi, xi_eta;
   T volume;
 
-  /// sum_a |B_a|^2
+  /// Returns sum_a |B_a|^2.
   [[nodiscard]] T squared_norm() const {
     return 8.0 * (dot(xi, xi) + dot(eta, eta) + dot(zeta, zeta) + dot(eta_zeta, eta_zeta) +
                   dot(zeta_xi, zeta_xi) + dot(xi_eta, xi_eta));
   }
 };
 
-/// Volume and its gradient (eq. 2.3, 2.4).
+/// Computes the volume and its gradient (eq. 2.3, 2.4).
 template <class T>
 [[gnu::always_inline]] inline VolumeGradient<T> volume_gradient(const Modes<T>& x) {
   const auto third = [](const Triple<T>& a) { return (1.0 / 3.0) * a; };
@@ -168,7 +167,7 @@ template <class T>
   return g;
 }
 
-/// The volume alone.
+/// Computes the volume only.
 template <class T>
 [[gnu::always_inline]] inline T volume_of(const Modes<T>& x) {
   const Triple<T>&a = x.xi, &b = x.eta, &c = x.zeta, &d = x.eta_zeta, &e = x.zeta_xi, &f = x.xi_eta;
@@ -176,7 +175,7 @@ template <class T>
                 (1.0 / 3.0) * (dot(b, cross(d, f)) + dot(c, cross(e, d))));
 }
 
-/// sum_k u_k beta_k: the mean gradient of one component of a field times an eighth of the volume.
+/// Returns sum_k u_k beta_k, the mean gradient of one component of a field times an eighth of the volume.
 template <class T>
 [[gnu::always_inline]] inline Triple<T> mean_gradient_times_eighth(const std::array<T, 7>& u,
                                                                    const VolumeGradient<T>& g) {
@@ -189,7 +188,7 @@ template <class T>
   return sum;
 }
 
-/// Derivatives of a field with respect to the natural coordinates at a point (columns).
+/// Returns the derivatives of a field with respect to the natural coordinates at a point (columns).
 template <class T>
 [[gnu::always_inline]] inline Columns<T> natural_gradient(const Modes<T>& u, double xi, double eta,
                                                           double zeta) {
@@ -198,8 +197,8 @@ template <class T>
           u.zeta + eta * u.eta_zeta + xi * u.zeta_xi + (xi * eta) * u.xi_eta_zeta};
 }
 
-/// x^(1/3) for x in [1/2, 2] to round-off: the series at 1 where |x - 1| is below 0.002, two steps of
-/// Halley's iteration from the cubic elsewhere. Outside of that range, a positive number.
+/// Computes x^(1/3) for x in [1/2, 2] to round-off: by the series about 1 if |x - 1| is below 0.002, otherwise by two
+/// Halley iterations starting from the cubic. Outside of that range, returns a positive number.
 template <class T>
 [[gnu::always_inline]] inline T cube_root_near_one(T x) {
   const T e = x - 1.0, room = 4e-6 - e * e, e2 = e * e;
@@ -214,22 +213,22 @@ template <class T>
   return room > 0.0 ? series : y;
 }
 
-/// Length of a one-point element (m): V sqrt(3/2 / sum_a |B_a|^2), the edge of a cube (eq. 5.2).
+/// Returns the length of a one-point element (m): V sqrt(3/2 / sum_a |B_a|^2), the edge of a cube (eq. 5.2).
 template <class T>
 [[gnu::always_inline]] inline T one_point_length(const VolumeGradient<T>& g) {
   return g.volume / root((2.0 / 3.0) * g.squared_norm());
 }
 
-/// Measures of the size of an element from eight Gauss points.
+/// Holds measures of the size of an element from eight Gauss points.
 template <class T>
 struct EightPointSize {
-  T length;          ///< m (eq. 5.4); the edge of a cube
+  T length;          ///< m (eq. 5.4); for a cube its edge
   T least_jacobian;  ///< m^3
 };
 template <class T>
 [[gnu::always_inline]] inline EightPointSize<T> eight_point_size(const Modes<T>& x,
                                                                  const VolumeGradient<T>& g) {
-  T trace{}, least{};  // integral of sum_a |grad N_a|^2; least Jacobian
+  T trace{}, least{};  // integral of sum_a |grad N_a|^2; minimum Jacobian
   for (std::size_t q = 0; q < 8; ++q) {
     const double xi = gauss_coordinate * corner_coordinates[q][0],
                  eta = gauss_coordinate * corner_coordinates[q][1],

@@ -9,8 +9,8 @@
 
 namespace whipple::fem {
 
-/// Inverts a map: the values v with item_of_value[v] = i become values[first[i]] ... values[first[i + 1] -
-/// 1], ascending.
+/// Inverts a map: the values v with item_of_value[v] = i become values[first[i]] ... values[first[i + 1] - 1],
+/// ascending.
 inline void list_by_item(std::span<const std::uint32_t> item_of_value, std::size_t items,
                          std::vector<std::uint32_t>& first, std::vector<std::uint32_t>& values) {
   first.assign(items + 1, 0);

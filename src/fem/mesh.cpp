@@ -37,7 +37,7 @@ double jacobian(const Modes<double>& x, std::size_t corner, double scale) {
   return determinant(natural_gradient(x, scale * at[0], scale * at[1], scale * at[2]));
 }
 
-/// Trilinear shape function of a corner at a Gauss point.
+/// Returns the trilinear shape function of a corner at a Gauss point.
 double shape_at_gauss_point(std::size_t corner, std::size_t point) {
   double n = 0.125;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -64,8 +64,8 @@ std::string inversion(const Modes<double>& x) {
   return {};
 }
 
-/// Returns for each element the number of elements from it on that form a row, in which each corner of the
-/// next one is the next slot.
+/// Returns for each element the number of elements, starting with it, that form a row: each corner of the next element
+/// is at the next slot.
 std::vector<std::uint32_t> row_lengths(std::span<const Corners> slots) {
   std::vector<std::uint32_t> length(slots.size(), 1);
   for (std::size_t e = slots.size() - 1; e-- > 0;) {
@@ -76,9 +76,9 @@ std::vector<std::uint32_t> row_lengths(std::span<const Corners> slots) {
   return length;
 }
 
-/// @param slots  of the corners of the block's elements, counted in the block
+/// Divides the elements of a block into groups. @param slots  of the corners, relative to the block
 void make_groups(Blocks& blocks, std::size_t first_element, std::span<const Corners> slots) {
-  constexpr std::uint32_t worth_it = ElementGroup::size / 2;  // shorter rows share a group
+  constexpr std::uint32_t worth_it = ElementGroup::size / 2;  // shorter rows are merged into a group
   const std::vector<std::uint32_t> length = row_lengths(slots);
   for (std::size_t e = 0; e < slots.size();) {
     const bool is_row = length[e] >= worth_it;
@@ -96,7 +96,7 @@ void make_groups(Blocks& blocks, std::size_t first_element, std::span<const Corn
           is_row ? group.slot[a][0] : static_cast<std::uint16_t>(ElementGroup::gathered_place(a));
     }
     group.along = 0;
-    constexpr std::array<std::size_t, 3> next_corner = {1, 3, 4};  // to the first, along each direction
+    constexpr std::array<std::size_t, 3> next_corner = {1, 3, 4};  // of the first, in each direction
     for (std::uint8_t axis = 0; is_row && axis < 3; ++axis) {
       if (group.slot[next_corner[axis]][0] == group.slot[0][0] + 1) group.along = axis + 1;
     }
@@ -105,7 +105,7 @@ void make_groups(Blocks& blocks, std::size_t first_element, std::span<const Corn
 }
 
 void find_runs(Blocks& blocks) {
-  constexpr std::uint32_t longest = 64;  // so that threads find enough of them
+  constexpr std::uint32_t longest = 64;  // so that there are enough of them for all threads
   blocks.runs.clear();
   blocks.shared_nodes.clear();
   for (std::uint32_t a = 0; a + 1 < blocks.first_of_node.size(); ++a) {
@@ -170,7 +170,7 @@ void keep(Points& points, std::span<const std::uint32_t> kept, std::size_t rows_
     auto& values = field.of(points);
     if (field.optional && values.empty()) return;
     std::size_t to = 0;
-    for (const std::size_t item : kept) {  // ascending: never overwrites what is still to be read
+    for (const std::size_t item : kept) {  // ascending: never overwrites entries still to be read
       for (std::size_t r = 0; r < rows_per_item; ++r) values[to++] = values[item * rows_per_item + r];
     }
     values.resize(to);
@@ -332,9 +332,9 @@ double scaled_jacobian(const Mesh& mesh, std::size_t element) {
       corner_positions(mesh.nodes.position, mesh.elements.corners[element]);
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t layer = 0; layer < 8; layer += 4) {
-    std::array<Triple<double>, 4> edge;  // round the face, from each corner to the next
+    std::array<Triple<double>, 4> edge;  // around the face, from each corner to the next
     for (std::size_t k = 0; k < 4; ++k) edge[k] = x[layer + (k + 1) % 4] - x[layer + k];
-    for (std::size_t k = 0; k < 4; ++k) {  // the corner's three edges: 8 times its Jacobian
+    for (std::size_t k = 0; k < 4; ++k) {  // the three edges of the corner: 8 times its Jacobian
       least = std::min(least, dot(x[4 + k] - x[k], cross(edge[(k + 3) % 4], edge[k])));
     }
   }
@@ -371,7 +371,7 @@ MeshTotals& MeshTotals::operator+=(const MeshTotals& other) {
 
 namespace {
 
-/// Sums of nodes, four at a time.
+/// Computes sums over nodes, four at a time.
 MeshTotals totals_of_nodes(const Nodes& nodes, std::size_t begin, std::size_t end) {
   Lanes mass{}, scale{}, twice_kinetic{};
   FourVectors momentum{};
@@ -398,7 +398,7 @@ MeshTotals totals_of_nodes(const Nodes& nodes, std::size_t begin, std::size_t en
   return sum;
 }
 
-/// Sum over i of value(four i from there on, how many there are), four at a time.
+/// Returns the sum over i of value(index of the first of four, number of them), four at a time.
 template <class Value>
 double sum_by_four(std::size_t n, Value&& value) {
   return parallel::sum_of_chunks<double>(n, [&](std::size_t begin, std::size_t end) {

@@ -14,14 +14,13 @@
 #include "src/fem/hexahedra.hpp"
 #include "src/particles/material_points.hpp"
 
-/// Elements of one body: structures and what is done to them outside of the time step
-/// (docs/theory/fem.md).
+/// Elements of one body: data structures, and operations outside of the time step (docs/theory/fem.md).
 namespace whipple::fem {
 
-/// Quadrature of the integrals over an element.
+/// Selects the quadrature of the integrals over an element.
 enum class Quadrature : std::uint8_t {
   one_point,  ///< mean gradient of Flanagan & Belytschko, with hourglass control
-  b_bar,      ///< 2 x 2 x 2 Gauss points, volumetric strain of the element's mean (Hughes' B-bar)
+  b_bar,      ///< 2 x 2 x 2 Gauss points, mean volumetric strain of the element (Hughes' B-bar)
 };
 constexpr std::array<Word<Quadrature>, 2> words(Quadrature) {
   return {{{Quadrature::one_point, "one_point"}, {Quadrature::b_bar, "b_bar"}}};
@@ -30,7 +29,7 @@ constexpr std::size_t points_per_element(Quadrature quadrature) {
   return quadrature == Quadrature::one_point ? 1 : 8;
 }
 
-/// Directions in which a boundary condition prescribes the velocity of a node: bits of Nodes::constrained.
+/// Lists the directions in which the velocity of a node is prescribed: bits of Nodes::constrained.
 namespace constraint {
 constexpr std::uint8_t none = 0, x = 1, y = 2, z = 4, all = 7;
 constexpr std::uint8_t axis(int a) { return static_cast<std::uint8_t>(1U << static_cast<unsigned>(a)); }
@@ -41,11 +40,11 @@ struct Nodes {
   std::vector<double> mass;               ///< kg, lumped: contributions of the remaining elements
   std::vector<Vector3> position;          ///< m
   std::vector<Vector3> velocity;          ///< m/s
-  std::vector<Vector3> force;             ///< N, of `internal_forces`
+  std::vector<Vector3> force;             ///< N, set by `internal_forces`
   std::vector<std::uint8_t> constrained;  ///< bits of fem::constraint
   std::vector<Vector3> prescribed;        ///< m/s, velocity along the constrained directions
 
-  // Of coupled runs (docs/theory/afemp.md); 0 by themselves.
+  // For coupled runs (docs/theory/afemp.md); otherwise 0.
   std::vector<Matrix3> affine_velocity;     ///< 1/s, of nodes that move with the grid
   std::vector<std::uint8_t> on_surface;     ///< on a face of one element only
   std::vector<std::uint8_t> in_transition;  ///< moves with the grid in the present step
@@ -66,17 +65,17 @@ struct Nodes {
 struct Elements {
   std::vector<std::uint64_t> id;  ///< unique, never changes
   std::vector<Corners> corners;
-  /// Generalised forces Q_k (N) of the four hourglass modes (docs/theory/fem.md, 3), an array per component
-  /// because kernels take several elements at a time; zero with Quadrature::b_bar.
+  /// Holds the generalised forces Q_k (N) of the four hourglass modes (docs/theory/fem.md, 3), one array per component
+  /// because kernels process several elements at a time; zero with Quadrature::b_bar.
   std::vector<double> hourglass_1x, hourglass_1y, hourglass_1z, hourglass_2x, hourglass_2y, hourglass_2z,
       hourglass_3x, hourglass_3y, hourglass_3z, hourglass_4x, hourglass_4y, hourglass_4z;
   std::vector<double> hourglass_energy;         ///< J, stored by the hourglass stiffness, never negative
-  std::vector<double> hourglass_lead;           ///< J, by which it leads the work done (eq. 3.7)
-  std::vector<double> returned_plastic_strain;  ///< up to which hourglass forces have returned (eq. 3.9)
+  std::vector<double> hourglass_lead;           ///< J, by which it exceeds the work done (eq. 3.7)
+  std::vector<double> returned_plastic_strain;  ///< already applied to hourglass forces (eq. 3.9)
 
   [[nodiscard]] std::size_t size() const { return id.size(); }
 
-  /// Mode after mode.
+  /// Lists the components, mode by mode.
   static constexpr std::array<std::vector<double> Elements::*, 12> hourglass_components() {
     using E = Elements;
     return {&E::hourglass_1x, &E::hourglass_1y, &E::hourglass_1z, &E::hourglass_2x,
@@ -99,8 +98,8 @@ struct Elements {
   }
 };
 
-/// Gauss points; those of element e are the rows [e n, (e + 1) n) with n = points_per_element, in the order
-/// of the corners that they are next to.
+/// Holds the Gauss points; those of element e are the rows [e n, (e + 1) n) with n = points_per_element, in the order
+/// of the nearest corners.
 struct GaussPoints : MaterialPoints {
   std::vector<double> length;  ///< m, of the element: for time step and artificial viscosity (eq. 5.2)
 
@@ -112,7 +111,7 @@ struct GaussPoints : MaterialPoints {
   }
 };
 
-/// The elements of one body on one rank.
+/// Holds the elements of one body on one rank.
 struct Mesh {
   Quadrature quadrature = Quadrature::one_point;
   std::uint32_t body = 0;  ///< index of the body in the case
@@ -120,9 +119,8 @@ struct Mesh {
   Elements elements;
   GaussPoints points;
 
-  // Derived from the corners by `connect`: the corners that meet at node a are
-  // node_corners[first_corner[a]] ... node_corners[first_corner[a + 1] - 1], each 8 element + corner,
-  // ascending.
+  // Derived from the corners by `connect`: the corners that meet at node a are node_corners[first_corner[a]] ...
+  // node_corners[first_corner[a + 1] - 1], each as 8 element + corner, ascending.
   std::vector<std::uint32_t> first_corner, node_corners;
   Blocks blocks;
 
@@ -131,42 +129,41 @@ struct Mesh {
   }
 };
 
-/// Nodes, elements and Gauss points with their volumes, in `storage_order`; the ids
-/// count from the given numbers in the order of the hexahedra. Without mass, velocity and state:
-/// `set_density`, then `initialise` (src/material/material.hpp) with `mesh.points`. The hexahedra must have
-/// passed `check`.
+/// Creates nodes, elements and Gauss points with their volumes, in `storage_order`; ids count from the given numbers in
+/// the order of the hexahedra. Mass, velocity and state are not set: call `set_density`, then `initialise`
+/// (src/material/material.hpp) with `mesh.points`. The hexahedra must have passed `check`.
 Mesh make_mesh(const Hexahedra& hexahedra, Quadrature quadrature, std::uint32_t body = 0,
                std::uint64_t first_node_id = 0, std::uint64_t first_element_id = 0);
 
-/// Masses of Gauss points (density times volume, kg/m^3) and lumped masses of the nodes.
+/// Sets the masses of Gauss points (density in kg/m^3 times volume) and the lumped nodal masses.
 void set_density(Mesh& mesh, double density);
 
-/// Returns the contribution of an element to the lumped mass (kg) of a corner's node, by row sums with the
-/// element's own quadrature: m/8 with one point, the sum of N_a m_q over the Gauss points with eight.
+/// Returns the contribution of an element to the lumped mass (kg) of the node at a corner, by row sums with the
+/// quadrature of the element: m/8 with one point, the sum of N_a m_q over the Gauss points with eight.
 double corner_mass(const Mesh& mesh, std::size_t element, std::size_t corner);
 
-/// Rebuilds what is derived from the corners; needed after the corners were set or read.
+/// Rebuilds the data derived from the corners; required after the corners were set or read.
 void connect(Mesh& mesh);
 
-/// Sums the corners' masses at the nodes.
+/// Sums the corner masses at the nodes.
 void lump_masses(Mesh& mesh);
 
-/// Takes elements (`removed` != 0) out of the mesh, with their Gauss points and the mass that they gave to
-/// their nodes; nodes without elements vanish. The order of what stays is kept.
+/// Removes elements (`removed` != 0) from the mesh, with their Gauss points and their contributions to the nodal
+/// masses; nodes without elements are removed. The order of the remaining items is preserved.
 void remove_elements(Mesh& mesh, std::span<const std::uint8_t> removed);
 
 double mass(const Mesh& mesh, std::size_t element);
-/// m^3 of the trilinear hexahedron (exact); negative if inverted.
+/// Returns the volume of the trilinear hexahedron, m^3 (exact); negative if inverted.
 double volume(const Mesh& mesh, std::size_t element);
-/// Least Jacobian of the eight corners over the mean one, an eighth of the volume: 1 for a parallelepiped, 0
-/// where a corner has become flat, negative where it is turned inside out.
+/// Returns the minimum Jacobian of the eight corners over the mean one, an eighth of the volume: 1 for a
+/// parallelepiped, 0 if a corner is flat, negative if it is inverted.
 double scaled_jacobian(const Mesh& mesh, std::size_t element);
 
-/// Nodes whose coordinate along an axis (0 to 2) is within `tolerance` (m) of the given one.
+/// Returns the nodes whose coordinate along an axis (0 to 2) is within `tolerance` (m) of the given one.
 std::vector<std::uint32_t> nodes_on_plane(const Mesh& mesh, int axis, double coordinate, double tolerance);
 
-/// Prescribes the velocity (m/s) of nodes along the directions of the bits (fem::constraint), beside what is
-/// prescribed for them already. A fixed node: all and zero. A symmetry plane: its axis and zero.
+/// Prescribes the velocity (m/s) of nodes along the directions of the bits (fem::constraint), in addition to existing
+/// conditions. Fixed nodes: all and zero. Symmetry plane: its axis and zero.
 void constrain(Nodes& nodes, std::span<const std::uint32_t> which, std::uint8_t directions,
                const Vector3& velocity = Vector3::Zero());
 inline void constrain(Mesh& mesh, std::span<const std::uint32_t> which, std::uint8_t directions,
@@ -174,11 +171,11 @@ inline void constrain(Mesh& mesh, std::span<const std::uint32_t> which, std::uin
   constrain(mesh.nodes, which, directions, velocity);
 }
 
-/// Sums over a mesh (SI); bitwise independent of the number of threads.
+/// Holds sums over a mesh (SI); bitwise independent of the number of threads.
 struct MeshTotals {
   double mass = 0.0;
   Vector3 momentum = Vector3::Zero();
-  double momentum_scale = 0.0;  ///< sum m |v|, to judge momentum errors by
+  double momentum_scale = 0.0;  ///< sum m |v|, the scale of momentum errors
   double kinetic_energy = 0.0;
   double internal_energy = 0.0;
   double hourglass_energy = 0.0;
@@ -187,7 +184,7 @@ struct MeshTotals {
   MeshTotals& operator+=(const MeshTotals& other);
 };
 MeshTotals totals(const Mesh& mesh);
-/// kg m^2/s, about the origin
+/// Returns the angular momentum about the origin, kg m^2/s.
 Vector3 angular_momentum(const Mesh& mesh);
 
 }  // namespace whipple::fem

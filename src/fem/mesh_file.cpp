@@ -67,7 +67,7 @@ const MeshData::Group& MeshFile::find(const std::string& name, int dimension, in
     throw InputError(fmt::format("{}: the mesh has no {}s; a body needs one (Gmsh: Physical Volume)",
                                  data_.path.string(), data_.called));
   }
-  // A group is one of its dimension: tags of surfaces and volumes count apart, and may be equal.
+  // Groups are identified with their dimension: tags of surfaces and volumes are numbered separately, and may be equal.
   const auto is_called = [&](const MeshData::Group& g) {
     return g.name == name || name == fmt::format("physical {}", g.tag) || name == std::to_string(g.tag);
   };
@@ -155,7 +155,7 @@ Hexahedra MeshFile::hexahedra(const std::string& name) const {
   if (unmerged_nodes(result) > 0) {
     Hexahedra merged = result;
     merge_nodes(merged, coincidence(merged));
-    require_apart(merged);  // parts that lie in one another, each with nodes of its own
+    require_apart(merged);  // detects overlapping parts with duplicate nodes
   }
   return result;
 }

@@ -15,12 +15,12 @@
 
 namespace whipple::fem {
 
-/// What a file of a mesh holds, whatever its format.
+/// Holds the contents of a mesh file, independent of its format.
 struct MeshData {
   struct Element {
-    std::uint64_t tag;  ///< its number in the file
-    std::size_t line;   ///< of the file
-    int kind;           ///< number of Gmsh
+    std::uint64_t tag;  ///< number in the file
+    std::size_t line;   ///< line in the file
+    int kind;           ///< element kind, numbered as by Gmsh
     std::vector<std::uint32_t> nodes;
   };
   struct Group {
@@ -30,15 +30,14 @@ struct MeshData {
     std::vector<std::uint32_t> elements;  ///< indices
   };
   std::filesystem::path path;
-  const char* called = "physical group";  ///< what the format calls a group
+  const char* called = "physical group";  ///< name of a group in the terms of the format
   std::vector<Vector3> nodes;             ///< m
   std::vector<Element> elements;
   std::vector<Group> groups;
-  std::string
-      remark;  ///< what a user who misses a group should know; a sentence with a blank before it, or nothing
+  std::string remark;  ///< hint for users who miss a group: a sentence after a blank, or empty
 };
 
-/// Kinds of elements by the number that Gmsh gives them (Gmsh reference manual, "MSH file format").
+/// Describes a kind of element, numbered as by Gmsh (Gmsh reference manual, "MSH file format").
 struct ElementKind {
   int number;
   const char* name;
@@ -46,42 +45,40 @@ struct ElementKind {
   std::size_t nodes;
 };
 inline constexpr int line_kind = 1, hexahedron_kind = 5;
-/// Returns the kind of a number; null if it is unknown.
+/// Returns the kind with a number; null if it is unknown.
 const ElementKind* element_kind(int number);
 
-/// Meshes by group, from a file of Gmsh (formats 2.2 and 4.1, ASCII) an input of Abaqus (keywords),
-/// or an unstructured grid of VTK. The readers are
-/// the project's own: the library of Gmsh brings 24 packages (OpenCASCADE, FLTK, ...; 180 MB), reports errors without
-/// their line, and is under the GPL.
+/// Holds meshes by group, from a Gmsh file (formats 2.2 and 4.1, ASCII), an Abaqus input file (keywords), or an
+/// unstructured VTK grid. The readers are implemented here because the Gmsh library depends on 24 packages
+/// (OpenCASCADE, FLTK, ...; 180 MB), reports errors without line numbers, and is under the GPL.
 class MeshFile {
  public:
-  /// Reads a file; its first line tells the format.
-  /// @param length_unit  m per unit of the file's coordinates
-  /// @throws InputError naming file and line: not readable, another format, binary, damaged, a node that is
-  /// not defined
+  /// Reads a file; its first line determines the format.
+  /// @param length_unit  m per unit of the coordinates in the file
+  /// @throws InputError naming file and line: unreadable, unknown format, binary, damaged, undefined node
   static MeshFile read(const std::filesystem::path& path, double length_unit = 1.0);
 
-  /// Names of the groups, "physical 3" for one of Gmsh without a name, in the order of the file.
+  /// Returns the names of the groups, "physical 3" for an unnamed Gmsh group, in the order of the file.
   /// @param dimension  of the groups; none: all
   [[nodiscard]] std::vector<std::string> group_names(std::optional<int> dimension = {}) const;
-  /// Returns what the format calls a group: "physical group", "element set".
+  /// Returns the term of the format for a group: "physical group", "element set".
   [[nodiscard]] const char* called() const { return data_.called; }
 
-  /// The hexahedra of a group of volumes, checked.
+  /// Returns the hexahedra of a group of volumes, checked.
   /// @param group  its name, or its tag: "physical 3" or "3"
-  /// @throws InputError if there is no such group (the message lists those that there are), if it is no group
-  /// of volumes, holds other elements than eight-node hexahedra, or an element that is degenerate or inverted
-  /// (file, line and number of the element)
+  /// @throws InputError if there is no such group (the message lists the existing ones), if it is not a group of
+  /// volumes, contains elements other than eight-node hexahedra, or a degenerate or inverted element (file, line and
+  /// number of the element)
   [[nodiscard]] Hexahedra hexahedra(const std::string& group) const;
 
-  /// The two-node lines of a group of curves, for bar elements.
+  /// Returns the two-node lines of a group of curves, for bar elements.
   /// @throws InputError as above
   [[nodiscard]] Lines lines(const std::string& group) const;
 
  private:
   explicit MeshFile(MeshData data) : data_(std::move(data)) {}
   [[nodiscard]] const MeshData::Group& find(const std::string& group, int dimension, int kind) const;
-  /// How messages name an element of a group: file and line, number, group.
+  /// Returns the identification of an element in messages: file and line, number, group.
   [[nodiscard]] std::string located(std::uint32_t element, const std::string& group) const;
   [[nodiscard]] std::vector<Vector3> own_nodes(const MeshData::Group& group,
                                                std::vector<std::uint32_t>& number) const;

@@ -12,11 +12,11 @@ namespace whipple::fem {
 
 namespace {
 
-/// Inverse of the bound of the stable time step of a Gauss point's element, 1/s.
+/// Returns the inverse of the stable time step bound of the element of a Gauss point, 1/s.
 double rate_at(const GaussPoints& points, std::size_t i, const ViscosityCoefficients& viscosity) {
   const double c = points.sound_speed[i], length = points.length[i];
   const double density = points.mass[i] / points.volume[i];
-  // q/(l |D|) rho from q itself (eq. 5.3), with the linear part whether the element closes or not
+  // q/(l |D|) rho from q (eq. 5.3), with the linear part whether the element is compressed or not
   const double linear = viscosity.linear * c;
   const double speed =
       0.5 *
@@ -41,12 +41,12 @@ double critical_time_step(const Mesh& mesh, const ViscosityCoefficients& viscosi
       };
       const Lanes c = load4(points.sound_speed), length = load4(points.length), mass = load4(points.mass);
       const Lanes linear = viscosity.linear * c;
-      // q/(rho l |D|) from q itself, with the linear part whether the element closes or not (eq. 5.3)
+      // q/(rho l |D|) from q, with the linear part whether the element is compressed or not (eq. 5.3)
       const Lanes q = load4(points.artificial_viscosity);
       const Lanes closing = (q > 0.0 ? q : Lanes{}) * load4(points.volume);
-      // Most elements are below the greatest rate so far, which is seen without roots and divisions: with
-      // r = most l, a and b the linear and quadratic part of the viscosity, the rate is less if
-      // 0 < N = r^2 - 3 c^2 and b q V (6 r)^2 < m N (N - 6 r a).
+      // Most elements are below the maximum rate so far, which can be tested without roots and divisions: with r = most
+      // l and the linear and quadratic parts a and b of the viscosity, the rate is smaller if 0 < N = r^2 - 3 c^2 and b
+      // q V (6 r)^2 < m N (N - 6 r a).
       const Lanes r = most * length, six_r = 6.0 * r, excess = (1.0 - 1e-12) * r * r - 3.0 * (c * c);
       const LanesMask less = (excess > 0.0) & (viscosity.quadratic * closing * six_r * six_r <
                                                mass * excess * (excess - six_r * linear));
@@ -58,8 +58,7 @@ double critical_time_step(const Mesh& mesh, const ViscosityCoefficients& viscosi
     }
     return most;
   };
-  // The greatest of 1/dt: an infinite time step without elements. 1/(sqrt(1 + xi^2) - xi) = sqrt(1 + xi^2) +
-  // xi.
+  // Maximum of 1/dt: an infinite time step without elements. 1/(sqrt(1 + xi^2) - xi) = sqrt(1 + xi^2) + xi.
   return 1.0 / parallel::maximum(parallel::chunk_count(n), 0.0, rate_of_chunk);
 }
 
@@ -80,7 +79,7 @@ ConstraintBalance& ConstraintBalance::operator+=(const ConstraintBalance& other)
 
 namespace {
 
-/// From the velocity before to that after the forces.
+/// Advances a node from the velocity before the forces to that after the forces.
 void advance_to(Nodes& nodes, std::size_t a, Lanes after, Motion& motion, ConstraintBalance& balance) {
   const Lanes before = load_vector(nodes.velocity[a].data());
   if (nodes.constrained[a] != constraint::none) {
@@ -101,7 +100,7 @@ void advance_to(Nodes& nodes, std::size_t a, Lanes after, Motion& motion, Constr
 
 namespace {
 
-/// `advance_to` of four nodes that nothing constrains, by the accelerations per force dt/m.
+/// Implements `advance_to` for four unconstrained nodes, given the accelerations per force dt/m.
 void advance_four(Nodes& nodes, std::size_t first, Lanes per_force, Motion& motion) {
   double* const velocity = nodes.velocity[first].data();
   const double* const force = nodes.force[first].data();
@@ -163,7 +162,7 @@ void add_heat(Mesh& mesh, std::span<const double> node_heat, std::size_t block) 
   const auto nodes =
       std::span(blocks.slot_node)
           .subspan(blocks.first_slot[block], blocks.first_slot[block + 1] - blocks.first_slot[block]);
-  // Few nodes have heat: those that move with the grid.
+  // Only few nodes have heat: those that move with the grid.
   if (std::ranges::none_of(nodes, [&](std::uint32_t a) { return node_heat[a] != 0.0; })) return;
   const std::size_t n = points_per_element(mesh.quadrature), begin = block * Blocks::size;
   for (std::size_t e = begin; e < std::min(begin + Blocks::size, mesh.elements.size()); ++e) {

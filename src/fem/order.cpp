@@ -13,31 +13,31 @@ namespace {
 
 constexpr std::uint32_t none = 0xffffffff;
 
-/// Corners of the face at -1 and of that at +1 along a direction; the same place in both: the same edge.
+/// Holds the corners of the faces at -1 and +1 along a direction; equal positions in both belong to the same edge.
 struct Faces {
   std::array<std::size_t, 4> back, front;
 };
 constexpr std::array<Faces, 3> faces = {
     {{{0, 3, 7, 4}, {1, 2, 6, 5}}, {{0, 1, 5, 4}, {3, 2, 6, 7}}, {{0, 1, 2, 3}, {4, 5, 6, 7}}}};
 
-/// Successor and predecessor of each item, or `none`.
+/// Holds successor and predecessor of each item, or `none`.
 struct Links {
   std::vector<std::uint32_t> next, previous;
 
   explicit Links(std::size_t items) : next(items, none), previous(items, none) {}
-  /// Lets b follow a unless one of them is linked there already, or a follows b.
+  /// Makes b the successor of a, unless either is already linked on that side, or a is the successor of b.
   void join(std::uint32_t a, std::uint32_t b) {
     if (next[a] != none || previous[b] != none || next[b] == a) return;
     next[a] = b;
     previous[b] = a;
   }
-  /// The first of the items that lead to a; of a ring, a itself.
+  /// Returns the first item of the chain of a; for a ring, a.
   [[nodiscard]] std::uint32_t first_of(std::uint32_t a) const {
     std::uint32_t first = a;
     while (previous[first] != none && previous[first] != a) first = previous[first];
     return previous[first] == none ? first : a;
   }
-  /// The chains, each item once. Rings are cut open.
+  /// Returns the chains, with each item once. Rings are cut open.
   [[nodiscard]] std::vector<std::vector<std::uint32_t>> chains() const {
     std::vector<std::vector<std::uint32_t>> all;
     std::vector<std::uint8_t> seen(next.size(), 0);
@@ -53,7 +53,7 @@ struct Links {
   }
 };
 
-/// Elements whose back face is the front face of another, corner by corner.
+/// Links elements whose front face is the back face of another, corner by corner.
 Links link_elements(std::span<const Corners> corners, const std::vector<std::uint32_t>& first_corner,
                     const std::vector<std::uint32_t>& node_corners, const Faces& direction) {
   Links links(corners.size());
@@ -78,7 +78,7 @@ Links link_nodes(std::span<const Corners> corners, std::size_t nodes, const Face
   return links;
 }
 
-/// Indices of points along a Morton curve of cells of the given size (m).
+/// Returns the indices of points along a Morton curve of cells of the given size (m).
 std::vector<std::uint32_t> along_curve(std::span<const Vector3> points, double cell) {
   Vector3 lower = Vector3::Constant(std::numeric_limits<double>::infinity());
   for (const Vector3& point : points) lower = lower.cwiseMin(point);
@@ -120,7 +120,7 @@ StorageOrder storage_order(std::span<const Vector3> position, std::span<const Co
     most = in_full_rows;
   }
 
-  // Chains cut into rows of about equal length, which then lie along the curve.
+  // Chains are cut into rows of about equal length, which are then ordered along the curve.
   std::vector<std::span<const std::uint32_t>> rows;
   for (const auto& chain : chains) {
     const std::size_t parts = (chain.size() + ElementGroup::size - 1) / ElementGroup::size;

@@ -16,7 +16,7 @@ namespace whipple::fem {
 namespace {
 
 using Counts = std::array<std::size_t, 3>;
-/// From the unit cube to space.
+/// Maps the unit cube to space.
 using Map = std::function<Vector3(double, double, double)>;
 
 void require_positive(const char* body, const char* what, double value) {
@@ -29,8 +29,8 @@ std::size_t divisions(double length, double size) {
   return static_cast<std::size_t>(std::max(1.0, std::round(length / size)));
 }
 
-/// Exchanges the two faces of each element along xi, eta or zeta: what a mirror image needs. With the natural
-/// direction that the mirror turns round, rows of elements go on beyond it.
+/// Exchanges the two faces of each element along xi, eta or zeta, as required for a mirror image. If this is the
+/// direction reversed by the mirror, rows of elements continue across it.
 void turn_round(Hexahedra& mesh, std::size_t direction) {
   constexpr std::array<std::array<std::size_t, 8>, 3> exchanged = {
       {{1, 0, 3, 2, 5, 4, 7, 6}, {3, 2, 1, 0, 7, 6, 5, 4}, {4, 5, 6, 7, 0, 1, 2, 3}}};
@@ -40,7 +40,7 @@ void turn_round(Hexahedra& mesh, std::size_t direction) {
   }
 }
 
-/// Appends a block of elements. The map must keep the orientation.
+/// Appends a block of elements. The map must preserve the orientation.
 void add_block(Hexahedra& mesh, const Counts& n, const Map& map) {
   const std::size_t first = mesh.nodes.size();
   for (std::size_t k = 0; k <= n[2]; ++k) {
@@ -67,7 +67,7 @@ void add_block(Hexahedra& mesh, const Counts& n, const Map& map) {
   }
 }
 
-/// Adds the mirror images of what is at positive coordinates, then joins the parts.
+/// Adds the mirror images of the part at positive coordinates, then merges the parts.
 void complete(Hexahedra& mesh, std::size_t axes, const Halved& halved, double size) {
   for (std::size_t axis = 0; axis < axes; ++axis) {
     if (halved[axis]) continue;
@@ -84,11 +84,12 @@ void complete(Hexahedra& mesh, std::size_t axes, const Halved& halved, double si
   merge_nodes(mesh, 1e-6 * size);
 }
 
-// Fractions of the radius: half-diagonal of the core and half of its width at the middle of a side.
+// Fractions of the radius: half-diagonal of the core, and half its width at the middle of a side.
 constexpr double core_corner = 0.62, core_middle = 0.5;
 constexpr double eighth_turn = 0.25 * std::numbers::pi;
 
-/// Elements from the axis of a round section to the edge of its core, and from there to its surface.
+/// Holds the number of elements from the axis of a round section to the edge of its core, and from there to its
+/// surface.
 struct Section {
   std::size_t core, ring;
   double radius;
@@ -105,7 +106,7 @@ struct Section {
   }
 };
 
-/// A quarter of a length of a body of revolution: a core, and two blocks between it and the surface.
+/// Adds a quarter of a segment of a body of revolution: a core, and two blocks between it and the surface.
 /// @param core     (u, v, w), w from 0 to 1 along the axis
 /// @param surface  (eighths of a turn from the x axis, w)
 template <class Core, class Surface>
@@ -126,7 +127,7 @@ Vector3 on_circle(double radius, double eighths, double z) {
   return {radius * std::cos(eighths * eighth_turn), radius * std::sin(eighths * eighth_turn), z};
 }
 
-/// A quarter of a cylinder, from z = 0 to `length`.
+/// Adds a quarter of a cylinder, from z = 0 to `length`.
 void add_cylinder(Hexahedra& mesh, const Section& section, double length, double size) {
   add_butterfly(
       mesh, section, divisions(length, size),
@@ -136,8 +137,8 @@ void add_cylinder(Hexahedra& mesh, const Section& section, double length, double
       [&](double eighths, double w) { return on_circle(section.radius, eighths, w * length); });
 }
 
-/// Moves the nodes away from the z axis, so that sections that are polygons with `around` corners per quarter
-/// have the area of the circles: bodies have their mass and their stiffness in bending whatever the size.
+/// Moves the nodes away from the z axis, so that polygonal sections with `around` edges per quarter have the area of
+/// the circles: mass and bending stiffness of bodies then do not depend on the element size.
 void widen_to_circles(Hexahedra& mesh, std::size_t around) {
   const double angle = 2.0 * eighth_turn / static_cast<double>(around);
   const double factor = std::sqrt(angle / std::sin(angle));
@@ -152,8 +153,8 @@ void transform(Hexahedra& hexahedra, const Matrix3& rotation, const Vector3& tra
 }
 
 void merge_nodes(Hexahedra& hexahedra, double tolerance) {
-  // Nodes by cells of four tolerances; whatever is near a node lies in one of the 8 cells that its box of
-  // +- one tolerance touches.
+  // Nodes are indexed by cells of four tolerances; nodes near a point are in one of the up to 8 cells that its box of
+  // +- one tolerance overlaps.
   using Cell = std::array<std::int64_t, 3>;
   struct Hash {
     std::size_t operator()(const Cell& c) const {
@@ -247,8 +248,8 @@ Hexahedra make_ogive(double radius, double nose, double shank, double size, cons
   const auto radius_at = [=](double z) { return std::sqrt(arc * arc - z * z) - depth; };
   const auto height_at = [=](double r) { return std::sqrt(arc * arc - (r + depth) * (r + depth)); };
 
-  // A cap closes the tip, as a face of its cube does for a sphere. Its edge is wider at its corner, where
-  // three blocks meet; the core ends deeper than the edge. Chosen for the best elements (scaled Jacobian).
+  // A cap closes the tip, like one face of the cube for a sphere. Its edge has a larger radius at its corner, where
+  // three blocks meet; the core ends below the edge. Values were selected for the best elements (scaled Jacobian).
   constexpr double edge_share = 0.55, corner_share = 1.06 * edge_share, slope = 1.1;
   const auto edge_radius = [=](double eighths) {
     const double v = std::min(eighths, 2.0 - eighths);
@@ -271,7 +272,7 @@ Hexahedra make_ogive(double radius, double nose, double shank, double size, cons
     return on_circle(radius_at(z), eighths, shank + z);
   });
   add_block(mesh, {section.core, section.core, section.ring}, [&](double u, double v, double share) {
-    // Coons' patch between the planes of symmetry and the edge, at its height on the ogive
+    // Coons patch between the symmetry planes and the edge, at its height on the ogive
     Vector3 outer = u * edge_point(v) + v * edge_point(2.0 - u) - u * v * edge_point(1.0);
     outer[2] = shank + height_at(outer.head<2>().norm());
     const Vector3 inner = core_point(u, v, 1.0);
@@ -313,7 +314,7 @@ Hexahedra make_sphere(double radius, double size, const Halved& halved) {
   };
   Hexahedra mesh;  // an octant
   add_block(mesh, {core, core, core}, core_point);
-  // Towards x; the other two by turning the axes.
+  // Towards x; the other two by permuting the axes.
   const Map towards_x = [&](double share, double v, double w) {
     const Vector3 inner = core_point(1.0, v, w);
     const Vector3 outer =

@@ -10,7 +10,7 @@
 namespace whipple::fem {
 namespace {
 
-/// Words of a text, which know their line.
+/// Splits a text into words and tracks the line number.
 class LegacyReader {
  public:
   LegacyReader(std::string_view text, const std::string& file) : rest_(text), file_(file) {}
@@ -39,7 +39,7 @@ class LegacyReader {
     rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
     ++line_;
   }
-  /// The next word, empty at the end.
+  /// Returns the next word, empty at the end.
   std::string_view word() {
     while (!rest_.empty() && (rest_.front() == ' ' || rest_.front() == '\t' || rest_.front() == '\r' ||
                               rest_.front() == '\n')) {
@@ -60,16 +60,16 @@ class LegacyReader {
       fail(fmt::format("\"{}\" is not a number", text));
     return value;
   }
-  /// A number of things that follow; they take memory one by one.
+  /// Reads the number of items that follow; memory is allocated item by item.
   std::size_t count() { return number<std::size_t>(); }
 
-  /// Leaves out what is said of an array, up to a blank line.
+  /// Skips the metadata of an array, up to a blank line.
   void skip_metadata() {
     line_of_text();
     while (!rest_.empty() && rest_.front() != '\n' && rest_.front() != '\r') line_of_text();
   }
 
-  /// Leaves out an array of so many numbers for each point or cell, behind its name and type.
+  /// Skips an array with the given number of components per point or cell, after its name and type.
   void skip_array(std::size_t components) {
     word();
     word();
@@ -97,7 +97,7 @@ class LegacyReader {
       word();
       for (std::size_t left = count(); left > 0; --left) {
         std::string name(word());
-        for (; name == "METADATA"; name = word()) skip_metadata();  // of the array before
+        for (; name == "METADATA"; name = word()) skip_metadata();  // of the preceding array
         const std::size_t components = count(), tuples = count();
         take(name, word(), components, tuples);
       }
@@ -124,7 +124,7 @@ class LegacyReader {
     }
   }
 
-  /// Lists with their lengths (version 2 to 4), or offsets and connectivity (version 5).
+  /// Reads lists with their lengths (versions 2 to 4), or offsets and connectivity (version 5).
   void read_cells() {
     grid_.line = line_;
     const std::size_t first = count(), second = count();
@@ -163,7 +163,7 @@ class LegacyReader {
     take(name, type, components, of_cells_);
   }
 
-  /// Reads an array; keeps integers of cells.
+  /// Reads an array; keeps integers of cells only.
   void take(const std::string& name, std::string_view type, std::size_t components, std::size_t tuples) {
     const bool kept = in_cells_ && components == 1 && type != "float" && type != "double";
     VtkGrid::CellArray array{name, {}};

@@ -25,7 +25,7 @@ std::string_view begin_of(std::string_view text) {
   return first == std::string_view::npos ? std::string_view() : text.substr(first);
 }
 
-/// Kinds of cells by the numbers of VTK (vtkCellType.h); voxels are hexahedra with another order of corners.
+/// Maps cell types of VTK (vtkCellType.h) to element kinds; voxels are hexahedra with another order of corners.
 constexpr int voxel = 11;
 int kind_of(long type) {
   static const std::map<long, int> kinds = {{1, 15},
@@ -88,7 +88,7 @@ void add_elements(const VtkGrid& grid, MeshData& data) {
   }
 }
 
-/// Groups of the cells of one dimension; a value that holds cells of several counts for the largest.
+/// Adds a group of cells; cells of several dimensions form a group of the largest dimension.
 void add_group(const std::string& name, std::vector<std::uint32_t> cells, MeshData& data) {
   int dimension = 0;
   for (const std::uint32_t cell : cells)
@@ -97,7 +97,7 @@ void add_group(const std::string& name, std::vector<std::uint32_t> cells, MeshDa
 }
 
 void add_groups(const VtkGrid& grid, MeshData& data) {
-  constexpr std::size_t most_groups = 1000;  // of an array: more are numbers of cells, not of groups
+  constexpr std::size_t most_groups = 1000;  // per array: arrays with more values number cells, not groups
   for (const VtkGrid::CellArray& array : grid.cell_data) {
     std::map<long, std::vector<std::uint32_t>> cells;
     for (std::size_t cell = 0; cell < array.values.size() && cells.size() <= most_groups; ++cell) {

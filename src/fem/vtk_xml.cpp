@@ -21,7 +21,7 @@ namespace {
 using Tree = boost::property_tree::ptree;
 
 constexpr std::size_t most_bytes = std::size_t{1}
-                                   << 34;  // of an array; a damaged length must not take all memory
+                                   << 34;  // per array; a damaged length must not exhaust memory
 
 class VtuReader {
  public:
@@ -62,7 +62,7 @@ class VtuReader {
     const Tree& grid = child(root, "UnstructuredGrid");
     if (grid.count("Piece") != 1) fail(fmt::format("has {} pieces, expected one", grid.count("Piece")));
     const Tree& piece = child(grid, "Piece");
-    // Nothing is unpacked that is longer than what the piece announces.
+    // Nothing longer than announced by the piece is decompressed.
     constexpr std::size_t most_corners = 27;  // of a cell
     const std::size_t points = announced(piece, "NumberOfPoints"), cells = announced(piece, "NumberOfCells");
     for (const auto& [name, array] : child(piece, "Points")) {
@@ -91,7 +91,7 @@ class VtuReader {
   [[noreturn]] void fail(const std::string& what) const {
     throw InputError(fmt::format("{}: error: {}", file_, what));
   }
-  /// The parser calls itself for each element in another.
+  /// Rejects deeply nested files, as the parser is recursive.
   void require_shallow(std::string_view head) const {
     constexpr int deepest = 64;
     int depth = 0;
@@ -113,7 +113,7 @@ class VtuReader {
     return tree.get<std::string>(Tree::path_type(std::string("<xmlattr>/") + name, '/'), "");
   }
 
-  /// The number that an attribute of the piece states.
+  /// Returns the number given by an attribute of the piece.
   std::size_t announced(const Tree& piece, const char* name) const {
     const std::string word = attribute(piece, name);
     std::size_t number = 0;
@@ -123,7 +123,7 @@ class VtuReader {
     return number;
   }
 
-  /// @param most  values that the array may have
+  /// Reads an array. @param most  maximum number of values
   template <class Number>
   std::vector<Number> values(const Tree& array, std::size_t most) const {
     constexpr std::size_t widest = 8;  // bytes of a value
@@ -187,11 +187,11 @@ class VtuReader {
     return result;
   }
 
-  /// A stream of bytes that is raw, or in base 64.
+  /// Reads a stream of bytes, raw or base64-encoded.
   class Bytes {
    public:
     Bytes(std::string_view text, bool raw) : text_(text), raw_(raw) {}
-    /// The next bytes; fewer if the stream ends before.
+    /// Returns the next bytes; fewer if the stream ends.
     std::string take(std::size_t count) {
       while (!raw_ && left_.size() < count && decode()) {
       }
@@ -227,8 +227,7 @@ class VtuReader {
         if (signs < 4) return finish(decoded);
         for (std::size_t k = 0; k + std::min<std::size_t>(padding, 2) < 3; ++k)
           decoded += static_cast<char>(bits >> (16U - 8U * k) & 255U);
-        if (padding > 0)
-          break;  // the end of a part of the stream: the next one begins with a new group of four
+        if (padding > 0) break;  // end of a part of the stream: the next one begins with a new group of four
       }
       return finish(decoded);
     }
@@ -258,8 +257,8 @@ class VtuReader {
           bytes, most));
   }
 
-  /// The bytes of an array: behind their number, or in blocks packed by zlib behind the number of blocks, the size of a
-  /// block, that of the last one (0: whole), and the packed sizes. @param most  bytes that it may have
+  /// Returns the bytes of an array: preceded by their number, or in zlib blocks preceded by the number of blocks, the
+  /// block size, the size of the last block (0: full), and the compressed sizes. @param most  maximum number of bytes
   std::string unpacked(std::string_view text, bool raw, std::size_t most) const {
     Bytes bytes(text, raw);
     if (!is_packed_) {
@@ -281,7 +280,7 @@ class VtuReader {
       uLongf room = i + 1 == blocks && last > 0 ? last : whole;
       const std::uint64_t expected = room;
       if (packed.size() < sizes[i] || expected > 1100 * (sizes[i] + 64))
-        fail("a packed array is damaged");  // zlib packs 1032 to 1 at most
+        fail("a packed array is damaged");  // the compression ratio of zlib is at most 1032
       std::string block(room, '\0');
       if (uncompress(reinterpret_cast<Bytef*>(block.data()), &room,
                      reinterpret_cast<const Bytef*>(packed.data()),  // NOLINT

@@ -8,19 +8,19 @@
 #include "src/core/base/tensor.hpp"
 #include "src/core/base/words.hpp"
 
-/// Places of particles in a body at the start (docs/theory/mpm.md, 2).
+/// Initial positions of particles in a body (docs/theory/mpm.md, 2).
 namespace whipple {
 
 enum class Arrangement : std::uint8_t {
-  regular,  ///< at the middles of equal parts of a cell
-  layered,  ///< beside them, so that no two of a block of two parts along every axis share a layer
+  regular,  ///< at the centres of equal parts of a cell
+  layered,  ///< offset so that no two in a block of two parts along every axis share a layer
 };
 
 constexpr std::array<Word<Arrangement>, 2> words(Arrangement) {
   return {{{Arrangement::regular, "regular"}, {Arrangement::layered, "layered"}}};
 }
 
-/// Returns the offset of a layered particle from the middle of its part, in edges of it.
+/// Returns the offset of a layered particle from the centre of its part, in edges of the part.
 /// @param octant  of a block of parts: 1 for the upper half along x, plus 2 for that along y, plus 4 for that along z
 inline Vector3 layer_offset(std::size_t octant) {
   static constexpr std::array<std::array<double, 3>, 8> eighths{
@@ -29,7 +29,7 @@ inline Vector3 layer_offset(std::size_t octant) {
   return 0.125 * Vector3(e[0], e[1], e[2]);
 }
 
-/// The same in a plane.
+/// Returns the offset of a layered particle in a plane.
 /// @param quadrant  1 for the upper half along x, plus 2 for that along y
 inline Vector3 planar_layer_offset(std::size_t quadrant) {
   static constexpr std::array<std::array<double, 2>, 4> quarters{{{-1, 1}, {-1, -1}, {1, 1}, {1, -1}}};

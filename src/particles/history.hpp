@@ -13,21 +13,21 @@
 #include "src/core/base/parameter_table.hpp"
 #include "src/core/base/tensor.hpp"
 
-/// Fields that material models declare: the history of a point beside the state that all points have
-/// (docs/theory/material.md, section 11). They are carried by whatever carries the fields of material_points.hpp.
+/// Fields declared by material models: the history of a point in addition to the state that all points have
+/// (docs/theory/material.md, section 11). They are stored and moved with the fields of material_points.hpp.
 namespace whipple {
 
-/// Form of a value: a number, a vector, a symmetric tensor, a tensor.
+/// Selects the tensor rank of a value.
 enum class Rank : std::uint8_t { scalar, vector, symmetric_tensor, tensor };
 
-/// What happens to a value in a step before the model sees it.
+/// Selects how a value is transported in a step before it is passed to the model.
 enum class Convection : std::uint8_t {
-  kept,       ///< nothing: numbers, and tensors of the reference configuration
+  kept,       ///< unchanged: numbers, and tensors of the reference configuration
   corotated,  ///< rotated with the material: R a R^T
   deformed,   ///< a deformation gradient: (I + dt L) F
 };
 
-/// Declaration of a history field by a model.
+/// Declares a history field of a model.
 struct HistoryField {
   std::string name;
   std::string unit;
@@ -35,11 +35,11 @@ struct HistoryField {
   Rank rank = Rank::scalar;
   Convection convection = Convection::kept;
   double neutral =
-      0.0;  ///< of an undisturbed point and of points that do not need the field; tensors: times identity
-  Range range = {};  ///< of the components that a checkpoint may hold
+      0.0;           ///< of undisturbed points and points that do not need the field; tensors: times identity
+  Range range = {};  ///< valid range of the components in a checkpoint
 };
 
-/// Numbers of a value.
+/// Returns the number of components of a value.
 constexpr std::size_t components_of(Rank rank) {
   switch (rank) {
     case Rank::scalar:
@@ -68,7 +68,7 @@ Value neutral_value(double neutral) {
   }
 }
 
-/// A declared field of a set of points. It is empty where no point needs it, else one value per point.
+/// Holds a declared field of a set of points: empty if no point needs it, otherwise one value per point.
 struct History {
   using Values = std::variant<std::vector<double>, std::vector<Vector3>, std::vector<SymmetricTensor>,
                               std::vector<Matrix3>>;  ///< in the order of `Rank`
@@ -78,7 +78,7 @@ struct History {
   explicit History(HistoryField declared);
 };
 
-/// Histories of a set of points, by name: sets with the same fields have them in the same order.
+/// Holds the histories of a set of points, sorted by name: sets with the same fields have them in the same order.
 class Histories {
  public:
   [[nodiscard]] auto begin() { return all_.begin(); }
@@ -87,9 +87,9 @@ class Histories {
   [[nodiscard]] auto end() const { return all_.end(); }
   [[nodiscard]] std::size_t size() const { return all_.size(); }
 
-  /// History of a name; null if there is none.
+  /// Returns the history with a name; null if there is none.
   [[nodiscard]] const History* find(const std::string& name) const;
-  /// Numbers, vectors or tensors of a field, one per point.
+  /// Returns the numbers, vectors or tensors of a field, one per point.
   /// @throws InternalError if there is no field of that name with such values
   template <class Value>
   [[nodiscard]] const std::vector<Value>& values(const std::string& name) const {
@@ -103,12 +103,12 @@ class Histories {
   [[nodiscard]] std::vector<Value>& values(const std::string& name) {
     return const_cast<std::vector<Value>&>(std::as_const(*this).template values<Value>(name));
   }
-  /// Numbers of a field of rank `scalar`.
+  /// Returns the numbers of a field of rank `scalar`.
   [[nodiscard]] const std::vector<double>& scalar(const std::string& name) const {
     return values<double>(name);
   }
   [[nodiscard]] std::vector<double>& scalar(const std::string& name) { return values<double>(name); }
-  /// Tensors of a field of rank `symmetric_tensor`.
+  /// Returns the tensors of a field of rank `symmetric_tensor`.
   [[nodiscard]] const std::vector<SymmetricTensor>& symmetric(const std::string& name) const {
     return values<SymmetricTensor>(name);
   }
@@ -119,14 +119,14 @@ class Histories {
   /// Returns the history of a field, which is added, empty, if the points do not have it yet.
   /// @throws InputError if another field of that name differs in unit, rank or convection
   History& add(const HistoryField& field);
-  /// Brings a field into use on `count` points: values that are new are neutral.
+  /// Activates a field on `count` points: new values are neutral.
   void declare(const HistoryField& field, std::size_t count);
 
  private:
   std::vector<History> all_;
 };
 
-/// Handle of a history with values of one type, with the face of `Field`.
+/// Provides access to a history with values of one type, with the interface of `Field`.
 template <class Value>
 struct HistoryOf {
   const HistoryField& declared;
@@ -134,7 +134,7 @@ struct HistoryOf {
   const char* unit;
   static constexpr bool optional = true;
 
-  /// Values of any set of points that may have the field; of a set without it, an empty array.
+  /// Returns the values of any set of points that may have the field; an empty array for a set without it.
   template <class Points>
   [[nodiscard]] auto& of(Points& points) const {
     if constexpr (std::is_const_v<Points>) {
@@ -145,7 +145,7 @@ struct HistoryOf {
       return std::get<std::vector<Value>>(points.history.add(declared).values);
     }
   }
-  /// More or fewer points; those that are new have the neutral value.
+  /// Resizes the field; new points have the neutral value.
   template <class Points>
   void resize(Points& points, std::size_t n) const {
     of(points).resize(n, neutral_value<Value>(declared.neutral));

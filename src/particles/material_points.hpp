@@ -13,21 +13,21 @@
 
 namespace whipple {
 
-/// One array of a set of points: name and unit as they stand in output files and checkpoints.
+/// Describes one array of a set of points: name and unit are those in output files and checkpoints.
 template <class Points, class Value>
 struct Field {
   const char* name;
   const char* unit;
   std::vector<Value> Points::* values;
   bool optional = false;  ///< empty unless a material or method of the run needs it
-  double neutral = 0.0;   ///< of optional numbers: what points have that do not need them
+  double neutral = 0.0;   ///< of optional numbers: value of points that do not need them
 
-  /// Values of a set of points.
+  /// Returns the values of a set of points.
   template <class Set>
   [[nodiscard]] auto& of(Set& points) const {
     return points.*values;
   }
-  /// More or fewer points; those that are new have no value yet, or the neutral one.
+  /// Resizes the field; values of new points are undefined, or neutral.
   void resize(Points& points, std::size_t n) const {
     if constexpr (std::is_same_v<Value, double>) {
       (points.*values).resize(n, neutral);
@@ -43,17 +43,17 @@ Field(const char*, const char*, std::vector<Value> Points::*, bool) -> Field<Poi
 template <class Points, class Value>
 Field(const char*, const char*, std::vector<Value> Points::*, bool, double) -> Field<Points, Value>;
 
-constexpr double never = -1.0;        ///< time of what has not happened, s
+constexpr double never = -1.0;        ///< time of an event that has not occurred, s
 constexpr double melted_share = 0.5;  ///< melted mass fraction that counts as melted
 
-/// Mass fraction of a solid that carries shear: 1 - melted; 0 beside vapour, which fills the volume even where
-/// most of the mass is still solid.
+/// Returns the mass fraction of a solid that carries shear: 1 - melted; 0 in the presence of vapour, which fills the
+/// volume even if most of the mass is still solid.
 inline double shear_bearing_fraction(double melted_fraction, double vaporised_fraction) {
   return vaporised_fraction > 0.0 ? 0.0 : 1.0 - melted_fraction;
 }
 
-/// State of material at points, one array per field (SI): what MPM particles and Gauss points of finite
-/// elements share, so that `update_material` is one code path.
+/// Holds the state of material at points, one array per field (SI): the common part of MPM particles and Gauss points
+/// of finite elements, so that `update_material` is one code path.
 struct MaterialPoints {
   std::vector<double> mass;                      ///< kg, constant
   std::vector<double> volume;                    ///< m^3 of material: density = mass / volume enters the EOS
@@ -67,16 +67,15 @@ struct MaterialPoints {
   std::vector<double> plastic_strain;      ///< equivalent plastic strain
   std::vector<double> melted_fraction;     ///< mass fraction of liquid and vapour
   std::vector<double> vaporised_fraction;  ///< mass fraction of vapour
-  std::vector<std::uint8_t> failed;  ///< 0 intact, else what made it fail: src/material/failure/criterion.hpp
+  std::vector<std::uint8_t> failed;  ///< 0 intact, otherwise the cause: src/material/failure/criterion.hpp
   std::vector<double> maximum_pressure;     ///< Pa, so far
   std::vector<double> maximum_temperature;  ///< K, so far
-  std::vector<double>
-      melting_time;  ///< s, when half of the mass was first melted; `never` (-1) if it was not
+  std::vector<double> melting_time;  ///< s, when half of the mass first melted; `never` (-1) if it has not
   std::vector<double> failure_threshold_factor;  ///< scatter of the failure threshold (1: none); optional
-  /// Pa, part of the artificial viscosity whose work is heat, the rest makes unresolved energy
+  /// Holds the part of the artificial viscosity whose work is heat, Pa; the work of the rest becomes unresolved energy
   /// (docs/theory/dissipation.md, 3); optional
   std::vector<double> heating_viscosity;
-  Histories history;  ///< what the material models declare
+  Histories history;  ///< declared by the material models
 
   static constexpr auto fields() {
     using P = MaterialPoints;
@@ -97,14 +96,14 @@ struct MaterialPoints {
   }
 };
 
-/// Calls f(field) for every field that all sets of a kind have: those of their models are left out.
+/// Calls f(field) for every field common to all sets of a kind, excluding those declared by models.
 template <class Points, class Function>
 void for_each_field(Function&& f) {
   std::apply([&](const auto&... field) { (f(field), ...); }, Points::fields());
 }
 
-/// Calls f(field) for every field of a set of points, then for those that its models declare; `field.of(set)` are the
-/// values of this set or of another one.
+/// Calls f(field) for every field of a set of points, including those declared by its models; `field.of(set)` returns
+/// the values of this set or of another one.
 template <class Points, class Function>
 void for_each_field(Points& points, Function&& f) {
   for_each_field<std::remove_const_t<Points>>(f);
@@ -133,7 +132,7 @@ WHIPPLE_INLINE inline void prefetch_state(const MaterialPoints& points, std::siz
   }
 }
 
-/// Optional fields that are not in use stay empty.
+/// Resizes all fields in use; optional fields that are not in use remain empty.
 template <class Points>
 void resize(Points& points, std::size_t n) {
   for_each_field(points, [&](const auto& field) {

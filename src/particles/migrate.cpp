@@ -12,16 +12,17 @@
 namespace whipple {
 namespace {
 
-/// Plan of how the arrays close around departing particles and open for arriving ones: particles that remain
-/// within the range of their body keep their place, so that the cost is proportional to what moves.
+/// Describes how the arrays close gaps of departing particles and open for arriving ones: remaining particles within
+/// the new range of their body keep their position, so that the cost is proportional to the number of moves.
 struct Rearrangement {
-  std::vector<std::uint32_t> from, to;  // of those that stay but change places
-  std::vector<std::uint32_t> places;    // of the newcomers
+  std::vector<std::uint32_t> from, to;  // of remaining particles that change position
+  std::vector<std::uint32_t> places;    // of the arriving particles
   std::size_t size = 0;
 };
 
+/// Plans the rearrangement.
 /// @param body       of the particles, ascending
-/// @param newcomers  their bodies
+/// @param newcomers  bodies of the arriving particles
 template <class Leaves>
 Rearrangement rearrange(std::span<const std::uint32_t> body, Leaves&& leaves,
                         std::span<const std::uint32_t> newcomers) {
@@ -55,7 +56,7 @@ Rearrangement rearrange(std::span<const std::uint32_t> body, Leaves&& leaves,
   return result;
 }
 
-/// A little more room than is needed: counts go up and down, and new memory for all costs more than the move.
+/// Resizes with spare capacity: counts fluctuate, and reallocating everything costs more than the move.
 template <class Value>
 void resize_with_room(std::vector<Value>& values, std::size_t size) {
   if (size > values.capacity()) values.reserve(size + size / 16);
@@ -84,7 +85,7 @@ bool migrate(Particles& particles, std::span<const int> destination, MPI_Comm co
     auto& values = field.of(particles);
     std::decay_t<decltype(values)> moved, arrived;
     append_rows(arrived, send_rows(values, leaving, communicator));
-    // Optional fields are empty on all ranks; one without particles learns from the newcomers which are not.
+    // Optional fields are empty on all ranks; a rank without particles infers the fields in use from arriving ones.
     if (values.size() < before || (before == 0 && arrived.empty())) return;
     for (const std::uint32_t p : change.from) moved.push_back(values[p]);
     resize_with_room(values, change.size);

@@ -9,9 +9,8 @@
 
 namespace whipple {
 
-/// Sends every particle to the rank that is named for it, with all of its fields. Particles stand by body,
-/// before and after; within a body newcomers and the last ones take the places of those that left.
-/// Collective.
+/// Sends every particle to its destination rank, with all of its fields. Particles are sorted by body, before and
+/// after; within a body, arriving particles and the last ones fill the gaps. Collective.
 /// @returns whether any particle changed its rank
 bool migrate(Particles& particles, std::span<const int> destination, MPI_Comm communicator);
 

@@ -12,7 +12,7 @@ namespace whipple {
 
 namespace {
 
-/// Every field in use whose numbers are of one type.
+/// Calls f(values) for every field in use with values of one type.
 template <class Value, class Function>
 void for_each_field_of(Particles& particles, Function&& f) {
   for_each_field(particles, [&](const auto& field) {
@@ -23,8 +23,8 @@ void for_each_field_of(Particles& particles, Function&& f) {
   });
 }
 
-/// Vectors and numbers hand their memory on to one another, by way of the buffer. Tensors go through it three
-/// numbers at a time, and what few fields are of as a whole.
+/// Reorders the fields of one type. Vectors and numbers exchange their memory with the buffer. Tensors pass through it
+/// three numbers at a time, and types with few fields as a whole.
 template <class Value>
 void reorder_fields_of(Particles& particles, std::span<const std::uint32_t> order, SortBuffers& buffers) {
   const auto reorder_into = [&](auto& sorted) {

@@ -10,25 +10,25 @@
 
 namespace whipple {
 
-/// Material points that move through the grid. The solver keeps them sorted by body, then by block of the
-/// grid.
+/// Holds material points that move through the grid. The solver keeps them sorted by body, then by grid block.
 struct Particles : MaterialPoints {
   std::vector<std::uint64_t> id;    ///< unique, never changes
   std::vector<std::uint32_t> body;  ///< index of the body in the case
   std::vector<Vector3> position;    ///< m
   std::vector<Vector3> velocity;    ///< m/s
-  /// 1/s: a_p(x) = v_p + C_p (x - x_p) (docs/theory/mpm.md, 1); optional
+  /// Holds the affine velocity field, 1/s: a_p(x) = v_p + C_p (x - x_p) (docs/theory/mpm.md, 1); optional
   std::vector<Matrix3> affine_velocity;
-  /// m^2: sum of r r^T over the three half-edges r of the particle's domain (docs/theory/mpm.md, 2); optional
-  std::vector<SymmetricTensor> extent;
-  /// J/kg, >= 0: kinetic energy that the transfers took from the motion of the grid and that is no heat yet
-  /// (docs/theory/dissipation.md, 2); optional
-  std::vector<double> unresolved_energy;
-  /// J/kg, >= 0: what of the losses of the transfers may still become heat at once (docs/theory/dissipation.md, 3);
+  /// Holds the sum of r r^T over the three half-edges r of the domain of the particle, m^2 (docs/theory/mpm.md, 2);
   /// optional
+  std::vector<SymmetricTensor> extent;
+  /// Holds the kinetic energy that the transfers removed from the motion of the grid and that is not yet heat, J/kg,
+  /// >= 0 (docs/theory/dissipation.md, 2); optional
+  std::vector<double> unresolved_energy;
+  /// Holds the part of the transfer losses that may still become heat immediately, J/kg, >= 0
+  /// (docs/theory/dissipation.md, 3); optional
   std::vector<double> heat_allowance;
   std::vector<double> closing_rate;      ///< 1/s, -tr L of the last step, 0 in expansion; optional
-  std::vector<std::uint8_t> generation;  ///< divisions that the particle comes from (0: as seeded)
+  std::vector<std::uint8_t> generation;  ///< number of splits since seeding (0: as seeded)
 
   [[nodiscard]] std::size_t size() const { return mass.size(); }
 
@@ -47,7 +47,7 @@ struct Particles : MaterialPoints {
   }
 };
 
-/// Brings the fields of unresolved energy into use: none so far, no allowance, and all viscosity heats.
+/// Activates the fields of unresolved energy: no energy, no allowance, and all viscosity heats.
 inline void use_stores(Particles& particles) {
   const std::size_t size = particles.size();
   particles.unresolved_energy.resize(size, 0.0);
@@ -59,20 +59,20 @@ inline void use_stores(Particles& particles) {
                  viscosity.end());
 }
 
-/// Memory that is kept from one sort to the next: new pages cost more than the copy.
+/// Holds memory that is reused from one sort to the next: new pages cost more than the copy.
 struct SortBuffers {
   std::vector<Vector3> vectors;
   std::vector<double> numbers;
 };
 
-/// Brings every field into the order new[i] = old[order[i]]; `order` may be shorter than the particles
-/// (removal). Two calls that give the same order give bitwise the same particles.
+/// Reorders every field as new[i] = old[order[i]]; `order` may be shorter than the particles (removal). Equal orders
+/// give bitwise equal particles.
 void reorder(Particles& particles, std::span<const std::uint32_t> order, SortBuffers& buffers);
 
-/// Removes particles: `moves` as of `moves_into_gaps` over their bodies, `size` particles stay.
+/// Removes particles: `moves` from `moves_into_gaps` on their bodies; `size` particles remain.
 void remove(Particles& particles, std::span<const Move> moves, std::size_t size);
 
-/// Brings the particles of each body together; within a body the order stays.
+/// Groups the particles by body; within a body the order is preserved.
 void sort_by_body(Particles& particles);
 
 }  // namespace whipple

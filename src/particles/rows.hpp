@@ -15,7 +15,7 @@
 /// Rows of sets of points (particles, nodes, elements, Gauss points) with all of their fields.
 namespace whipple {
 
-/// new[i] = old[order[i]] in every field in use; `order` may be shorter or longer than the points.
+/// Selects rows as new[i] = old[order[i]] in every field in use; `order` may be shorter or longer than the points.
 template <class Points>
 void select_rows(Points& points, std::span<const std::uint32_t> order) {
   for_each_field(points, [&](const auto& field) {
@@ -28,8 +28,8 @@ void select_rows(Points& points, std::span<const std::uint32_t> order) {
   });
 }
 
-/// Sends values[p] of the rows p of leaving[r] to rank r; nothing of an empty array. Collective.
-/// @returns what came from each rank, as bytes
+/// Sends values[p] of the rows p of leaving[r] to rank r; nothing for an empty array. Collective.
+/// @returns the bytes received from each rank
 template <class Value>
 std::vector<std::vector<std::byte>> send_rows(const std::vector<Value>& values,
                                               const std::vector<std::vector<std::uint32_t>>& leaving,
@@ -46,7 +46,7 @@ std::vector<std::vector<std::byte>> send_rows(const std::vector<Value>& values,
   return parallel::exchange_bytes(communicator, outgoing);
 }
 
-/// Appends what `send_rows` returned, rank by rank.
+/// Appends the result of `send_rows`, rank by rank.
 template <class Value>
 void append_rows(std::vector<Value>& values, const std::vector<std::vector<std::byte>>& incoming) {
   for (const std::vector<std::byte>& bytes : incoming) {
@@ -56,8 +56,8 @@ void append_rows(std::vector<Value>& values, const std::vector<std::vector<std::
   }
 }
 
-/// Sends the rows leaving[r] to rank r, with all of their fields. Afterwards the rows `staying` come first,
-/// in their order, then the newcomers by rank and order. Collective.
+/// Sends the rows leaving[r] to rank r, with all of their fields. Afterwards the rows `staying` come first, in their
+/// order, then the received rows by rank and order. Collective.
 template <class Points>
 void exchange_rows(Points& points, std::span<const std::uint32_t> staying,
                    const std::vector<std::vector<std::uint32_t>>& leaving, MPI_Comm communicator) {
@@ -66,7 +66,7 @@ void exchange_rows(Points& points, std::span<const std::uint32_t> staying,
     const auto incoming = send_rows(values, leaving, communicator);
     std::remove_reference_t<decltype(values)> now;
     now.reserve(staying.size());
-    if (!values.empty()) {  // else an optional field that is empty on all ranks
+    if (!values.empty()) {  // otherwise an optional field that is empty on all ranks
       for (const std::uint32_t p : staying) now.push_back(values[p]);
     }
     append_rows(now, incoming);

@@ -31,7 +31,7 @@ std::vector<std::uint8_t> fields_of_groups(const std::vector<Body>& bodies) {
 
 namespace {
 
-/// Bodies joined to one another.
+/// Holds the bonds between bodies.
 class Bonds {
  public:
   explicit Bonds(const std::vector<Body>& bodies) : leader_(bodies.size()), group_(bodies.size()) {
@@ -47,7 +47,7 @@ class Bonds {
     return b;
   }
   [[nodiscard]] bool joined(std::size_t a, std::size_t b) const { return leader(a) == leader(b); }
-  /// Bodies of different groups stay apart.
+  /// Returns whether two bodies may be bonded; bodies of different groups are not.
   [[nodiscard]] bool may_join(std::size_t a, std::size_t b) const {
     const std::string &of_a = group_[leader(a)], &of_b = group_[leader(b)];
     return of_a.empty() || of_b.empty() || of_a == of_b;
@@ -57,7 +57,7 @@ class Bonds {
     if (group_[first].empty()) group_[first] = group_[second];
     leader_[second] = first;
   }
-  /// Numbers of the fields, in the order of the bodies.
+  /// Returns the numbers of the fields, in the order of the bodies.
   [[nodiscard]] std::vector<unsigned> fields() const {
     std::vector<unsigned> numbers(leader_.size());
     unsigned next = 0;
@@ -72,7 +72,7 @@ class Bonds {
   std::vector<std::string> group_;  // of leaders
 };
 
-/// Joins bars to the body that they reinforce.
+/// Bonds bars to the body that they reinforce.
 void join_bars(const Case& setup, Bonds& bonds, ContactFields& found) {
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     const Body& bars = setup.bodies[b];
@@ -91,12 +91,12 @@ void join_bars(const Case& setup, Bonds& bonds, ContactFields& found) {
   }
 }
 
-/// The material of a body may be one of the faults of a case.
+/// Returns whether a body burns; its material may be missing because of a fault of the case.
 bool burns(const Case& setup, std::size_t body) {
   return setup.materials[body] != nullptr && setup.materials[body]->burns();
 }
 
-/// Joins what touches at the start and moves alike.
+/// Bonds bodies that initially touch and have the same velocity.
 void join_layers(const Case& setup, Bonds& bonds, ContactFields& found) {
   const std::vector<Body>& bodies = setup.bodies;
   for (std::size_t a = 0; a < bodies.size(); ++a) {
@@ -104,7 +104,7 @@ void join_layers(const Case& setup, Bonds& bonds, ContactFields& found) {
     for (std::size_t b = a + 1; b < bodies.size(); ++b) {
       if (bodies[b].discretization.is_bars() || bonds.joined(a, b) || !bonds.may_join(a, b)) continue;
       if (!bodies[a].contact_group.empty() && !bodies[b].contact_group.empty()) continue;
-      if (burns(setup, a) != burns(setup, b)) continue;  // products slide
+      if (burns(setup, a) != burns(setup, b)) continue;  // detonation products slide
       if (!touch_and_move_alike(setup, bodies[a], bodies[b])) continue;
       found.remarks.push_back(
           fmt::format("contact: bodies \"{}\" and \"{}\" touch at the start and have the same velocity: they "
@@ -115,7 +115,7 @@ void join_layers(const Case& setup, Bonds& bonds, ContactFields& found) {
   }
 }
 
-/// Warns of bodies that meet across a gap in one field.
+/// Warns of bodies in one field that meet across a gap.
 void warn_of_gaps(const Case& setup, ContactFields& found) {
   for (std::size_t a = 0; a < setup.bodies.size(); ++a) {
     for (std::size_t b = a + 1; b < setup.bodies.size(); ++b) {

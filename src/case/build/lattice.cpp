@@ -11,7 +11,7 @@ bool inside_domain(const Case& setup, const Vector3& point) {
   return true;
 }
 
-/// A whole cell of the lattice: its centre decides whether it belongs to the body.
+/// Returns a whole cell of the lattice if its centre is inside the body.
 std::optional<Site> whole_site(const Case& setup, const Body& body, const Lattice& lattice,
                                const Vector3& point) {
   if (!inside_domain(setup, point) || !setup.holds(body, point)) return std::nullopt;
@@ -19,8 +19,8 @@ std::optional<Site> whole_site(const Case& setup, const Body& body, const Lattic
   return Site{point, 1.0, {half[0] * half[0], half[1] * half[1], half[2] * half[2], 0, 0, 0}};
 }
 
-/// The part of a cell that lies in the body, by the points of a lattice four times as fine, in two dimensions twelve
-/// times: its volume, centroid and second moments.
+/// Computes volume fraction, centroid and second moments of the part of a cell inside the body, from a sublattice of 4
+/// points per axis (12 in two dimensions).
 std::optional<Site> partial_site(const Case& setup, const Body& body, const Lattice& lattice,
                                  const Vector3& point) {
   const int parts = setup.geometry.is_planar() ? 12 : 4, parts_z = setup.geometry.is_planar() ? 1 : parts;
@@ -44,14 +44,14 @@ std::optional<Site> partial_site(const Case& setup, const Body& body, const Latt
   if (count == 0) return std::nullopt;
   if (count == all) first.setZero();  // exactly the whole cell
   const Vector3 center = first / count;
-  // A domain with half-edges r has the covariance sum r r^T / 3; every part brings that of its own box.
+  // A domain with half-edges r has the covariance sum r r^T / 3; each sublattice point contributes that of its box.
   Matrix3 extent = 3.0 * (second / count - center * center.transpose());
   extent += (0.5 * part).cwiseAbs2().asDiagonal();
   return Site{point + center, count / all, SymmetricTensor::from(extent)};
 }
 
-/// Whether the material of a body goes on at a point beside one of it along an axis: beyond a plane with which it is
-/// continuous it does.
+/// Returns whether the material of a body continues at a point adjacent to one inside it along an axis; beyond a mirror
+/// plane or no-slip wall it does.
 bool goes_on(const Case& setup, const Body& body, const Vector3& point, int axis) {
   const auto is_continuous = [&](int face) {
     const grid::Boundary kind = setup.geometry.boundary[static_cast<std::size_t>(face)];

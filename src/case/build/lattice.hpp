@@ -8,15 +8,15 @@
 
 #include "src/case/case.hpp"
 
-/// The lattice on which the particles of a body are placed at the start, and the sites on it that the body fills.
+/// Lattice on which the particles of a body are initially placed, and the lattice sites that the body fills.
 namespace whipple::cases {
 
-/// Holds the points at the centres of equal cells that divide the bounding box of a body.
+/// Describes a lattice of points at the centres of equal cells that divide the bounding box of a body.
 struct Lattice {
   Vector3 lower;
   Vector3 spacing;
   std::array<long, 3> count{};
-  int halvings = 0;  ///< mirror planes through the middle of the body
+  int halvings = 0;  ///< number of mirror planes through the middle of the body
 
   [[nodiscard]] Vector3 point(long i, long j, long k) const {
     return lower +
@@ -25,46 +25,48 @@ struct Lattice {
   }
 };
 
-/// Describes the part of a cell of the lattice that a particle takes.
+/// Describes the part of a lattice cell occupied by a particle.
 struct Site {
   Vector3 position;
   double fraction = 1.0;   ///< of the volume of the cell
-  SymmetricTensor extent;  ///< as of Particles
+  SymmetricTensor extent;  ///< defined as in Particles
 };
 
 /// Returns whether a face of the domain mirrors or stops material.
 bool is_mirror(const Case& setup, int face);
 
-/// Returns the edge (m) of the cubes of one particle each that the number per cell asks for.
+/// Returns the edge (m) of the cube occupied by one particle at the requested number per cell.
 double wanted_spacing(const Case& setup, const Body& body);
 
-/// Returns the box around a body; in two dimensions around its section, one particle thick.
+/// Returns the bounding box of a body; in two dimensions that of its section, one particle thick.
 Shape::Bounds bounds_of(const Case& setup, const Body& body);
 
-/// Returns the part of space in both boxes; upper below lower where there is none.
+/// Returns the intersection of two boxes; upper is below lower if it is empty.
 Shape::Bounds common_part(const Shape::Bounds& a, const Shape::Bounds& b);
 
 /// Returns the box of the domain; in two dimensions one cell deeper, so that the plane is inside.
 Shape::Bounds domain_of(const Case& setup);
 
-/// Returns the number of points of the lattice of a body inside the domain, before it is made: it may exceed any integer.
+/// Estimates the number of lattice points of a body inside the domain before the lattice is made; it may exceed any
+/// integer.
 double lattice_size(const Case& setup, const Body& body);
 
-/// Makes the lattice of a body. It divides the bounding box evenly, so that faces of boxes and ends of cylinders are met
-/// exactly; a body that a mirror plane halves gets an even number, so that its image continues the lattice.
+/// Creates the lattice of a body. It divides the bounding box evenly, so that faces of boxes and ends of cylinders are
+/// represented exactly; a body halved by a mirror plane gets an even number of cells, so that its image continues the
+/// lattice.
 Lattice lattice_of(const Case& setup, const Body& body);
 
-/// Returns the site in a cell of the lattice: with `partial_volumes` the part of the cell that lies in the body, else the
-/// whole cell if its centre does; nothing where the body or the domain does not reach.
+/// Returns the site in a lattice cell: with `partial_volumes` the part of the cell inside the body, otherwise the whole
+/// cell if its centre is inside; nothing outside of the body or the domain.
 std::optional<Site> site_at(const Case& setup, const Body& body, const Lattice& lattice,
                             const Vector3& point);
 
-/// Returns the place of the particle of a site: that of the site, or in a layered body beside it, but not across a
-/// face of the body, whose outermost layer stays flat.
+/// Returns the position of the particle of a site: that of the site, or in a layered body offset from it, but not
+/// across a face of the body, whose outermost layer remains flat.
 Vector3 place_of_particle(const Case& setup, const Body& body, const Lattice& lattice, const Site& site);
 
-/// Returns whether f(site) holds for some particle of the body inside the domain. Only those in and near a box are tried,
-/// up to the first one.
+/// Returns whether f(site) is true for any particle of the body inside the domain. Only sites in and near a box are
+/// tested, up to the first match.
 template <class Function>
 bool any_site(const Case& setup, const Body& body, const Lattice& lattice, const Shape::Bounds& box,
               Function&& f) {

@@ -18,9 +18,9 @@ namespace whipple::cases {
 namespace {
 
 constexpr double unlit = std::numeric_limits<double>::infinity();
-constexpr double samples_per_cell = 2.0;  ///< of a ray
+constexpr double samples_per_cell = 2.0;  ///< along a ray
 constexpr double most_cells = 2e6;
-constexpr double hot_cells = 4.0;  ///< around detonators, that burn by time in mode "volume"
+constexpr double hot_cells = 4.0;  ///< radius around detonators that burns by time in mode "volume"
 
 }  // namespace
 
@@ -101,7 +101,7 @@ bool Arrival::sees(const Vector3& from, const Vector3& to, double velocity, bool
     const Vector3 at = from + static_cast<double>(i) / static_cast<double>(steps) * way;
     const Index index = index_of(at);
     const std::size_t cell = holds(index) ? number_of(index) : time_.size();
-    // What the centre of a cell is says little of cells at a surface.
+    // In cells at a surface, the velocity is evaluated at the point instead of the centre.
     const double here = cell == time_.size()     ? 0.0
                         : at_surface_[cell] != 0 ? field_.velocity(at)
                                                  : velocity_[cell];
@@ -132,9 +132,9 @@ void Arrival::light_in_sight() {
 }
 
 void Arrival::light_shadows() {
-  using Entry = std::pair<double, std::size_t>;  // ties are taken by the number of the cell
+  using Entry = std::pair<double, std::size_t>;  // ties are resolved by the cell number
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
-  // Only where something is left to be lit.
+  // The front starts only at cells with neighbours still to be lit.
   for (std::size_t c = 0; c < time_.size(); ++c) {
     if (time_[c] == unlit) continue;
     bool at_rim = false;
@@ -194,7 +194,7 @@ double Arrival::at(const Vector3& point, double velocity) const {
 
 namespace {
 
-/// The part of space with all bodies that burn.
+/// Returns the region that contains all burning bodies.
 DetonationField field_of(const Case& setup) {
   Shape::Bounds box = {Vector3::Constant(unlit), Vector3::Constant(-unlit)};
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
@@ -227,7 +227,7 @@ DetonationField field_of(const Case& setup) {
   return field;
 }
 
-/// Arrival in straight lines, through everything; `never` where no detonator lights the body.
+/// Returns the arrival in straight lines, regardless of obstacles; `never` if no detonator lights the body.
 double straight(const Case& setup, const Body& body, const Vector3& point, double velocity) {
   double first = unlit;
   for (const Detonation& detonation : setup.detonations) {
@@ -236,7 +236,7 @@ double straight(const Case& setup, const Body& body, const Vector3& point, doubl
   return first == unlit ? never : first;
 }
 
-/// Returns whether an explosive burns away from the detonators without lighting times: by compression or by a rate law.
+/// Returns whether an explosive burns without lighting times away from the detonators: by compression or by a rate law.
 bool burns_elsewhere(const Case& setup, const Material& material) {
   return setup.burn.mode == BurnMode::volume || material.burn->explosive().reaction != nullptr;
 }

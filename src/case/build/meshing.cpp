@@ -16,7 +16,7 @@ namespace {
 
 constexpr double plane_tolerance = 1e-6;  ///< in cells
 
-/// Face of the domain that halves bodies, as a plane.
+/// Describes a face of the domain at which bodies are cut, as a plane.
 struct Plane {
   int axis;
   double coordinate, inward;  // m; +1 or -1
@@ -36,7 +36,7 @@ std::vector<Plane> planes_of(const Case& setup) {
   return planes;
 }
 
-/// The part of space before all mirror planes.
+/// Returns the region in front of all mirror planes.
 Shape::Bounds before_planes(const Case& setup) {
   const Vector3 everywhere = Vector3::Constant(std::numeric_limits<double>::infinity());
   Shape::Bounds bounds{-everywhere, everywhere};
@@ -46,7 +46,7 @@ Shape::Bounds before_planes(const Case& setup) {
   return bounds;
 }
 
-/// Drops elements beyond a plane and puts nodes that are nearly on it exactly there.
+/// Removes elements beyond a plane and moves nodes close to it exactly onto it.
 void cut(fem::Hexahedra& mesh, const Plane& plane, double tolerance, const std::string& body) {
   for (Vector3& node : mesh.nodes) {
     double& x = node[plane.axis];
@@ -88,7 +88,7 @@ void drop_unused_nodes(fem::Hexahedra& mesh) {
   }
 }
 
-/// Constrains nodes on mirror planes to them, and fixes those on no-slip walls.
+/// Constrains nodes on mirror planes to the plane, and fixes nodes on no-slip walls.
 void hold_at_planes(const Case& setup, fem::Mesh& mesh, Vector3& wall_impulse) {
   fem::Nodes& nodes = mesh.nodes;
   std::vector<double> heat(nodes.size(), 0.0);

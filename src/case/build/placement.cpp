@@ -14,11 +14,11 @@
 namespace whipple::cases {
 namespace {
 
-/// Why the particles or elements of a body are too many to be made.
+/// Returns why the particles or elements of a body are too many to be created.
 std::optional<std::string> too_many(const Case& setup, const Body& body) {
-  constexpr double most_particles = 1e9;  // some 500 GB
-  constexpr double most_elements = 2e7;   // some 10 GB: every rank makes the whole mesh
-  constexpr double longest_edge = 1e12;   // beyond it round-off joins neighbours
+  constexpr double most_particles = 1e9;  // about 500 GB
+  constexpr double most_elements = 2e7;   // about 10 GB: every rank creates the whole mesh
+  constexpr double longest_edge = 1e12;   // beyond it round-off merges neighbours
   const bool elements = body.discretization.has_elements();
   const Vector3 edges =
       (bounds_of(setup, body).upper - bounds_of(setup, body).lower) /
@@ -37,8 +37,8 @@ std::optional<std::string> too_many(const Case& setup, const Body& body) {
       body.name, count, elements ? "elements" : "particles", edges.maxCoeff(), most, longest_edge);
 }
 
-/// Volume of the particles of a body over that of the part of its shape inside the domain, less 1; 0 where a
-/// mirror plane cuts the body elsewhere than in its middle, so that this part is not known.
+/// Returns the volume of the particles of a body over that of the part of its shape inside the domain, minus 1; 0 if a
+/// mirror plane does not cut the body in its middle, as that part is then unknown.
 double excess_volume(const Case& setup, const Body& body) {
   if (setup.geometry.is_planar()) return 0.0;
   const Lattice lattice = lattice_of(setup, body);
@@ -60,8 +60,8 @@ bool boxes_meet(const Shape::Bounds& a, const Shape::Bounds& b) {
   return (a.lower.array() < b.upper.array()).all() && (b.lower.array() < a.upper.array()).all();
 }
 
-/// A fault where a particle of one of two bodies lies in the other: the one may lie between the particles of
-/// the other.
+/// Returns a fault if a particle of one of two bodies is inside the other; both directions are tested, as one body may
+/// fit between the particles of the other.
 std::optional<std::string> overlap(const Case& setup, const Body& body, const Body& former) {
   const Shape::Bounds bounds = bounds_of(setup, body), theirs = bounds_of(setup, former);
   if (!boxes_meet(bounds, theirs)) return std::nullopt;
@@ -90,7 +90,7 @@ std::vector<std::uint8_t> faces_touched(const Case& setup) {
   std::vector<std::uint8_t> faces(setup.bodies.size(), 0);
   for (std::size_t b = 0; b < faces.size(); ++b) {
     const Body& body = setup.bodies[b];
-    if (body.discretization.is_bars()) continue;  // they share the field of the material around
+    if (body.discretization.is_bars()) continue;  // they share the field of the surrounding material
     const Shape::Bounds bounds = bounds_of(setup, body);
     const Lattice lattice = lattice_of(setup, body);
     for (int face = 0; face < 6; ++face) {
@@ -98,7 +98,7 @@ std::vector<std::uint8_t> faces_touched(const Case& setup) {
       const double plane = face % 2 == 0 ? g.lower[a] : g.upper(a);
       if (!is_mirror(setup, face)) continue;
       if (face % 2 == 0 ? bounds.lower[a] > plane + near : bounds.upper[a] < plane - near) continue;
-      // The box may be larger than the shape, and the lattice may have left out what the plane cuts.
+      // The box may be larger than the shape, and the lattice may exclude the part cut off by the plane.
       Shape::Bounds layer = domain_of(setup);
       const double depth = lattice.spacing[a] + near;
       (face % 2 == 0 ? layer.upper[a] : layer.lower[a]) = face % 2 == 0 ? plane + depth : plane - depth;
@@ -204,7 +204,7 @@ std::vector<std::string> placement_warnings(const Case& setup) {
 
 std::vector<Shape::Bounds> particle_boxes(const Case& setup, const Body& body, const Shape::Bounds& near) {
   std::vector<Shape::Bounds> boxes;
-  if (too_many(setup, body)) return boxes;  // a fault that is reported elsewhere
+  if (too_many(setup, body)) return boxes;  // reported elsewhere as a fault
   Body whole = body;
   whole.discretization.partial_volumes = false;
   const Lattice lattice = lattice_of(setup, whole);

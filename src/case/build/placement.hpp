@@ -7,7 +7,7 @@
 
 #include "src/case/case.hpp"
 
-/// Placement of the bodies of a case at the start: its faults, warnings, memory and neighbours.
+/// Initial placement of the bodies of a case: faults, warnings, memory and neighbours.
 namespace whipple::cases {
 
 /// States why a body cannot be placed.
@@ -16,23 +16,23 @@ struct PlacementFault {
   std::string message;
 };
 
-/// Estimates the memory (bytes) of the particles and of the grid around them, of all ranks together: an upper bound,
+/// Estimates an upper bound of the memory (bytes) of the particles and of the grid around them, summed over all ranks,
 /// from the bounding boxes of the bodies.
 double expected_memory(const Case& setup);
 
-/// Finds bodies that leave the domain through an outflow face, hold no particle, or share points with another body.
+/// Finds bodies that leave the domain through an outflow face, contain no particle, or overlap another body.
 std::vector<PlacementFault> placement_faults(const Case& setup);
 
-/// Returns warnings about what is no fault but seldom meant: one for each body of particles that is thinner than a
-/// cell, or whose particles have another volume than its shape.
+/// Returns warnings about valid but probably unintended settings: one for each body of particles that is thinner than a
+/// cell, or whose particles do not have the volume of its shape.
 std::vector<std::string> placement_warnings(const Case& setup);
 
-/// Returns the boxes of the whole particles that fill a body, or would fill one of elements, in and near a part of space.
+/// Returns the boxes of the whole particles that fill a body (or would, for a body of elements), in and near a region.
 std::vector<Shape::Bounds> particle_boxes(const Case& setup, const Body& body, const Shape::Bounds& near);
 
-/// Returns which faces of the domain that mirror or stop material each body touches or crosses at the start: a bit per
-/// face in the order of Geometry::boundary. It follows from the case alone, so a run that goes on
-/// from a checkpoint finds the same.
+/// Returns, for each body, the mirror planes and walls of the domain that it initially touches or crosses: one bit per
+/// face in the order of Geometry::boundary. The result depends on the case only, so a run resumed from a checkpoint
+/// obtains the same.
 std::vector<std::uint8_t> faces_touched(const Case& setup);
 
 }  // namespace whipple::cases

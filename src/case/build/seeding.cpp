@@ -11,21 +11,21 @@
 namespace whipple::cases {
 namespace {
 
-/// The place of a ring: the centre of mass of a small part of it, as far from the axis as makes a uniform pressure
-/// nearly balanced there: r + (mean square distance of the section from r) / r.
+/// Returns the position of a ring: the centre of mass of a small sector of it, at the radius where a uniform pressure
+/// is nearly balanced: r + (mean square distance of the section from r) / r.
 Vector3 centre_of_mass(const Site& site) {
   const double r = site.position[1];
   return {site.position[0], r + site.extent.yy / (3.0 * r), site.position[2]};
 }
 
-/// Which sites of a body become particles, and of how much volume. A particle of a few per cent of a cell is
-/// squeezed without bound between heavy ones, which it cannot stop; sites with less than `least_fraction` are
-/// left out, and the others at the surface get their volume in proportion, unless there is too little of
-/// them.
+/// Determines which sites of a body become particles, and their volumes. A particle of a few per cent of a cell is
+/// compressed without bound between heavier ones, which it cannot stop; sites with less than `least_fraction` are
+/// therefore excluded, and their volume is distributed in proportion over the other surface sites, unless these hold
+/// too little.
 struct Allotment {
   std::size_t particles = 0;
   double volume = 0.0;    // of the body, in cells of the lattice
-  double least = 0.0;     // fraction of the smallest site that becomes a particle
+  double least = 0.0;     // minimum fraction of a site that becomes a particle
   double enlarged = 1.0;  // factor of the fraction of a cut site
 
   [[nodiscard]] bool takes(const Site& site) const { return site.fraction >= least; }
@@ -66,7 +66,7 @@ Seeding seed(const Case& setup, int rank, int ranks) {
       continue;
     }
     if (body.discretization.has_elements()) {
-      use_fields(material, particles);  // of those that its elements may become
+      use_fields(material, particles);  // of the particles to which its elements may be converted
       if (body.varies_failure()) particles.failure_threshold_factor.resize(particles.size(), 1.0);
       seeding.bodies.push_back({.first = particles.size()});
       continue;
@@ -96,7 +96,7 @@ Seeding seed(const Case& setup, int rank, int ranks) {
     std::vector<double> threshold_factor;
     std::size_t index = 0;
     for_each_site(setup, body, lattice, [&](const Site& site) {
-      // The volume of a ring is its area times the way of its section's centroid (Pappus).
+      // The volume of a ring is its area times the path of the centroid of its section (Pappus).
       const double depth = setup.geometry.depth(site.position);
       const double mass_of_site = planar ? density * area * depth : mass;
       if (planar) summary.mass += mass_of_site * site.fraction;

@@ -10,11 +10,11 @@
 
 namespace whipple::cases {
 
-/// Holds the particles and the mass that a body was seeded with.
+/// Holds the particles and the mass of a seeded body.
 struct BodySummary {
   std::size_t first = 0;  ///< its particles are [first, first + count)
   std::size_t count = 0;
-  double mass = 0.0;        ///< kg, of the part inside the domain (on all ranks)
+  double mass = 0.0;        ///< kg, of the part inside the domain (sum of all ranks)
   double shape_mass = 0.0;  ///< kg, of the whole shape at the initial density
 };
 
@@ -26,11 +26,11 @@ struct Seeding {
   Vector3 wall_impulse = Vector3::Zero();  ///< N s, see `make_meshes`
 };
 
-/// Fills the bodies of elements with their meshes (`make_meshes`), the others with particles on lattices that
-/// fit each body's bounding box, as near as possible to the wanted number per cell; a particle at the surface
-/// is whole if its centre lies in the body, or, with `partial_volumes`, the part of its box that does. Parts
-/// of a body beyond a symmetry plane or wall are left out (quarter models). Of `ranks` processes each makes
-/// an equal part of every body; ids are the same for any number of them.
+/// Creates the meshes of the bodies of elements (`make_meshes`), and fills the others with particles on lattices fitted
+/// to the bounding box of each body, with a density as close as possible to the requested number per cell. A particle
+/// at the surface is whole if its centre is inside the body; with `partial_volumes` it is the part of its box inside
+/// the body. Parts of a body beyond a symmetry plane or wall are omitted (quarter models). Each of `ranks` processes
+/// creates an equal part of every body; ids do not depend on the number of processes.
 Seeding seed(const Case& setup, int rank = 0, int ranks = 1);
 
 }  // namespace whipple::cases

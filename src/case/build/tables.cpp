@@ -33,7 +33,7 @@ std::shared_ptr<const Material> tabulated(const Material& material, double error
 }
 
 void replace_models(Case& setup) {
-  // Bodies of one material share its table, as they share the material.
+  // Bodies that share a material also share its table.
   std::map<std::pair<std::shared_ptr<const Material>, double>, std::shared_ptr<const Material>> tables;
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     const Body& body = setup.bodies[b];
@@ -52,7 +52,8 @@ void replace_models(Case& setup) {
 }  // namespace
 
 void tabulate_materials(Case& setup, const io::Ranks& ranks) {
-  // The root first: what it builds, the others find in the cache. Without a cache all build the same.
+  // The root runs first: the other ranks read its tables from the cache. Without a cache, all ranks build the same
+  // tables.
   ranks.on_root([&] { replace_models(setup); });
   if (!ranks.is_root()) replace_models(setup);
 }

@@ -13,7 +13,7 @@
 namespace whipple::cases {
 namespace {
 
-constexpr double near = 0.05;           // cells: surfaces nearer than that touch
+constexpr double near = 0.05;           // cells: surfaces closer than this touch
 constexpr double same_velocity = 1e-9;  // relative to the speeds
 
 Vector3 velocity_at(const Body& body, const Vector3& x) {
@@ -35,7 +35,7 @@ Shape::Bounds grown(const Shape::Bounds& box, double by) {
   return {box.lower.array() - by, box.upper.array() + by};
 }
 
-/// Boxes by the cells of a lattice that they reach into.
+/// Indexes boxes by the cells of a lattice that they overlap.
 class BoxTable {
  public:
   BoxTable(const std::vector<Shape::Bounds>& boxes, double edge) : boxes_(boxes), edge_(edge) {
@@ -46,7 +46,7 @@ class BoxTable {
       });
     }
   }
-  /// Returns whether f(box) holds for one of the boxes within a distance (m) of this one.
+  /// Returns whether f(box) is true for any of the boxes within a distance (m) of this one.
   template <class Function>
   [[nodiscard]] bool any_near(const Shape::Bounds& box, double distance, Function&& f) const {
     return for_each_cell(grown(box, distance), [&](std::uint64_t key) {
@@ -70,7 +70,7 @@ class BoxTable {
     for (std::int64_t i = first[0]; i <= last[0]; ++i) {
       for (std::int64_t j = first[1]; j <= last[1]; ++j) {
         for (std::int64_t k = first[2]; k <= last[2]; ++k) {
-          // Cells that share a key only cost time.
+          // Hash collisions of cells only cost time.
           const auto key = static_cast<std::uint64_t>(i) * 0x9e3779b97f4a7c15ULL ^
                            static_cast<std::uint64_t>(j) * 0xc2b2ae3d27d4eb4fULL ^
                            static_cast<std::uint64_t>(k) * 0x165667b19e3779f9ULL;
@@ -94,7 +94,7 @@ bool touch_and_move_alike(const Case& setup, const Body& a, const Body& b) {
   };
   if (!varies(a) && !varies(b) && !move_alike(a, b, Vector3::Zero())) return false;
   const double cell = setup.geometry.cell_size, distance = near * cell;
-  // The boxes of particles may reach beyond the shape, by half a cell at most.
+  // The boxes of particles may extend beyond the shape by at most half a cell.
   const Shape::Bounds of_a = grown(a.shape->bounds(), 0.5 * cell),
                       of_b = grown(b.shape->bounds(), 0.5 * cell);
   if (!meet(of_a, of_b, distance)) return false;

@@ -9,17 +9,17 @@
 
 namespace whipple::cases {
 
-/// Direction of an axis of revolution.
+/// Selects the direction of an axis of revolution.
 enum class Axis : std::uint8_t { x, y, z };
 constexpr std::array<Word<Axis>, 3> words(Axis) { return {{{Axis::x, "x"}, {Axis::y, "y"}, {Axis::z, "z"}}}; }
 constexpr Eigen::Index index_of(Axis axis) { return static_cast<Eigen::Index>(axis); }
 
-/// Primitives of revolution: what they have in common.
+/// Holds the common properties of primitives of revolution.
 struct Revolution {
   Vector3 base = Vector3::Zero();
   Axis axis = Axis::z;
 
-  /// Length along the axis from the base, and distance from the axis.
+  /// Holds the distance along the axis from the base, and the distance from the axis.
   struct Place {
     double along, radius;
   };

@@ -7,7 +7,7 @@
 
 namespace whipple::cases {
 
-/// Box along the axes.
+/// Describes a box aligned with the axes.
 class Box final : public Shape {
  public:
   static constexpr const char* name = "box";

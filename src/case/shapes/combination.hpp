@@ -15,22 +15,22 @@ using Parts = std::vector<std::unique_ptr<Shape>>;
 /// Returns the volume of a shape (m^3) by counting the points of a lattice over its bounds.
 double counted_volume(const Shape& shape);
 
-/// Returns "[{ ... }, { ... }]" as it stands in a case file.
+/// Returns "[{ ... }, { ... }]" as written in a case file.
 std::string list_as_toml(const Parts& parts);
 
 /// Fills in the schema of a list of shapes.
 void schema_of_list(input::Schema& value);
 
-/// Adds a key whose value is a shape, or a list of some.
+/// Adds a key whose value is a shape, or a list of shapes.
 void add_member(input::Schema& table, const char* key, bool is_list);
 
-/// Reads the shapes of a list; empty if one of them is wrong, or there is none.
+/// Reads the shapes of a list; returns an empty list if one of them is invalid, or there are none.
 Parts read_parts(input::Table& holder, const std::string& key);
 
-/// Reads the one shape of a key that must be there. Reports errors in the document and returns null then.
+/// Reads the shape of a required key. Reports errors in the document and then returns null.
 std::unique_ptr<Shape> read_member(input::Table& table, const char* key);
 
-/// Reads a combination that is made of a list. Reports errors in the document and returns null then.
+/// Reads a combination given by a list. Reports errors in the document and then returns null.
 template <class Combination>
 std::unique_ptr<Shape> read_list(input::Table& holder, const std::string& key) {
   Parts parts = read_parts(holder, key);

@@ -10,7 +10,7 @@
 
 namespace whipple::cases {
 
-/// Circular cone, perhaps truncated.
+/// Describes a circular cone or truncated cone.
 class Cone final : public Shape, public Revolution {
  public:
   static constexpr const char* name = "cone";

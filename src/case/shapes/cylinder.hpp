@@ -13,7 +13,7 @@
 
 namespace whipple::cases {
 
-/// Solid circular cylinder.
+/// Describes a solid circular cylinder.
 class Cylinder final : public Shape {
  public:
   static constexpr const char* name = "cylinder";

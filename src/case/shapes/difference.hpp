@@ -9,7 +9,7 @@
 
 namespace whipple::cases {
 
-/// A shape without others.
+/// Describes a shape minus others.
 class Difference final : public Shape {
  public:
   static constexpr const char* name = "difference";

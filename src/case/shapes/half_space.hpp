@@ -8,7 +8,7 @@
 
 namespace whipple::cases {
 
-/// Everything on one side of a plane.
+/// Describes all points on one side of a plane.
 class HalfSpace final : public Shape {
  public:
   static constexpr const char* name = "half_space";

@@ -7,7 +7,7 @@
 
 namespace whipple::cases {
 
-/// Describes the part that several shapes have in common.
+/// Describes the intersection of several shapes.
 class Intersection final : public Shape {
  public:
   static constexpr const char* name = "intersection";

@@ -77,7 +77,7 @@ class MeshShape final : public Shape {
   [[nodiscard]] double volume_of(const fem::Corners& corners) const {
     return fem::volume_of(modes(corners, Vector3::Zero()));
   }
-  /// Natural coordinates of the point by Newton's iteration; inside if all are in [-1, 1].
+  /// Solves for the natural coordinates of the point by Newton iteration; it is inside if all are in [-1, 1].
   [[nodiscard]] bool holds(const fem::Corners& corners, const Vector3& point) const {
     Vector3 xi = Vector3::Zero();
     constexpr int iterations = 20;
@@ -96,7 +96,7 @@ class MeshShape final : public Shape {
       if (!(xi.cwiseAbs().maxCoeff() < 10.0)) return false;
       if (step.norm() < 1e-12) break;
     }
-    constexpr double at_faces = 1.0 + 1e-9;  // a point on the face of two elements lies in one of them
+    constexpr double at_faces = 1.0 + 1e-9;  // a point on the face between two elements is inside one of them
     return xi.cwiseAbs().maxCoeff() < at_faces;
   }
   [[nodiscard]] std::array<int, 3> bin_of(const Vector3& point) const {

@@ -8,8 +8,7 @@
 
 namespace whipple::cases {
 
-/// Returns the shape that the hexahedra of a Gmsh file fill (keys mesh, group and mesh_unit of a
-/// discretization).
+/// Returns the shape filled by the hexahedra of a mesh file (keys mesh, group and mesh_unit of a discretization).
 /// @throws InputError if the file cannot be used
 std::unique_ptr<Shape> shape_of_mesh(const Discretization& control);
 

@@ -13,7 +13,7 @@
 
 namespace whipple::cases {
 
-/// A shape turned about a point, then moved.
+/// Describes a rotation about a point followed by a translation.
 struct Motion {
   Vector3 translation = Vector3::Zero();
   Vector3 axis = Vector3::UnitZ();
@@ -31,7 +31,7 @@ struct Motion {
   }
 };
 
-/// A shape in another place.
+/// Describes a rotated and translated shape.
 class Moved final : public Shape {
  public:
   static constexpr const char* name = "moved";
@@ -91,7 +91,7 @@ class Moved final : public Shape {
   [[nodiscard]] std::optional<fem::Hexahedra> hexahedra(double size, const Bounds& clip) const override {
     const Vector3 shift = motion_.translation + motion_.center - rotation_ * motion_.center;
     const Vector3 everywhere = Vector3::Constant(std::numeric_limits<double>::infinity());
-    Bounds before{-everywhere, everywhere};  // faces across the axis of the rotation stay where they are
+    Bounds before{-everywhere, everywhere};  // the rotation does not move faces normal to its axis
     for (int a = 0; a < 3; ++a) {
       if (std::abs(rotation_(a, a) - 1.0) > 1e-12) continue;
       before.lower[a] = clip.lower[a] - shift[a];

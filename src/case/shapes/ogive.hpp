@@ -12,8 +12,8 @@
 
 namespace whipple::cases {
 
-/// Tangent ogive: the arc of radius rho = (R^2 + L^2)/(2 R) meets the shank without a kink; the calibre of
-/// the nose is rho/(2 R).
+/// Describes a tangent ogive: the arc of radius rho = (R^2 + L^2)/(2 R) is tangent to the shank; the calibre of the
+/// nose is rho/(2 R).
 class Ogive final : public Shape, public Revolution {
  public:
   static constexpr const char* name = "ogive";

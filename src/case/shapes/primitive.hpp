@@ -9,7 +9,7 @@
 
 namespace whipple::cases {
 
-/// Returns `{ NAME = { ... } }` with all keys of a shape that is read by one parameter table.
+/// Returns `{ NAME = { ... } }` with all keys of a shape described by a single parameter table.
 template <class Primitive>
 std::string shape_as_toml(Primitive shape) {
   std::string keys;

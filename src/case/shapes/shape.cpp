@@ -97,7 +97,7 @@ std::unique_ptr<Shape> read_shape(input::Table& body) {
   auto holder = body.required_table("shape");
   if (!holder) return nullptr;
   std::unique_ptr<Shape> shape = read_only_shape(*holder);
-  if (!shape) return nullptr;  // its errors are reported
+  if (!shape) return nullptr;  // errors have already been reported
   const std::string fault = fault_of(*shape);
   if (fault.empty()) return shape;
   body.error_at("shape", fmt::format("'{}.shape' {}", body.name(), fault));

@@ -14,29 +14,30 @@
 
 namespace whipple::cases {
 
-/// Region of space that a body fills at the start.
+/// Describes the region of space that a body initially fills.
 class Shape {
  public:
   struct Bounds {
-    Vector3 lower, upper;  ///< m; infinite where the shape has no end
+    Vector3 lower, upper;  ///< m; infinite if the shape is unbounded
   };
   virtual ~Shape() = default;
   [[nodiscard]] virtual bool contains(const Vector3& point) const = 0;
   [[nodiscard]] virtual Bounds bounds() const = 0;
-  /// Volume (m^3), to judge a discretisation by: exact for primitives, to about 1e-3 for combinations.
+  /// Returns the volume (m^3), to assess a discretization: exact for primitives, to about 1e-3 for combinations.
   [[nodiscard]] virtual double volume() const = 0;
-  /// Returns the smallest extent (m), to judge how many cells lie across it; NaN of shapes that state none. Of a box it is
-  /// the extent along `direction`, in which it flies: the section of a planar impact ends at mirror planes.
+  /// Returns the smallest extent (m), to assess the number of cells across it; NaN for shapes that do not provide one.
+  /// For a box it is the extent along `direction`, the direction of flight, as the section of a planar impact ends at
+  /// mirror planes.
   [[nodiscard]] virtual double smallest_extent(const Vector3& /*direction*/) const {
     return std::numeric_limits<double>::quiet_NaN();
   }
-  /// Returns whether whole cells of a lattice over its bounds fill it, as they do a box along the axes.
+  /// Returns whether whole cells of a lattice over its bounds fill it exactly, as for a box aligned with the axes.
   [[nodiscard]] virtual bool fills_lattice() const { return false; }
-  /// `{ NAME = ... }` as it stands in a case file.
+  /// Returns `{ NAME = ... }` as written in a case file.
   [[nodiscard]] virtual std::string toml() const = 0;
-  /// Structured mesh of the shape, or of its part within `clip`, whose finite faces halve it; elements
-  /// beyond may be left. Nothing for shapes that have none.
-  /// @param size  wanted edge of the elements, m
+  /// Returns a structured mesh of the shape, or of its part within `clip`, whose finite faces halve it; elements beyond
+  /// may remain. Returns nothing for shapes without structured mesh.
+  /// @param size  target edge of the elements, m
   /// @throws InputError if it is not positive
   [[nodiscard]] virtual std::optional<fem::Hexahedra> hexahedra(double /*size*/,
                                                                 const Bounds& /*clip*/) const {
@@ -44,32 +45,31 @@ class Shape {
   }
 };
 
-/// A kind of shape. Its class has `name`, `summary` and either `parameters()`, or `describe()`, `schema` and `read`: one
-/// header, and one line in the catalogue.
+/// Describes a kind of shape. Its class has `name`, `summary` and either `parameters()`, or `describe()`, `schema` and
+/// `read`; it needs one header, and one line in the catalogue.
 struct ShapeEntry {
   std::string name;
   std::string summary;
   std::string (*describe)();
-  /// Reads the key `name` of a table. Reports errors in the document and returns null then.
+  /// Reads the key `name` of a table. Reports errors in the document and then returns null.
   std::unique_ptr<Shape> (*read)(input::Table& holder, const std::string& name);
   /// Fills in the schema of the value of the key `name`.
   void (*schema)(input::Schema& value);
 };
-/// All shapes that `shape = { NAME = ... }` may hold, one line each.
+/// Lists all shapes that `shape = { NAME = ... }` accepts, one per line.
 const Catalogue<ShapeEntry>& shape_catalogue();
 
 /// Fills in the schema of `{ NAME = ... }`, which refers to itself as "#/$defs/shape".
 void add_shapes(input::Schema& holder);
 
-/// Reads the one shape that a table `{ NAME = ... }` holds. Reports errors in the document and returns null
-/// then.
+/// Reads the single shape of a table `{ NAME = ... }`. Reports errors in the document and then returns null.
 std::unique_ptr<Shape> read_only_shape(input::Table& holder);
 
-/// Returns why a shape cannot be that of a body ("is empty ..."); empty if it can.
+/// Returns why a shape is not valid for a body ("is empty ..."); empty if it is valid.
 std::string fault_of(const Shape& shape);
 
-/// Reads `shape = { NAME = ... }` of a body: bounded, not empty. Reports errors in the document and returns
-/// null then.
+/// Reads `shape = { NAME = ... }` of a body, which must be bounded and not empty. Reports errors in the document and
+/// then returns null.
 std::unique_ptr<Shape> read_shape(input::Table& body);
 
 }  // namespace whipple::cases

@@ -10,7 +10,7 @@
 
 namespace whipple::cases {
 
-/// Solid sphere; lengths in m, as in all shapes.
+/// Describes a solid sphere; lengths in m, as in all shapes.
 class Sphere final : public Shape {
  public:
   static constexpr const char* name = "sphere";

@@ -9,14 +9,14 @@
 
 namespace whipple::cases {
 
-/// Which half of a body about `center` lies within the clip, along an axis: -1, +1, or 0 for all of it.
+/// Returns which half of a body about `center` is within the clip along an axis: -1, +1, or 0 for all of it.
 inline int half_within(const Shape::Bounds& clip, Eigen::Index axis, double center, double radius) {
   const auto at_center = [&](double face) { return std::abs(face - center) < 1e-9 * radius; };
   return at_center(clip.lower[axis]) ? 1 : at_center(clip.upper[axis]) ? -1 : 0;
 }
 
-/// A mesh that `make` makes about the z axis, from z = 0 on, or halves of it, brought to its place: z becomes
-/// the direction `axis`.
+/// Creates a mesh by `make` about the z axis, starting at z = 0, or halves of it, and moves it to its position: z
+/// becomes the direction `axis`.
 template <class Make>
 fem::Hexahedra mesh_about_axis(const Vector3& base, Eigen::Index axis, double radius,
                                const Shape::Bounds& clip, Make&& make) {
@@ -32,8 +32,8 @@ fem::Hexahedra mesh_about_axis(const Vector3& base, Eigen::Index axis, double ra
   return mesh;
 }
 
-/// The part of a body of revolution along its axis, [from, to], that lies within the clip, as a mesh;
-/// `make(length, halved)` makes it.
+/// Creates a mesh of the part of a body of revolution within the clip, [from, to] along its axis, by `make(length,
+/// halved)`.
 template <class Make>
 fem::Hexahedra mesh_of_revolution(Vector3 base, Eigen::Index axis, double height, double radius,
                                   const Shape::Bounds& clip, Make&& make) {

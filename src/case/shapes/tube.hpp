@@ -11,7 +11,7 @@
 
 namespace whipple::cases {
 
-/// Hollow circular cylinder.
+/// Describes a hollow circular cylinder.
 class Tube final : public Shape, public Revolution {
  public:
   static constexpr const char* name = "tube";

@@ -7,7 +7,7 @@
 
 namespace whipple::cases {
 
-/// All of several shapes.
+/// Describes the union of several shapes.
 class Union final : public Shape {
  public:
   static constexpr const char* name = "union";

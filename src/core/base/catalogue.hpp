@@ -20,39 +20,38 @@
 #include "src/core/base/parameter_table.hpp"
 #include "src/core/base/text.hpp"
 
-/// Lists of the models that a file can name, one line each: equations of state, strength, failure.
+/// Catalogues of the models that a file can select, one line per model: equations of state, strength, failure.
 namespace whipple {
 
-/// Fills the bound constants of a model (from a material file, a fit, a test). It may leave a constant
-/// untouched and report the fault itself: the model is built later.
+/// Reads the bound constants of a model (from a material file, a fit, a test). May leave a constant unchanged and
+/// report the fault separately: the model is built later.
 using ParameterReader = std::function<void(std::span<const BoundParameter>)>;
 
-/// A model whose constants are read and which is not built yet.
+/// Describes a model whose constants have been read and which has not been built yet.
 template <class Interface, class... Arguments>
 struct DeclaredModel {
-  /// Builds the model; throws InputError for constants that contradict one another.
+  /// Builds the model; throws InputError for contradictory constants.
   std::function<std::unique_ptr<Interface>(Arguments...)> build;
-  std::vector<std::filesystem::path> companions =
-      {};  ///< files that it reads, by the names that the constants give
+  std::vector<std::filesystem::path> companions = {};  ///< files that it reads, as named by the constants
 };
 
-/// One model of a catalogue.
-/// @tparam Arguments  what its builder takes besides the constants
+/// Describes one model of a catalogue.
+/// @tparam Arguments  arguments of its builder in addition to the constants
 template <class Interface, class... Arguments>
 struct CatalogueEntry {
   using Declared = DeclaredModel<Interface, Arguments...>;
   std::string name;                       ///< the word after `model =`
   std::string summary;                    ///< one line
   std::function<std::string()> describe;  ///< equations, source and table of constants
-  /// Reads the constants through the reader and returns what builds the model later, so that a document reports all of
-  /// its errors before any model is built.
+  /// Reads the constants through the reader and returns a builder for later use, so that a document reports all of its
+  /// errors before any model is built.
   std::function<Declared(const ParameterReader&)> declare;
 };
 
-/// Makes the entry of a model from the table of its constants.
+/// Creates the entry of a model from the table of its constants.
 /// @param theory      equations and source, a paragraph before the table; may be empty
-/// @param build       makes the model from the constants and the arguments of the entry's builder
-/// @param companions  names the files that the model reads, from the constants
+/// @param build       builds the model from the constants and the arguments of the builder of the entry
+/// @param companions  returns the files that the model reads, from the constants
 template <class Entry, class Constants, class Build>
 Entry catalogue_entry(
     std::string_view name, std::string_view summary, std::string_view theory,
@@ -74,11 +73,12 @@ Entry catalogue_entry(
   return entry;
 }
 
-/// All entries of one kind, in the order in which they are listed.
+/// Holds all entries of one kind, in the order in which they are listed.
 template <class Entry>
 class Catalogue {
  public:
-  /// @param kind  what an entry is, in messages: "equation of state"
+  /// Creates a catalogue.
+  /// @param kind  of the entries, for messages: "equation of state"
   Catalogue(std::string kind, std::vector<Entry> entries)
       : kind_(std::move(kind)), entries_(std::move(entries)) {}
 
@@ -92,13 +92,13 @@ class Catalogue {
     return names;
   }
 
-  /// Entry by name; null if there is none.
+  /// Returns the entry with a name; null if there is none.
   [[nodiscard]] const Entry* find(std::string_view name) const {
     const auto found = std::ranges::find(entries_, name, &Entry::name);
     return found == entries_.end() ? nullptr : &*found;
   }
 
-  /// Entry by name.
+  /// Returns the entry with a name.
   /// @throws InputError with the nearest and all known names
   [[nodiscard]] const Entry& at(std::string_view name) const {
     if (const Entry* entry = find(name)) return *entry;
@@ -107,7 +107,7 @@ class Catalogue {
                                  did_you_mean(name, known), fmt::join(known, ", ")));
   }
 
-  /// Text of `whipple describe KIND [NAME]`: the summaries of all entries, or all about one.
+  /// Returns the text of `whipple describe KIND [NAME]`: the summaries of all entries, or the full description of one.
   /// @throws InputError for an unknown name
   [[nodiscard]] std::string describe(std::string_view name = {}) const {
     if (!name.empty()) {

@@ -19,7 +19,7 @@ std::vector<std::string> csv_cells(std::string_view line) {
   bool in_quotes = false;
   for (std::size_t i = 0; i < line.size(); ++i) {
     if (line[i] == '"') {
-      if (in_quotes && i + 1 < line.size() && line[i + 1] == '"') {  // a doubled quote is one
+      if (in_quotes && i + 1 < line.size() && line[i + 1] == '"') {  // a doubled quote stands for one
         cells.back() += line[++i];
       } else {
         in_quotes = !in_quotes;

@@ -40,7 +40,7 @@ InputError::InputError(std::vector<InputFault> faults)
 
 ExitCode exit_code(const std::exception& error) {
   if (dynamic_cast<const InputError*>(&error) != nullptr) return ExitCode::input;
-  // A path that the system refuses is no defect of the program.
+  // A path rejected by the system is not a defect of the program.
   if (dynamic_cast<const std::filesystem::filesystem_error*>(&error) != nullptr) return ExitCode::input;
   if (dynamic_cast<const StateError*>(&error) != nullptr) return ExitCode::state;
   if (dynamic_cast<const ResourceError*>(&error) != nullptr) return ExitCode::state;
@@ -55,7 +55,7 @@ std::string message_for_user(const std::string& program, const std::exception& e
   const std::string message = error.what();
   switch (exit_code(error)) {
     case ExitCode::input:
-      // "case.toml:3:1: error: ..." says what it is by itself.
+      // "case.toml:3:1: error: ..." is already complete.
       if (message.substr(0, message.find('\n')).find(": error: ") != std::string::npos) return message;
       return program + ": error: " + message;
     case ExitCode::state:
@@ -86,11 +86,11 @@ int run_guarded(const char* program, int (*body)(int, char**), int argc, char** 
   repair_surroundings();
   try {
     const int code = body(argc, argv);
-    // What was printed waits in a buffer: only now it shows whether somebody takes it.
+    // The output is buffered: write errors only appear on flushing.
     errno = 0;
     const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
     return written || code != 0 ? code : report(program, unwritten_output(errno));
-  } catch (const std::system_error& error) {  // {fmt} throws one when the standard output takes no more
+  } catch (const std::system_error& error) {  // thrown by {fmt} if standard output cannot be written
     if (std::ferror(stdout) != 0) return report(program, unwritten_output(error.code().value()));
     return report(program, error);
   } catch (const std::exception& error) {

@@ -8,64 +8,64 @@
 
 namespace whipple {
 
-/// Exit codes of every executable of the project.
+/// Lists the exit codes of all executables of the project.
 enum class ExitCode : int {
   success = 0,
-  input = 2,     ///< the user's input is wrong; nothing was started, nothing was overwritten
-  state = 3,     ///< the physics left its range; the last state was saved
+  input = 2,     ///< invalid user input; nothing was started or overwritten
+  state = 3,     ///< the physical state left the valid range; the last state was saved
   internal = 4,  ///< a defect of this program
 };
 
-/// One fault of an input, with its place.
+/// Describes one fault of an input, with its location.
 struct InputFault {
   std::string file = {};  ///< empty: the input is not from a file
   unsigned line = 0;      ///< from 1; 0: not in the file (--set)
   unsigned column = 0;
-  std::string key = {};  ///< as --set takes it, "body.0.shape"; empty: of no key
+  std::string key = {};  ///< as used by --set, "body.0.shape"; empty: no key
   std::string text;
 
-  /// Returns "file:line:column: error: text", with the key for a place outside of files.
+  /// Returns "file:line:column: error: text", with the key for a location outside of files.
   [[nodiscard]] std::string message() const;
 };
 
-/// The user's input is wrong. The message names what, where, the offending value and what is accepted;
-/// it may hold several lines, one per error of the input.
+/// Reports invalid user input. The message states the item, its location, the offending value and the accepted values;
+/// it may contain several lines, one per error of the input.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(const std::string& message);
   explicit InputError(std::vector<InputFault> faults);
 
-  /// Returns the faults one by one; at least one.
+  /// Returns the individual faults; at least one.
   [[nodiscard]] const std::vector<InputFault>& faults() const { return *faults_; }
 
  private:
   std::shared_ptr<const std::vector<InputFault>> faults_;
 };
 
-/// A physical state left the range of its model (NaN, negative volume, equation of state out of range).
-/// The message names step, time, body, particle and the state.
+/// Reports a physical state outside of the range of its model (NaN, negative volume, equation of state out of range).
+/// The message states step, time, body, particle and the state.
 class StateError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A broken invariant of the program itself.
+/// Reports a violated invariant of the program.
 class InternalError : public std::logic_error {
  public:
   using std::logic_error::logic_error;
 };
 
-/// The code of the kind of an error; what is none of the three is a defect.
+/// Returns the exit code of an error; any error other than the three kinds is a defect.
 ExitCode exit_code(const std::exception& error);
 
-/// Returns the text of an error for the user: "program: error: message", or the message as it is if it names its place
-/// in a file ("case.toml:3:1: error: message").
+/// Returns the text of an error for the user: "program: error: message", or the message unchanged if it contains its
+/// location in a file ("case.toml:3:1: error: message").
 std::string message_for_user(const std::string& program, const std::exception& error);
 
-/// Runs `body` and turns the three kinds of errors into the exit codes above; prints the message for the
-/// user to standard error.
+/// Runs `body` and converts the three kinds of errors to the exit codes above; prints the message for the user to
+/// standard error.
 /// @param program name printed before the message
-/// @param body    returns the exit code of the undisturbed case
+/// @param body    returns the exit code if no error occurs
 int run_guarded(const char* program, int (*body)(int, char**), int argc, char** argv);
 
 }  // namespace whipple

@@ -7,15 +7,16 @@
 
 namespace whipple {
 
-/// Errors of the constants of a fitted material that samples are drawn from (docs/theory/fit.md, section 3).
+/// Selects the errors of the constants of a fitted material from which samples are drawn (docs/theory/fit.md, section
+/// 3).
 enum class ErrorTier {
-  noise,       ///< statistical part of the covariance of the fit alone
-  fit,         ///< covariance of the fit, and errors of the defaults where they are known
+  noise,       ///< statistical part of the covariance of the fit only
+  fit,         ///< covariance of the fit, and errors of the defaults where known
   potentials,  ///< scatter over the potentials of the element
-  all          ///< fit and potentials, independent of one another
+  all          ///< fit and potentials, independent of each other
 };
 
-/// Returns whether the scatter over the potentials counts.
+/// Returns whether the scatter over the potentials is included.
 constexpr bool over_potentials(ErrorTier tier) {
   return tier == ErrorTier::potentials || tier == ErrorTier::all;
 }

@@ -29,14 +29,14 @@ std::string holder_in(int descriptor) {
   return size > 0 ? std::string(text.data(), static_cast<std::size_t>(size)) : "another process";
 }
 
-/// The holder before may have removed the file between our opening and our locking of it.
+/// Returns whether the locked file still exists; the previous holder may have removed it between opening and locking.
 bool is_still_there(int descriptor, const std::filesystem::path& path) {
   struct stat held = {}, named = {};
   return fstat(descriptor, &held) == 0 && lstat(path.c_str(), &named) == 0 && held.st_dev == named.st_dev &&
          held.st_ino == named.st_ino;
 }
 
-/// flock(2) is not known to every file system.
+/// Returns whether the file system does not support flock(2).
 bool is_unsupported(int error) { return error == ENOLCK || error == ENOSYS || error == EOPNOTSUPP; }
 
 }  // namespace
@@ -68,7 +68,7 @@ FileLock::FileLock(std::filesystem::path path, const std::string& what, IfHeld i
     ::close(descriptor_);
   }
   const std::string holder = this_process();
-  // Who reads it wants a name; on a full disk the lock holds without.
+  // The name is informative only; on a full disk the lock is valid without it.
   if (::ftruncate(descriptor_, 0) == 0) (void)!::pwrite(descriptor_, holder.data(), holder.size(), 0);
 }
 

@@ -6,16 +6,17 @@
 
 namespace whipple {
 
-/// Exclusive lock (flock) on a file, held while the object lives; it ends with the process, however that
-/// ends. The file names its holder and is removed with the lock.
+/// Holds an exclusive lock (flock) on a file during its lifetime; the lock ends with the process, even if the process
+/// is killed. The file contains the name of the holder and is removed with the lock.
 class FileLock {
  public:
   enum class IfHeld { wait, refuse };
 
-  /// @param path the file of the lock, made if it is not there
-  /// @param what that it guards, for messages: "the run directory run/disk"
-  /// @throws InputError if another process holds the lock and `refuse` is asked for (naming its process and
-  /// machine), or if the file cannot be made
+  /// Acquires the lock.
+  /// @param path lock file, created if it does not exist
+  /// @param what the protected resource, for messages: "the run directory run/disk"
+  /// @throws InputError if another process holds the lock and `refuse` is selected (stating its process and machine),
+  /// or if the file cannot be created
   FileLock(std::filesystem::path path, const std::string& what, IfHeld if_held);
   FileLock(const FileLock&) = delete;
   FileLock& operator=(const FileLock&) = delete;

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
   throw InputError(fmt::format("{}: cannot {}: {}", path.string(), action, std::strerror(error)));
 }
 
-/// @returns the error number of the system, 0 if all is written
+/// Writes all bytes. @returns the system error number, 0 on success
 int write_all(int file, std::string_view text) {
   while (!text.empty()) {
     const ssize_t written = ::write(file, text.data(), text.size());
@@ -160,13 +160,13 @@ void PartialFile::publish(bool durable) {
   if (!durable) return;
   const fs::path folder = target_.has_parent_path() ? target_.parent_path() : fs::path(".");
   const int opened = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (opened < 0) return;  // file systems without folder handles still renamed the file
+  if (opened < 0) return;  // the file has been renamed even on file systems without folder handles
   ::fsync(opened);
   ::close(opened);
 }
 
 void replace_durably(const fs::path& path, const fs::path& copy, std::string_view bytes) {
-  ::unlink(copy.c_str());  // what a killed writer left, or a link that somebody planted
+  ::unlink(copy.c_str());  // left by a killed writer, or a link created by others
   try {
     write_text(copy, O_CREAT | O_EXCL | O_NOFOLLOW, bytes, path, Durable::yes);
     if (::rename(copy.c_str(), path.c_str()) != 0) fail(path, "name the file", errno);

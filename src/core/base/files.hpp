@@ -9,46 +9,46 @@
 
 namespace whipple {
 
-/// The path again, to be opened: devices need not have an end, and pipes not even a beginning. Of a file that is
-/// missing, opening it says so.
-/// @param most bytes
+/// Checks that a path can be read as a regular file and returns it: devices may be unbounded, and pipes may block.
+/// Missing files pass; opening them reports the error.
+/// @param most maximum size in bytes
 /// @throws InputError if it is a folder, a device, a pipe, or larger
 const std::filesystem::path& regular_file(const std::filesystem::path& path,
                                           std::uintmax_t most = std::numeric_limits<std::uintmax_t>::max());
 
-/// Reads a whole file. An error of the device is never taken for the end of the file.
-/// @param most bytes
-/// @throws InputError naming the file, the call and the reason of the system; for what `regular_file` refuses
+/// Reads a whole file. Read errors are never mistaken for the end of the file.
+/// @param most maximum size in bytes
+/// @throws InputError stating the file, the call and the system error; and as `regular_file`
 std::string read_text(const std::filesystem::path& path,
                       std::uintmax_t most = std::numeric_limits<std::uintmax_t>::max());
 
-/// Tells whether a path lies in a folder when all links are followed; what cannot be found out does not.
+/// Returns whether a path is inside a folder after resolving all links; false if it cannot be determined.
 bool lies_in(const std::filesystem::path& path, const std::filesystem::path& folder);
 
-/// Nothing is overwritten unless asked for. An empty path (no file wanted) passes.
+/// Checks that no file is overwritten unless requested. An empty path (no file) passes.
 /// @throws InputError if the file exists and `force` is not set
 void require_new_file(const std::filesystem::path& path, bool force);
 
-/// Checks that a figure can be written as `require_new_file` does, and that its ending is one of png, pdf, svg.
+/// Checks that a figure can be written, as `require_new_file`, and that its extension is png, pdf or svg.
 void require_new_figure(const std::filesystem::path& path, bool force);
 
-/// @throws InputError naming it if there is no such folder
+/// Checks that a folder exists. @throws InputError naming it if it does not
 void require_folder(const std::filesystem::path& path);
 
-/// A folder for results may be missing, but nothing else may have its name.
+/// Checks that the path of a results folder is a folder or does not exist.
 /// @throws InputError naming it
 void require_no_file(const std::filesystem::path& path);
 
-/// Makes a folder and those above it; one that exists stays as it is.
-/// @throws InputError naming it and the reason of the system
+/// Creates a folder and its parents; an existing folder is left unchanged.
+/// @throws InputError naming it and the system error
 void make_folder(const std::filesystem::path& path);
 
-/// A file in the making. It lies beside its target under a name of its own, NAME.XXXXXXXX.partial, and takes
-/// the target's name when it is complete: readers see the old file or the new one. Neither links nor files
-/// of others are followed or overwritten, and what is given up is removed.
+/// Holds a file under construction. It is located in the folder of its target under a unique name,
+/// NAME.XXXXXXXX.partial, and renamed to the target when complete: readers see the old file or the new one. Links and
+/// existing files are neither followed nor overwritten, and abandoned files are removed.
 class PartialFile {
  public:
-  /// @throws InputError naming the target and the reason of the system
+  /// Creates the partial file. @throws InputError naming the target and the system error
   explicit PartialFile(std::filesystem::path target);
   PartialFile(const PartialFile&) = delete;
   PartialFile& operator=(const PartialFile&) = delete;
@@ -56,8 +56,8 @@ class PartialFile {
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
-  /// Gives the file its name. `durable`: content and name are forced to disk, so that a power failure leaves
-  /// the old or the new file.
+  /// Renames the file to its target. `durable`: content and name are forced to disk, so that a power failure leaves the
+  /// old or the new file.
   /// @throws InputError naming the target
   void publish(bool durable = false);
 
@@ -66,18 +66,19 @@ class PartialFile {
   bool published_ = false;
 };
 
-/// Replaces a file as a whole and forces it to disk: neither a kill nor a power failure leaves half of it.
-/// @param copy  name of the file in the making, beside it; what has this name is removed: one writer at a time
-/// @throws InputError naming the file and the reason of the system
+/// Replaces a file atomically and forces it to disk: neither a kill nor a power failure leaves a partial file.
+/// @param copy  temporary file in the same folder; an existing file of this name is removed, so only one writer at a
+/// time is allowed
+/// @throws InputError naming the file and the system error
 void replace_durably(const std::filesystem::path& path, const std::filesystem::path& copy,
                      std::string_view bytes);
 
-/// Adds lines to a text file, which need not exist.
-/// @throws InputError naming the file and the reason of the system
+/// Appends lines to a text file, which is created if it does not exist.
+/// @throws InputError naming the file and the system error
 void append_text(const std::filesystem::path& path, std::string_view text);
 
-/// Replaces a text file as a whole. Into what is no file (/dev/stdout, a pipe) the text is written as it is.
-/// @throws InputError naming the file and the reason of the system
+/// Replaces a text file atomically. Writes directly to targets that are not files (/dev/stdout, a pipe).
+/// @throws InputError naming the file and the system error
 void write_text_atomically(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace whipple

@@ -7,23 +7,23 @@
 #include <span>
 #include <vector>
 
-/// Removal from arrays whose items belong to consecutive groups (particles to bodies): the last items of a
-/// group take the places of those that go, so that the cost is that of what goes, not of what stays.
+/// Removal from arrays whose items belong to consecutive groups (particles to bodies): the last items of a group fill
+/// the gaps, so that the cost is proportional to the number of removed items.
 namespace whipple {
 
-/// One item moves to another place.
+/// Describes the move of one item to another position.
 struct Move {
   std::uint32_t to, from;
 };
 
-/// Moves that close the gaps. Groups stay together and in their order; within a group it changes. Done one
-/// after the other, no move overwrites an item that a later one takes.
+/// Returns the moves that close the gaps. The groups remain contiguous and in order; the order within a group changes.
+/// If executed in sequence, no move overwrites the source of a later one.
 /// @param group    group of every item, ascending
-/// @param leaving  items that go, ascending
+/// @param leaving  removed items, ascending
 inline std::vector<Move> moves_into_gaps(std::span<const std::uint32_t> group,
                                          std::span<const std::uint32_t> leaving) {
   std::vector<Move> moves;
-  std::size_t gone = 0;  // from the groups before
+  std::size_t gone = 0;  // removed from the preceding groups
   for (std::size_t begin = 0; begin < group.size();) {
     const auto rest = group.subspan(begin);
     const std::size_t end =
@@ -46,7 +46,7 @@ inline std::vector<Move> moves_into_gaps(std::span<const std::uint32_t> group,
   return moves;
 }
 
-/// @param size  number of items that stay
+/// Executes the moves. @param size  number of remaining items
 template <class Value>
 void close_gaps(std::vector<Value>& values, std::span<const Move> moves, std::size_t size) {
   for (const Move& move : moves) values[move.to] = values[move.from];

@@ -8,14 +8,14 @@
 
 namespace whipple {
 
-/// SHA-256 of the bytes as 64 hexadecimal digits (FIPS PUB 180-4, section 6.2).
+/// Returns the SHA-256 hash of bytes as 64 hexadecimal digits (FIPS PUB 180-4, section 6.2).
 std::string sha256(std::string_view bytes);
 
-/// SHA-256 of a file's content.
+/// Returns the SHA-256 hash of the content of a file.
 /// @throws InputError if the file cannot be read.
 std::string sha256_of_file(const std::filesystem::path& path);
 
-/// The leading digits of a hash as a seed for LAMMPS' generators: 1 ... 899999999.
+/// Converts the leading digits of a hash to a seed for the random generators of LAMMPS: 1 ... 899999999.
 std::int64_t seed_from(std::string_view hexadecimal);
 
 }  // namespace whipple

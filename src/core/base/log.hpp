@@ -9,20 +9,20 @@
 #include <utility>
 #include <vector>
 
-/// Messages to the user: on standard error or where the caller wants them, and in the log.txt of a run directory.
+/// Messages to the user: to standard error or a sink of the caller, and to log.txt of a run directory.
 namespace whipple::log {
 
 enum class Level { quiet, normal, verbose };
 
 void set_level(Level level);
-/// The level set last; programs that start others pass it on.
+/// Returns the current level; programs that start others pass it on.
 [[nodiscard]] Level level();
-/// Distinguishes messages: what is done, what the user should know of, and what --verbose adds.
+/// Distinguishes messages: information, warnings, and details shown with --verbose.
 enum class Kind { information, warning, detail };
 using Sink = std::function<void(Kind, const std::string& message)>;
-/// Passes the messages that the level admits to a function, from then on; an empty one: to standard error.
+/// Redirects the messages shown at the current level to a function; an empty function restores standard error.
 void set_sink(Sink sink);
-/// Keeps the warnings that are written while it lives, instead of showing them.
+/// Collects the warnings issued during its lifetime instead of showing them.
 class WarningsAside {
  public:
   WarningsAside();
@@ -36,10 +36,10 @@ class WarningsAside {
   std::vector<std::string>* outer_;
 };
 
-/// Also appends every message with a time stamp to a file, instead of the file set before.
+/// Appends every message with a time stamp to a file as well, replacing the previously set file.
 void set_file(const std::filesystem::path& path);
 
-/// Writes an error to the file only: the program shows it itself when it ends.
+/// Writes an error to the file only: the program shows it on exit.
 void record_error(const std::string& message);
 
 void write_info(const std::string& message);
@@ -54,7 +54,7 @@ template <class... Args>
 void warning(fmt::format_string<Args...> format, Args&&... args) {
   write_warning(fmt::format(format, std::forward<Args>(args)...));
 }
-/// Shown with --verbose only.
+/// Writes a message that is shown with --verbose only.
 template <class... Args>
 void detail(fmt::format_string<Args...> format, Args&&... args) {
   write_detail(fmt::format(format, std::forward<Args>(args)...));

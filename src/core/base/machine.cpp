@@ -19,7 +19,7 @@
 namespace whipple {
 namespace {
 
-/// Processors that the control group of a container allows; infinite without a limit.
+/// Returns the number of processors allowed by the control group of a container; infinite without a limit.
 double quota() {
   std::ifstream file("/sys/fs/cgroup/cpu.max");  // "200000 100000" or "max 100000", microseconds
   double time = 0.0, period = 0.0;
@@ -43,7 +43,7 @@ int threads_of_environment() {
     const char* value = std::getenv(variable);
     if (value == nullptr || *value == '\0') continue;
     const std::string_view text(value);
-    const std::string_view first = text.substr(0, text.find(','));  // of "4,2", one for each level of nesting
+    const std::string_view first = text.substr(0, text.find(','));  // "4,2": one number per nesting level
     int threads = 0;
     const auto [end, fault] = std::from_chars(first.data(), first.data() + first.size(), threads);
     if (fault == std::errc{} && end == first.data() + first.size() && threads >= 1 && threads <= most)

@@ -5,18 +5,18 @@
 
 namespace whipple {
 
-/// Processors that this process may use: its affinity (taskset, Slurm, mpirun) and the quota of its
-/// container.
+/// Returns the number of processors that this process may use, according to its affinity (taskset, Slurm, mpirun) and
+/// the quota of its container.
 int usable_processors();
 
-/// Returns the number of threads that the environment asks for: OMP_NUM_THREADS, else SLURM_CPUS_PER_TASK; 0 if
-/// neither is set. Ignores what is no number from 1 to 4096, with a warning.
+/// Returns the number of threads set in the environment: OMP_NUM_THREADS, else SLURM_CPUS_PER_TASK; 0 if neither is
+/// set. Values that are not numbers from 1 to 4096 are ignored with a warning.
 int threads_of_environment();
 
-/// Tells this machine and the processors that this process may use from others.
+/// Returns a text that identifies this machine and the processors that this process may use.
 std::string processor_set();
 
-/// Memory of this machine, bytes.
+/// Returns the memory of this machine, bytes.
 double physical_memory();
 
 }  // namespace whipple

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <span>
 
-/// Items marked by one byte each (0: not), of which few are: eight unmarked ones cost one comparison.
+/// Items marked by one byte each (0: unmarked). Marks are sparse: eight unmarked items cost one comparison.
 namespace whipple {
 
 /// Calls f(i) for every marked item, ascending.

@@ -21,11 +21,11 @@ NormalSamples::NormalSamples(Eigen::VectorXd mean, const Eigen::MatrixXd& covari
   if (!covariance.allFinite() || !(covariance.diagonal().minCoeff() >= 0.0)) {
     throw InputError("a covariance needs finite entries and no negative variance");
   }
-  // Of the correlations, whose entries are of order one.
+  // Factorises the correlation matrix, whose entries are of order one.
   const Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt();
   const Eigen::VectorXd inverse = (scale.array() > 0.0).select(scale.cwiseInverse(), 0.0);
   const Eigen::MatrixXd correlation = inverse.asDiagonal() * covariance * inverse.asDiagonal();
-  constexpr double rounding = 1e-5;  // a file holds seven digits
+  constexpr double rounding = 1e-5;  // files contain seven digits
   if (!correlation.isApprox(correlation.transpose(), rounding))
     throw InputError("the covariance is not symmetric");
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlation);

@@ -7,10 +7,11 @@
 
 namespace whipple {
 
-/// Draws from a normal distribution of several correlated variables; the same seed gives the same draws.
+/// Draws samples from a normal distribution of several correlated variables; equal seeds give equal samples.
 class NormalSamples {
  public:
-  /// @param covariance  symmetric; may be singular, its variables may differ by any power of ten
+  /// Factorises the covariance.
+  /// @param covariance  symmetric; may be singular, and its variables may differ by orders of magnitude
   /// @throws InputError if sizes differ, a variance is negative, or the correlations contradict each other
   NormalSamples(Eigen::VectorXd mean, const Eigen::MatrixXd& covariance, std::uint64_t seed);
 

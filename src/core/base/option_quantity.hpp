@@ -8,8 +8,8 @@
 
 namespace whipple {
 
-/// Reads a quantity that is given by an option of a command, and returns it in the unit.
-/// @throws InputError naming the option: no quantity, another kind of unit, out of the range
+/// Reads a quantity given by a command option and returns it in a unit.
+/// @throws InputError naming the option: not a quantity, incompatible unit, out of range
 double option_quantity(std::string_view option, std::string_view text, std::string_view unit,
                        const Range& range);
 

@@ -23,7 +23,7 @@ Overloaded(Visitors...) -> Overloaded<Visitors...>;
 
 std::string quantity_as_toml(double value, const std::string& unit) {
   if (unit.empty()) {
-    // "0" would be an integer of TOML.
+    // TOML would read "0" as an integer.
     const std::string text = fmt::format("{}", value);
     return text.find_first_of(".ein") == std::string::npos ? text + ".0" : text;
   }
@@ -54,14 +54,14 @@ std::string first_fault(const Values& values, Check check_one) {
   return {};
 }
 
-/// The default as `describe` shows it; an infinite one means that there is no bound.
+/// Returns the default as shown by `describe`; an infinite one means that there is no bound.
 std::string default_of(const BoundParameter& parameter) {
   if (parameter.info.required) return "required";
   if (!parameter.info.default_text.empty()) return parameter.info.default_text;
   return is_unset(parameter) ? "no bound" : value_as_toml(parameter);
 }
 
-/// The words of a list on indented lines of at most a hundred columns.
+/// Writes the words of a list in indented lines of at most a hundred columns.
 std::string wrapped(const std::vector<std::string>& words) {
   constexpr std::size_t columns = 100;
   std::string result;
@@ -136,7 +136,7 @@ std::string to_toml(std::span<const BoundParameter> parameters) {
 }
 
 std::string describe(std::span<const BoundParameter> parameters) {
-  constexpr std::size_t widest_range = 44;  // longer lists of words go below their row
+  constexpr std::size_t widest_range = 44;  // longer lists of words are placed below their row
   std::vector<std::array<std::string, 5>> rows = {{"key", "unit", "range", "default", "meaning"}};
   std::vector<std::string> below = {""};
   for (const BoundParameter& parameter : parameters) {

@@ -16,11 +16,12 @@
 #include "src/core/base/tensor.hpp"
 #include "src/core/base/words.hpp"
 
-/// One declaration per constant of a model: name, member, unit, range, meaning. It drives reading, unit and
-/// range checks, error texts, `whipple describe`, the manual, provenance and which constants a fit may vary.
+/// One declaration per constant of a model: name, member, unit, range, meaning. It is used for reading, checks of units
+/// and ranges, error messages, `whipple describe`, the manual, provenance, and the selection of constants varied in a
+/// fit.
 namespace whipple {
 
-/// Admissible range of a number; infinite bounds mean no bound.
+/// Describes the admissible range of a number; infinite bounds mean no bound.
 struct Range {
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
@@ -28,7 +29,7 @@ struct Range {
   bool upper_open = false;
 
   [[nodiscard]] bool contains(double value) const;
-  /// "> 0", ">= 0 and < 0.5", "any"
+  /// Returns "> 0", ">= 0 and < 0.5", "any".
   [[nodiscard]] std::string text() const;
 };
 
@@ -42,7 +43,7 @@ inline Range open_between(double lower, double upper) {
 }
 }  // namespace range
 
-/// Describes a parameter without the object that it belongs to.
+/// Describes a parameter independent of the object that contains it.
 struct ParameterInfo {
   std::string name;
   std::string unit;  ///< SI unit of the value in memory; empty: dimensionless or not a number
@@ -50,17 +51,17 @@ struct ParameterInfo {
   std::string meaning;
   bool required = true;
   std::vector<std::string> choices;  ///< accepted words; empty: any
-  std::string default_text = {};     ///< what `describe` shows as default; empty: the value
-  double across = 0.0;               ///< third component of a vector that is given in a plane
-  bool is_axis = false;              ///< a word "x", "y" or "z" that names a direction of space
+  std::string default_text = {};     ///< default shown by `describe`; empty: the value
+  double across = 0.0;               ///< third component of vectors given in a plane
+  bool is_axis = false;              ///< a word "x", "y" or "z" that selects a spatial direction
 };
 
-/// An enumeration's value behind its words, whatever its type.
+/// Provides access to an enumeration value by its words, independent of its type.
 struct ChoiceTarget {
   void* value;
   /// Returns the word of the value; empty if it has none.
   std::string (*word)(const void* value);
-  /// Sets the value to that of one of the accepted words.
+  /// Sets the value corresponding to one of the accepted words.
   void (*set)(void* value, std::string_view word);
 };
 
@@ -72,11 +73,11 @@ ChoiceTarget choice_target(Enum& value) {
           }};
 }
 
-/// Where a value goes.
+/// Refers to the destination of a value.
 using ParameterTarget = std::variant<double*, std::int64_t*, bool*, std::string*, Vector3*,
                                      std::vector<double>*, std::vector<std::string>*, ChoiceTarget>;
 
-/// A parameter tied to one object.
+/// Describes a parameter bound to one object.
 struct BoundParameter {
   ParameterInfo info;
   ParameterTarget target;
@@ -90,23 +91,23 @@ struct Parameter {
   ParameterInfo info;
   Member member;
 
-  /// The key may be missing: the member's initial value stands.
+  /// Makes the key optional: the initial value of the member is the default.
   [[nodiscard]] Parameter optional() && {
     info.required = false;
     return std::move(*this);
   }
-  /// Lets the key be missing where the initial value only marks that: `default_text` says what stands in for it.
+  /// Makes the key optional if its initial value only marks "not given"; `default_text` describes the actual default.
   [[nodiscard]] Parameter optional(std::string default_text) && {
     info.required = false;
     info.default_text = std::move(default_text);
     return std::move(*this);
   }
-  /// The word names a direction of space.
+  /// Declares that the word selects a spatial direction.
   [[nodiscard]] Parameter is_axis() && {
     info.is_axis = true;
     return std::move(*this);
   }
-  /// The third component of a vector of which two are given, in problems in a plane.
+  /// Sets the third component of vectors given by two components in plane problems.
   [[nodiscard]] Parameter in_plane(double across) && {
     info.across = across;
     return std::move(*this);
@@ -116,7 +117,7 @@ struct Parameter {
 template <class Owner>
 using ParameterTable = std::vector<Parameter<Owner>>;
 
-/// A number with a unit.
+/// Declares a number with a unit.
 template <class Owner>
 Parameter<Owner> real(std::string name, double Owner::* member, std::string unit, Range range,
                       std::string meaning) {
@@ -134,13 +135,13 @@ template <class Owner>
 Parameter<Owner> text(std::string name, std::string Owner::* member, std::string meaning) {
   return {{std::move(name), "", {}, std::move(meaning), true, {}}, member};
 }
-/// One of some words that stay words.
+/// Declares a choice of words stored as text.
 template <class Owner>
 Parameter<Owner> choice(std::string name, std::string Owner::* member, std::vector<std::string> choices,
                         std::string meaning) {
   return {{std::move(name), "", {}, std::move(meaning), true, std::move(choices)}, member};
 }
-/// One of the words of an enumeration (words.hpp).
+/// Declares a choice of the words of an enumeration (words.hpp).
 template <class Owner, class Enum>
   requires std::is_enum_v<Enum>
 Parameter<Owner> choice(std::string name, Enum Owner::* member, std::string meaning) {
@@ -148,13 +149,13 @@ Parameter<Owner> choice(std::string name, Enum Owner::* member, std::string mean
           std::function<ParameterTarget(Owner&)>(
               [member](Owner& owner) { return choice_target(owner.*member); })};
 }
-/// Three components, each with a unit; the range holds for every component.
+/// Declares three components, each with a unit; the range applies to every component.
 template <class Owner>
 Parameter<Owner> vector(std::string name, Vector3 Owner::* member, std::string unit, Range range,
                         std::string meaning) {
   return {{std::move(name), std::move(unit), range, std::move(meaning), true, {}}, member};
 }
-/// A list of numbers with units; the range holds for every entry.
+/// Declares a list of numbers with units; the range applies to every entry.
 template <class Owner>
 Parameter<Owner> real_list(std::string name, std::vector<double> Owner::* member, std::string unit,
                            Range range, std::string meaning) {
@@ -166,7 +167,7 @@ Parameter<Owner> text_list(std::string name, std::vector<std::string> Owner::* m
   return {{std::move(name), "", {}, std::move(meaning), true, std::move(choices)}, member};
 }
 
-/// Returns where the value of a parameter goes in an object.
+/// Returns the destination of the value of a parameter in an object.
 template <class Owner>
 ParameterTarget target_of(const Parameter<Owner>& parameter, Owner& owner) {
   return std::visit(
@@ -180,7 +181,7 @@ ParameterTarget target_of(const Parameter<Owner>& parameter, Owner& owner) {
       parameter.member);
 }
 
-/// Ties a table to an object.
+/// Binds a table to an object.
 template <class Owner>
 std::vector<BoundParameter> bind(const ParameterTable<Owner>& table, Owner& owner) {
   std::vector<BoundParameter> bound;
@@ -190,7 +191,7 @@ std::vector<BoundParameter> bind(const ParameterTable<Owner>& table, Owner& owne
   return bound;
 }
 
-/// Returns a table with the parameters of a part of its owner at its end.
+/// Returns a table extended by the parameters of a part of its owner.
 template <class Owner, class Part>
 ParameterTable<Owner> with_part(ParameterTable<Owner> table, Part Owner::* part,
                                 const ParameterTable<Part>& added) {
@@ -202,20 +203,20 @@ ParameterTable<Owner> with_part(ParameterTable<Owner> table, Part Owner::* part,
   return table;
 }
 
-/// The value as it stands in an input file: `"6580 m/s"`, `3`, `true`, `"text"`, `["1 m", "2 m", "3 m"]`.
+/// Returns the value as written in an input file: `"6580 m/s"`, `3`, `true`, `"text"`, `["1 m", "2 m", "3 m"]`.
 std::string value_as_toml(const BoundParameter& parameter);
 
-/// Returns whether the value only marks "not given", as no input may hold it: an infinite number, or a value
-/// of an enumeration that has no word.
+/// Returns whether the value only marks "not given" and cannot occur in an input: an infinite number, or an enumeration
+/// value without a word.
 bool is_unset(const BoundParameter& parameter);
 
-/// All parameters of a table as lines `name = value  # meaning`; the line of an unset one is a comment.
+/// Writes all parameters of a table as lines `name = value  # meaning`; unset ones are commented out.
 std::string to_toml(std::span<const BoundParameter> parameters);
 
-/// Rows "name  unit  range  default  meaning" for `whipple describe`, aligned in columns.
+/// Writes rows "name  unit  range  default  meaning" for `whipple describe`, aligned in columns.
 std::string describe(std::span<const BoundParameter> parameters);
 
-/// `describe` of a table with the defaults of a default-constructed owner.
+/// Describes a table with the defaults of a default-constructed owner.
 template <class Owner>
 std::string describe_table(const ParameterTable<Owner>& table) {
   Owner defaults{};
@@ -223,7 +224,7 @@ std::string describe_table(const ParameterTable<Owner>& table) {
   return describe(bound);
 }
 
-/// Returns why the present value of the parameter is not admissible, or an empty text.
+/// Returns why the current value of the parameter is not admissible, or an empty text.
 std::string check(const BoundParameter& parameter);
 
 }  // namespace whipple

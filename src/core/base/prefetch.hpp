@@ -5,20 +5,19 @@
 
 #include "src/core/base/simd.hpp"
 
-/// The processor foresees which memory is read next as long as few arrays are read and each for long. Sweeps
-/// over points read a score of arrays, some dozens of values of each in turn: they ask for their values
-/// themselves.
+/// Software prefetching. Hardware prefetchers are effective if few arrays are read in long sequences. Sweeps over
+/// points read about twenty arrays, some dozens of values of each in turn, and therefore prefetch explicitly.
 namespace whipple {
 
 constexpr std::size_t prefetched_together = 8;
-/// Points on the way to which a sweep over a few arrays has time to have them fetched.
+/// Sets the prefetch distance in points that gives a sweep over a few arrays enough time.
 constexpr std::size_t prefetch_distance = 32;
 
-/// Returns whether it is the turn of a point to fetch the values of itself and the next ones.
+/// Returns whether a point is due to prefetch the values of itself and the following points.
 WHIPPLE_INLINE inline bool prefetches(std::size_t point) { return point % prefetched_together == 0; }
 
-/// Fetches the values of `prefetched_together` points from `first` on into the second-level cache. They
-/// may lie behind the end.
+/// Prefetches the values of `prefetched_together` points from `first` on into the second-level cache. They may be
+/// beyond the end of the arrays.
 template <class... Array>
 WHIPPLE_INLINE inline void prefetch(std::size_t first, const Array&... arrays) {
   const auto values_of = [first](const auto& array) WHIPPLE_INLINE {
@@ -28,7 +27,7 @@ WHIPPLE_INLINE inline void prefetch(std::size_t first, const Array&... arrays) {
     for (std::size_t b = 0; b < prefetched_together * value; b += line) __builtin_prefetch(from + b, 0, 2);
   };
   (values_of(arrays), ...);
-  asm volatile("");  // else the compiler sees functions around it that do nothing, and drops their calls
+  asm volatile("");  // prevents the compiler from removing calls of functions without other effects
 }
 
 }  // namespace whipple

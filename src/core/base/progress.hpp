@@ -6,21 +6,23 @@
 
 namespace whipple {
 
-/// Progress of long work on standard error: a bar with rate and time left on a terminal, a line a minute
-/// otherwise. Costs a clock reading per update.
+/// Shows the progress of long operations on standard error: a bar with rate and remaining time on a terminal, otherwise
+/// one line per minute. The cost is one clock reading per update.
 class Progress {
  public:
-  /// @param label  what is being done, e.g. "run"
+  /// Starts the display.
+  /// @param label  name of the operation, e.g. "run"
   /// @param total  amount of work in the unit passed to `update`
   Progress(std::string label, double total);
   Progress(const Progress&) = delete;  // one bar, one line of the terminal
   Progress& operator=(const Progress&) = delete;
   ~Progress();
 
+  /// Updates the progress.
   /// @param done    work done so far, in the unit of `total`
   /// @param remark  short text behind the bar, e.g. "step 120, t = 1.2 us"
   void update(double done, const std::string& remark);
-  /// Work that was done before this process began (restart): it does not count for the rate.
+  /// Sets the work done before this process began (restart), which is excluded from the rate.
   void start_from(double done);
 
  private:
@@ -37,7 +39,7 @@ class Progress {
   Clock::time_point printed_ = Clock::now();
 };
 
-/// --quiet silences every bar of the process.
+/// Shows or hides all bars of the process (--quiet).
 void set_progress_visible(bool visible);
 
 }  // namespace whipple

@@ -3,10 +3,11 @@
 
 #include <cstdint>
 
-/// Random numbers that depend on a seed and a number alone, the same wherever they are computed.
+/// Random numbers that depend only on a seed and a number, wherever they are computed.
 namespace whipple {
 
-/// Spreads a number evenly over 64 bits: a step and the finaliser of SplitMix64 (Steele, Lea and Flood, OOPSLA 2014).
+/// Distributes a number evenly over 64 bits: a step and the finaliser of SplitMix64 (Steele, Lea and Flood, OOPSLA
+/// 2014).
 /// @param steps  of its counter
 [[nodiscard]] constexpr std::uint64_t scattered(std::uint64_t x, std::uint64_t steps = 1) {
   x += 0x9e3779b97f4a7c15U * steps;
@@ -15,7 +16,7 @@ namespace whipple {
   return x ^ (x >> 31U);
 }
 
-/// Returns bits that depend on all bits of both.
+/// Returns bits that depend on all bits of both arguments.
 [[nodiscard]] constexpr std::uint64_t random_bits(std::uint64_t seed, std::uint64_t number) {
   return scattered(scattered(seed), number + 1);
 }

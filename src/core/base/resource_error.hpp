@@ -5,7 +5,8 @@
 
 namespace whipple {
 
-/// A run cannot go on for want of disk or memory; its last state was saved. Ends with `ExitCode::state`.
+/// Reports that a run cannot continue for lack of disk space or memory; its last state was saved. The exit code is
+/// `ExitCode::state`.
 class ResourceError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

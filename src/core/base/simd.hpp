@@ -3,10 +3,10 @@
 
 #include <cstdint>
 
-/// A kernel that is compiled twice, with AVX2 and with AVX-512, whose 32 names of vector registers (16
-/// before) spare many moves; the loader takes what the processor has. Everything it calls is inlined into
-/// both. Once only where the whole program is built for the machine, and under sanitizers, which cannot
-/// choose before they run.
+/// Marks a kernel that is compiled twice, for AVX2 and for AVX-512, whose 32 vector registers (instead of 16) avoid
+/// many moves; the loader selects the version for the processor. All called functions are inlined into both. There is
+/// only one version if the whole program is built for the machine, and under sanitizers, which do not support selection
+/// by the loader.
 #if defined(__x86_64__) && defined(__OPTIMIZE__) && !defined(__clang__) && !defined(__AVX512F__) && \
     !defined(__SANITIZE_ADDRESS__)
 #define WHIPPLE_KERNEL [[gnu::target_clones("arch=x86-64-v4", "default"), gnu::flatten, gnu::noinline]]
@@ -14,15 +14,15 @@
 #define WHIPPLE_KERNEL
 #endif
 
-/// Kernels whose source is included twice, for the registers of AVX2 and of AVX-512:
-/// src/transfer/register_kernels.hpp, src/fem/element_kernels.hpp. Sanitizers, which take minutes for functions of
-/// that size, get those for AVX2 in pieces.
+/// Enables kernels whose source is included twice, for AVX2 and AVX-512 registers: src/transfer/register_kernels.hpp,
+/// src/fem/element_kernels.hpp. Sanitizers, which take minutes for functions of that size, use the AVX2 versions
+/// without inlining.
 #if defined(__x86_64__) && defined(__OPTIMIZE__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 #define WHIPPLE_WIDE_KERNELS 1
 #else
 #define WHIPPLE_WIDE_KERNELS 0
 #endif
-#if WHIPPLE_WIDE_KERNELS && !defined(__AVX512F__)  // else the whole program is built for such a machine
+#if WHIPPLE_WIDE_KERNELS && !defined(__AVX512F__)  // otherwise the whole program is built for AVX-512
 #define WHIPPLE_OTHER_TARGET 1
 #else
 #define WHIPPLE_OTHER_TARGET 0
@@ -38,14 +38,14 @@
 
 namespace whipple {
 
-/// Sets of kernels of the transfers and of the vector functions. They agree to round-off; those for registers bit for
-/// bit.
+/// Lists the sets of kernels of the transfers and of the vector functions. They agree to round-off; the register
+/// versions agree bitwise.
 enum class KernelSet : std::uint8_t {
-  plain,   ///< loops over single numbers: the reference
+  plain,   ///< scalar loops: the reference
   narrow,  ///< for AVX2
   wide,    ///< for AVX-512
 };
-/// Returns the set in use: the widest that the processor has, until the program or a test selects another.
+/// Returns the set in use: the widest one supported by the processor, unless the program or a test selects another.
 inline KernelSet& kernel_set() {
 #if WHIPPLE_WIDE_KERNELS
   static KernelSet set = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
@@ -59,13 +59,13 @@ inline KernelSet& kernel_set() {
   return set;
 }
 
-/// Four doubles that compute together: the compiler's vector extension, one register under AVX2. The kernels
-/// vectorise over the payload of a node (scalar and vector of three), not over particles.
+/// Holds four doubles that are processed together: vector extension of the compiler, one AVX2 register. The kernels
+/// vectorise over the values of a node (a scalar and a 3-vector), not over particles.
 using Lanes [[gnu::vector_size(32)]] = double;
 
 inline Lanes broadcast(double value) { return Lanes{value, value, value, value}; }
 
-/// Sum of the first three lanes.
+/// Returns the sum of the first three lanes.
 inline double sum3(Lanes v) { return v[0] + v[1] + v[2]; }
 inline double sum4(Lanes v) { return v[0] + v[1] + v[2] + v[3]; }
 

@@ -16,7 +16,7 @@ namespace whipple {
 void repair_surroundings() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) < 0)
-      static_cast<void>(::open("/dev/null", O_RDWR));  // takes the least number
+      static_cast<void>(::open("/dev/null", O_RDWR));  // uses the lowest free number
   }
   ::setenv("PATH", "/usr/local/bin:/usr/bin:/bin", 0);
 }
@@ -41,7 +41,7 @@ void require_room_for_mpi() {
 }
 
 void require_room_for_mpirun() {
-  constexpr rlim_t least_file = 64 << 20;  // bytes: the memory that ranks share is a file
+  constexpr rlim_t least_file = 64 << 20;  // bytes: the shared memory of ranks is a file
   rlimit size = {};
   if (::getrlimit(RLIMIT_FSIZE, &size) == 0 && size.rlim_cur < least_file) {
     throw ResourceError(fmt::format("files are limited to {} kB (ulimit -f): ranks need {} kB",

@@ -14,11 +14,12 @@
 
 namespace whipple {
 
-/// A folder of its own for what is made and read again at once, removed with all that is in it at the end.
+/// Creates a folder for temporary files, which is removed with its contents on destruction.
 class TemporaryFolder {
  public:
-  /// @param above  where it lies; the system's folder of temporary files by default
-  /// @throws InputError naming the folder and the reason of the system
+  /// Creates the folder.
+  /// @param above  parent folder; by default the temporary folder of the system
+  /// @throws InputError naming the folder and the system error
   explicit TemporaryFolder(const std::filesystem::path& above = std::filesystem::temp_directory_path()) {
     std::string name = (above / "whipple_XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr) {

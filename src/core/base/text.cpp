@@ -13,7 +13,7 @@
 namespace whipple {
 namespace {
 
-/// Levenshtein distance without regard to case.
+/// Returns the case-insensitive Levenshtein distance.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -31,7 +31,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-/// Bytes of the letter that a text of UTF-8 begins with; 0 if it begins with none.
+/// Returns the number of bytes of the first UTF-8 character of a text; 0 if it is invalid.
 std::size_t letter_size(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned first = byte(0);
@@ -100,7 +100,7 @@ std::string toml_string(std::string_view text) {
 }
 
 std::string format_duration(double seconds) {
-  constexpr double longest = 1e12;  // beyond, there is no estimate, and no integer to hold it
+  constexpr double longest = 1e12;  // beyond, there is no estimate, and it would overflow
   if (!(std::abs(seconds) < longest)) return "unknown";
   const auto total = static_cast<long>(std::lround(std::max(seconds, 0.0)));
   if (total < 60) return fmt::format("{} s", total);

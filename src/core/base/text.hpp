@@ -7,19 +7,20 @@
 
 namespace whipple {
 
-/// ", did you mean "x"?" with the candidate nearest by edit distance; empty if none is near.
+/// Returns ", did you mean "x"?" with the candidate nearest by edit distance; empty if none is close.
 std::string did_you_mean(std::string_view word, std::span<const std::string> candidates);
 
-/// Makes a text UTF-8 that need not be: names of files are bytes. @param instead  of each byte that is no part of a letter
+/// Converts a text that may not be UTF-8 to UTF-8, as file names are arbitrary bytes. @param instead  replaces each
+/// invalid byte
 std::string utf8(std::string_view text, std::string_view instead = "\xEF\xBF\xBD");
 
-/// The text in double quotes, escaped as a TOML basic string.
+/// Returns the text in double quotes, escaped as a TOML basic string.
 std::string toml_string(std::string_view text);
 
-/// Seconds as "12 s", "3 min 20 s", "2 h 05 min".
+/// Returns seconds as "12 s", "3 min 20 s", "2 h 05 min".
 std::string format_duration(double seconds);
 
-/// Bytes as "12.3 MB".
+/// Returns bytes as "12.3 MB".
 std::string format_bytes(double bytes);
 
 }  // namespace whipple

@@ -7,10 +7,9 @@
 
 namespace whipple {
 
-/// Rows of cells as lines of equal columns, two blanks between, without blanks at the ends of lines. Rows may
-/// have fewer cells than others. Widths count characters of UTF-8, not bytes.
-/// @param alignment  one letter per column, 'l' to the left or 'r' to the right; the last one holds for all
-/// further columns
+/// Formats rows of cells as lines with aligned columns, separated by two blanks, without trailing blanks. Rows may have
+/// different numbers of cells. Widths are in UTF-8 characters, not bytes.
+/// @param alignment  one letter per column, 'l' for left or 'r' for right; the last one applies to all further columns
 std::string text_table(const std::vector<std::vector<std::string>>& rows, std::string_view alignment);
 
 }  // namespace whipple

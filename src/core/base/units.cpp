@@ -23,7 +23,7 @@ using ConverterPtr = std::unique_ptr<cv_converter, decltype(&cv_free)>;
 
 constexpr double electron_volt = 1.602176634e-19;  // J, exact (SI 2019)
 
-/// The unit database is read once per process; UDUNITS2 is not thread safe, hence the mutex.
+/// Owns the unit database, which is read once per process; UDUNITS2 is not thread-safe, hence the mutex.
 class UnitSystem {
  public:
   UnitSystem() {
@@ -37,7 +37,7 @@ class UnitSystem {
     ut_unmap_symbol_to_unit(system_, "eV", UT_ASCII);
     const UnitPtr ev(ut_scale(electron_volt, joule.get()), &ut_free);
     ut_map_symbol_to_unit("eV", UT_ASCII, ev.get());
-    // Otherwise "cc" is a hundredth of the speed of light.
+    // Otherwise "cc" is one hundredth of the speed of light.
     const UnitPtr cubic_centimetre = parse("cm^3");
     ut_map_symbol_to_unit("cc", UT_ASCII, cubic_centimetre.get());
     const UnitPtr degree = parse("degree");
@@ -57,7 +57,7 @@ class UnitSystem {
 };
 
 UnitPtr parse_unit(const UnitSystem& system, std::string_view text, std::string_view kind) {
-  // The scanner of UDUNITS2 copies characters that it does not know to standard output.
+  // The scanner of UDUNITS2 copies unknown characters to standard output.
   const bool printable = std::ranges::none_of(text, [](unsigned char c) { return c < 0x20 || c == 0x7f; });
   UnitPtr unit = printable ? system.parse(std::string(text)) : UnitPtr(nullptr, &ut_free);
   if (!unit) throw InputError(fmt::format("unknown unit '{}': expected a unit of the kind '{}'", text, kind));
@@ -66,8 +66,8 @@ UnitPtr parse_unit(const UnitSystem& system, std::string_view text, std::string_
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// A number inside a unit that is no exponent: UDUNITS2 multiplies by it, so that "3 2 m" would be six
-/// metres. A leading one stays allowed, as in "1/Pa".
+/// Returns whether a unit contains a number other than an exponent: UDUNITS2 multiplies by it, so that "3 2 m" would be
+/// six metres. A leading one is allowed, as in "1/Pa".
 bool has_factor(std::string_view unit) {
   for (std::size_t i = unit.starts_with("1/") ? 1 : 0; i < unit.size(); ++i) {
     if (!is_digit(unit[i])) continue;
@@ -80,7 +80,7 @@ bool has_factor(std::string_view unit) {
   return false;
 }
 
-/// k of a conversion that multiplies by 10^k; none for any other.
+/// Returns k for a conversion by 10^k; nothing for any other.
 std::optional<int> power_of_ten(const Conversion& c) {
   if (c.offset != 0.0 || !(c.factor > 0.0)) return std::nullopt;
   const double power = std::round(std::log10(c.factor));
@@ -88,8 +88,8 @@ std::optional<int> power_of_ten(const Conversion& c) {
   return static_cast<int>(power);
 }
 
-/// Reads a decimal number times 10^power with one rounding: "2.03 g" becomes the double nearest to 0.00203
-/// kg, which 2.03 * 0.001 is not.
+/// Reads a decimal number times 10^power with a single rounding: "2.03 g" becomes the double nearest to 0.00203 kg,
+/// unlike 2.03 * 0.001.
 double scaled_decimal(std::string_view number, int power) {
   const std::size_t mark = number.find_first_of("eE");
   const std::string_view mantissa = number.substr(0, mark);

@@ -9,9 +9,9 @@
 
 namespace whipple {
 
-/// One value of an enumeration with the word for it in input files. The words of an enumeration are declared
-/// once, beside it, by a constexpr function `words(Enum)`, found by its argument, that returns an array of
-/// these in the order in which `whipple describe` lists them. A value without a word cannot be asked for.
+/// Holds one value of an enumeration with its word in input files. The words of an enumeration are declared once, next
+/// to it, by a constexpr function `words(Enum)`, found by argument-dependent lookup, that returns an array of these in
+/// the order used by `whipple describe`. A value without a word cannot be selected in an input.
 template <class Enum>
 struct Word {
   Enum value;
@@ -27,7 +27,7 @@ constexpr std::string_view word_of(Enum value) {
   return {};
 }
 
-/// Returns the value of a word; none if the enumeration does not have it.
+/// Returns the value of a word; nothing if the enumeration does not have it.
 template <class Enum>
 constexpr std::optional<Enum> value_of(std::string_view text) {
   for (const Word<Enum>& word : words(Enum{})) {

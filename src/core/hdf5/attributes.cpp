@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Attributes of groups and data sets.
+// Attributes of groups and datasets.
 #include <fmt/format.h>
 
 #include "src/core/base/error.hpp"

@@ -21,11 +21,11 @@ void silence() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
 void fail(const std::string& where, const std::string& action) {
   std::string innermost;
-  // Walking downward begins with the function that was called and ends with the one that failed.
+  // Walking downward begins with the called function and ends with the one that failed.
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, keep_innermost, &innermost);
   H5Eclear2(H5E_DEFAULT);
-  // "file write failed: time = ..., errno = 28, error message = 'No space left on device', buf = ...": the
-  // reason that the system gave is what can be used.
+  // "file write failed: time = ..., errno = 28, error message = 'No space left on device', buf = ...": only the system
+  // message is useful.
   constexpr std::string_view key = "error message = '";
   if (const std::size_t at = innermost.find(key); at != std::string::npos) {
     const std::size_t begin = at + key.size();

@@ -19,11 +19,11 @@
 namespace whipple::hdf5 {
 namespace {
 
-constexpr std::size_t together = 32;  ///< chunks in memory
+constexpr std::size_t together = 32;  ///< number of chunks in memory at a time
 
-/// A chunk as HDF5's filters leave it: the first bytes of all numbers, then the second ones and so on,
-/// deflated. Chunks are stored as a whole: 0 is what lies beyond the last row.
-/// @returns nothing if zlib refuses
+/// Returns a chunk as filtered by HDF5: the first bytes of all numbers, then the second ones and so on, deflated.
+/// Chunks are stored completely, padded with 0 beyond the last row.
+/// @returns nothing if zlib fails
 std::vector<Bytef> deflated(const Rows& rows, std::size_t first, std::size_t chunk_rows, int level) {
   const std::size_t numbers = chunk_rows * rows.columns;
   const std::size_t present = std::min(chunk_rows, rows.count - first) * rows.columns;
@@ -41,7 +41,7 @@ std::vector<Bytef> deflated(const Rows& rows, std::size_t first, std::size_t chu
   return chunk;
 }
 
-/// @throws InputError if there are others, or these in another order
+/// Returns the filters of an array. @throws InputError if there are others, or they are in another order
 Filters filters_of(hid_t creation, const std::string& name) {
   Filters filters;
   const int count = H5Pget_nfilters(creation);
@@ -76,7 +76,7 @@ void write_deflated(const Dataset& dataset, const Rows& rows, std::size_t chunk_
     });
     for (std::size_t c = 0; c < part.size(); ++c) {
       const hsize_t offset[2] = {(first + c) * chunk_rows, 0};
-      if (part[c].empty()) throw std::bad_alloc();  // zlib knows no other reason
+      if (part[c].empty()) throw std::bad_alloc();  // the only possible zlib error
       check(H5Dwrite_chunk(dataset.id(), H5P_DEFAULT, 0, offset, part[c].size(), part[c].data()),
             dataset.name(), "write");
     }
@@ -90,7 +90,7 @@ Chunks::Chunks(const Dataset& dataset, hid_t space) : dataset_(dataset), space_(
   filters_ = filters_of(creation.get(), name);
   const Handle type = checked(H5Dget_type(dataset.id()), H5Tclose, name, "read the type");
   width_ = H5Tget_size(type.get());
-  constexpr double most_bytes = 4294967295.0;  // of a chunk in HDF5
+  constexpr double most_bytes = 4294967295.0;  // limit of HDF5 for a chunk
   if (H5Pget_chunk(creation.get(), 2, lengths_) < 1 || lengths_[0] == 0 || lengths_[1] == 0 ||
       static_cast<double>(lengths_[0]) * static_cast<double>(lengths_[1]) * static_cast<double>(width_) >
           most_bytes) {
@@ -144,7 +144,7 @@ void Chunks::for_each(const Use& use) const {
   const std::string& name = dataset_.name();
   const std::uint64_t of_file = file_size(dataset_), size = lengths_[0] * lengths_[1] * width_;
   const hsize_t sum = filters_.checksum ? 4 : 0;
-  std::set<std::pair<hsize_t, hsize_t>> begun;  // rows and columns where chunks begin: one each
+  std::set<std::pair<hsize_t, hsize_t>> begun;  // rows and columns where chunks begin, without duplicates
   for (hsize_t first = 0; first < count_; first += together) {
     std::vector<std::vector<unsigned char>> part(std::min<hsize_t>(together, count_ - first));
     std::vector<std::uint64_t> first_row(part.size());

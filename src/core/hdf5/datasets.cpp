@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Arrays: their shapes, reading and writing.
+// Arrays: shapes, reading and writing.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ std::vector<std::uint64_t> Dataset::shape() const {
 }
 
 Dataset::Shape Dataset::stored_shape() const {
-  // libhdf5 1.10 reads beyond the memory of compact arrays that are shorter than they declare.
+  // libhdf5 1.10 reads beyond the memory of compact arrays that are shorter than declared.
   const Handle creation = checked(H5Dget_create_plist(id()), H5Pclose, name_, "read the layout");
   const std::uint64_t greatest_compression =
       H5Pget_layout(creation.get()) == H5D_CHUNKED ? most_compressed : 1;

@@ -44,7 +44,7 @@ Group Group::create_group(const std::string& name, Order order) const {
   if (order == Order::creation) {
     check(H5Pset_link_creation_order(creation.get(), H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED), name_,
           action);
-    // Many short attributes without an index.
+    // Allows many short attributes without an index.
     check(H5Pset_attr_phase_change(creation.get(), 256, 128), name_, action);
   }
   return {checked(H5Gcreate2(id(), name.c_str(), H5P_DEFAULT, creation.get(), H5P_DEFAULT), H5Gclose, name_,
@@ -75,7 +75,7 @@ std::vector<std::string> Group::names(Order order) const {
     static_cast<std::vector<std::string>*>(list)->emplace_back(name);
     return 0;
   };
-  // HDF5 1.10 sorts in a table of its own, which it frees unfilled, and dies, where the group is damaged.
+  // HDF5 1.10 sorts in an internal table, which it frees uninitialised, and crashes, if the group is damaged.
   const bool by_creation = order == Order::creation;
   check(H5Literate(id(), by_creation ? H5_INDEX_CRT_ORDER : H5_INDEX_NAME,
                    by_creation ? H5_ITER_INC : H5_ITER_NATIVE, &index, add, &names),
@@ -94,13 +94,13 @@ namespace {
 
 Handle access_properties(const std::string& path) {
   Handle access = checked(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, path, "prepare the file");
-  // An object that somebody forgot to close would otherwise keep the file open, and unflushed, in silence.
+  // Otherwise an unclosed object would keep the file open, and unflushed, without notice.
   check(H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG), path, "prepare the file");
   return access;
 }
 
-/// Finds out whether there is memory to open a file: HDF5 1.10 crashes where it gets none for its cache (0.7 MB).
-/// @throws std::bad_alloc if there is none
+/// Checks that there is enough memory to open a file: HDF5 1.10 crashes if it cannot allocate its cache (0.7 MB).
+/// @throws std::bad_alloc if there is not
 void require_memory() {
   constexpr std::size_t needed = 8 << 20;  // bytes
   void* const room = ::mmap(nullptr, needed, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -119,14 +119,14 @@ H5F_libver_t oldest_format(File::Compatibility compatibility) {
   }
 }
 
-/// Makes the access to a file on the disk, or in memory if it has any.
+/// Creates the access property list of a file on disk, or in memory if `memory` is given.
 Handle access_to(MemoryFile* memory, const std::string& name) {
   Handle access = access_properties(name);
   if (memory != nullptr && !place_in_memory(access.get(), *memory)) fail(name, "prepare memory");
   return access;
 }
 
-/// The name that HDF5 gets: for a file in memory it wants one that no file has.
+/// Returns the name passed to HDF5: files in memory require the name of a file that does not exist.
 std::string place_of(const std::string& name, const MemoryFile* memory) {
   return memory != nullptr ? name + ".memory" : name;
 }
@@ -199,8 +199,8 @@ File File::open_bytes(const std::filesystem::path& path, std::string bytes, Acce
 
 namespace {
 
-/// HDF5 closes at exit what is still open. Of a file that it could not complete it makes a segmentation fault: after the
-/// first such file the process ends without that.
+/// Prevents HDF5 from closing open files at exit: for a file that it could not complete, this causes a segmentation
+/// fault. After the first such file the process therefore exits without closing.
 void end_without_closing() {
   static const int registered = on_exit(
       [](int status, void*) {
@@ -229,7 +229,7 @@ std::string File::close_as_bytes() {
   check(H5Fget_filesize(handle.get(), &size), path, "complete the file");
   memory->wanted = size;
   close();
-  // What HDF5 keeps in reserve is no part of the file, whose end stands in its superblock (of version 2 or 3).
+  // Space reserved by HDF5 is not part of the file, whose end is stored in its superblock (version 2 or 3).
   constexpr std::size_t version_at = 8, end_at = 28;
   std::string& bytes = memory->bytes;
   std::uint64_t end = 0;

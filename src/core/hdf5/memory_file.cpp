@@ -11,14 +11,14 @@ herr_t take(void* image, H5FD_file_image_op_t operation, void* memory_file) {
   return H5free_memory(image);
 }
 
-/// Property lists are copied; all copies mean the same file, which none of them owns.
+/// Implements copying of property lists; all copies refer to the same file, which they do not own.
 void* same(void* memory_file) { return memory_file; }
 herr_t leave(void*) { return 0; }
 
 }  // namespace
 
 bool place_in_memory(hid_t access, MemoryFile& file) {
-  constexpr std::size_t growth = 4096;  // bytes; the size of the file is a multiple
+  constexpr std::size_t growth = 4096;  // bytes; the file size is a multiple of this
   H5FD_file_image_callbacks_t callbacks = {nullptr, nullptr, nullptr, take, same, leave, &file};
   return H5Pset_fapl_core(access, growth, /*backing_store=*/0) >= 0 &&
          H5Pset_file_image_callbacks(access, &callbacks) >= 0;

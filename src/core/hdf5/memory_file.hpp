@@ -8,13 +8,14 @@
 
 namespace whipple::hdf5 {
 
-/// A file that has no other place than memory. HDF5 hands its content over when it closes it.
+/// Holds the content of a file that exists in memory only. HDF5 returns it when the file is closed.
 struct MemoryFile {
-  std::size_t wanted = 0;  ///< bytes to be handed over
+  std::size_t wanted = 0;  ///< bytes to be returned
   std::string bytes = {};
 };
 
-/// Lets an access property list mean a file in memory, which must outlive the open file. @returns whether HDF5 could
+/// Configures an access property list for a file in memory, which must outlive the open file. @returns whether it
+/// succeeded
 bool place_in_memory(hid_t access, MemoryFile& file);
 
 }  // namespace whipple::hdf5

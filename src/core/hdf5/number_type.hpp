@@ -7,7 +7,7 @@
 
 namespace whipple::hdf5 {
 
-/// HDF5 type of a number, in memory and (little endian) in the file.
+/// Maps a number type to its HDF5 types in memory and (little endian) in the file.
 template <class T>
 struct NumberType;
 

@@ -20,14 +20,13 @@ namespace whipple::input {
 
 struct Document::State {
   std::filesystem::path path;
-  bool needs_units = false;         ///< a bare number has none
-  std::optional<int> section = {};  ///< as of `set_section`
+  bool needs_units = false;         ///< bare numbers are rejected
+  std::optional<int> section = {};  ///< set by `set_section`
   toml::table root;
   std::vector<InputFault> errors;  // sorted by position when thrown
-  std::map<const toml::table*, std::set<std::string, std::less<>>>
-      known_keys;  // keys that a reader asked for
+  std::map<const toml::table*, std::set<std::string, std::less<>>> known_keys;  // keys requested by readers
 
-  /// Returns the file that a word stands in: this one, or one that it inherits from.
+  /// Returns the file that contains an item: this one, or one that it inherits from.
   [[nodiscard]] std::string file_of(const toml::source_region& source) const {
     return source.path ? *source.path : path.string();
   }
@@ -38,7 +37,7 @@ struct Document::State {
   }
   void error(const toml::source_region& source, std::string key, const std::string& message) {
     InputFault fault{file_of(source), source.begin.line, source.begin.column, std::move(key), message};
-    // What is read twice is reported once.
+    // Errors of items that are read twice are reported once.
     const auto same = [&](const InputFault& known) { return known.message() == fault.message(); };
     if (std::ranges::none_of(errors, same)) errors.push_back(std::move(fault));
   }
@@ -70,7 +69,7 @@ std::string type_name(const toml::node& node) {
   }
 }
 
-/// Reads one value of a node into a target; throws InputError with the reason (without position).
+/// Reads one value of a node; throws InputError with the reason (without location).
 double read_real(const toml::node& node, const ParameterInfo& info) {
   if (const auto number = node.value_exact<double>()) return *number;
   if (const auto number = node.value_exact<std::int64_t>()) return static_cast<double>(*number);
@@ -108,7 +107,7 @@ void read_into(Vector3* target, const toml::node& node, const ParameterInfo& inf
   if (array.size() != 3) throw InputError(fmt::format("has {} entries, expected 3", array.size()));
   for (int i = 0; i < 3; ++i) (*target)[i] = read_real(array[static_cast<std::size_t>(i)], info);
 }
-/// Reads a vector of a problem in a plane: two components, or three of space.
+/// Reads a vector of a plane problem: two components, or three components in space.
 void read_in_section(Vector3* target, const toml::node& node, const ParameterInfo& info, int first) {
   const toml::array& array = read_array(node, "a list of two numbers with units");
   if (array.size() == 3) {
@@ -133,7 +132,7 @@ void read_into(std::vector<std::string>* target, const toml::node& node, const P
   *target = values;
 }
 
-/// Numbers of a quantity, alone or in a list, need its unit.
+/// Checks that the numbers of a dimensional quantity, alone or in a list, have units.
 void require_units(const toml::node& node, const ParameterInfo& info) {
   if (const toml::array* array = node.as_array()) {
     for (const toml::node& entry : *array) require_units(entry, info);
@@ -142,7 +141,7 @@ void require_units(const toml::node& node, const ParameterInfo& info) {
   }
 }
 
-/// Returns the direction of a section, "x", "y" or "z", that a direction of space is.
+/// Returns the direction in a section, "x", "y" or "z", of a spatial direction.
 std::string axis_in_section(const std::string& word, int first) {
   return std::string(1, "xyz"[(word.front() - 'x' - first + 3) % 3]);
 }
@@ -176,7 +175,7 @@ void read_checked(const BoundParameter& parameter, const toml::node& node, std::
       parameter.target);
 }
 
-/// "body[1].shape" as --set takes it: "body.1.shape".
+/// Converts "body[1].shape" to the form of --set, "body.1.shape".
 std::string as_key(std::string_view name) {
   std::string key;
   for (const char c : name) {
@@ -190,7 +189,7 @@ std::string joined(const std::string& table, std::string_view key) {
   return fmt::format("{}.{}", table, key);
 }
 
-/// The node of a key, or of the innermost table that holds it.
+/// Returns the node of a key, or of the innermost existing table that would contain it.
 const toml::node& nearest_node(const toml::table& root, std::string_view key) {
   const toml::node* node = &root;
   while (!key.empty()) {
@@ -207,7 +206,7 @@ bool is_at_or_below(std::string_view key, std::string_view above) {
   return key.starts_with(above) && (key.size() == above.size() || key[above.size()] == '.');
 }
 
-/// Every key below `table` that no reader asked for.
+/// Reports every key below `table` not requested by any reader.
 void report_unknown(Document::State& state, const toml::table& table, const std::string& name) {
   const auto& known = state.known_keys[&table];
   for (const auto& [key, node] : table) {
@@ -233,7 +232,7 @@ void report_unknown(Document::State& state, const toml::table& table, const std:
   }
 }
 
-/// Returns whether a table has values of its own: others than remarks, its model and tables within it.
+/// Returns whether a table has values of its own, apart from remarks, its model and sub-tables.
 bool has_values(const toml::table& table, std::span<const std::string_view> remarks) {
   for (const auto& [key, node] : table) {
     const bool is_remark = key.str() == "model" || std::ranges::find(remarks, key.str()) != remarks.end();
@@ -242,8 +241,8 @@ bool has_values(const toml::table& table, std::span<const std::string_view> rema
   return false;
 }
 
-/// Moves the entries of `base` that `table` lacks, but for those kept. Two tables become one, unless they are of different
-/// models.
+/// Moves the entries of `base` missing from `table`, except those listed in `kept`. Two tables are merged unless they
+/// are of different models.
 void fill(toml::table& table, toml::table& base, std::span<const std::string_view> kept,
           std::span<const std::string_view> remarks) {
   for (auto&& [key, node] : base) {
@@ -276,7 +275,7 @@ Document& Document::operator=(Document&&) noexcept = default;
 Document::~Document() = default;
 
 Document Document::from_file(const std::filesystem::path& path) {
-  constexpr std::uintmax_t most_bytes = 16'000'000;  // of text: minutes of reading, and no case is so long
+  constexpr std::uintmax_t most_bytes = 16'000'000;  // of text: minutes of reading; cases are shorter
   std::unique_ptr<State> state = parse(read_text(path, most_bytes), path);
   state->needs_units = true;
   return Document(std::move(state));

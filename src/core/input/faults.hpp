@@ -12,17 +12,17 @@
 
 namespace whipple::input {
 
-/// Collects what is wrong with the values of an input, under the key of one of its sections. Cheap to copy; valid while the
-/// list lives.
+/// Collects faults of the values of an input, below the key of one of its sections. Cheap to copy; valid while the list
+/// exists.
 class Faults {
  public:
   explicit Faults(std::vector<InputFault>& list) : list_(&list) {}
 
-  /// Returns the collector of a section of this one, or of an entry of a list.
+  /// Returns the collector for a sub-section, or for an entry of a list.
   [[nodiscard]] Faults in(std::string_view section) const { return {*list_, key_of(section)}; }
   [[nodiscard]] Faults in(std::size_t entry) const { return in(std::to_string(entry)); }
 
-  /// Adds a fault of a key of the section, or of the section as a whole if the key is empty.
+  /// Adds a fault of a key of the section, or of the whole section if the key is empty.
   void add(std::string_view key, std::string text) const {
     list_->push_back({.key = key_of(key), .text = std::move(text)});
   }

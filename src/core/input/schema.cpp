@@ -31,7 +31,7 @@ void limit(Schema& number, const Range& range) {
   if (std::isfinite(range.upper)) number[range.upper_open ? "exclusiveMaximum" : "maximum"] = range.upper;
 }
 
-/// A text "6.58 km/s". Signs are checked where the scale of every unit begins at the same zero.
+/// Returns the schema of a quantity, a text "6.58 km/s". Signs are checked if all units share the same zero.
 Schema quantity(const ParameterInfo& info) {
   const bool signed_number = !(info.range.lower >= 0.0) || info.unit == "K";
   Schema text = of_type("string");
@@ -65,7 +65,7 @@ Schema list_of(Schema items) {
   return list;
 }
 
-/// The default as JSON; nothing where the initial value only marks that there is none.
+/// Returns the default as JSON; null if the initial value only marks that there is none.
 Schema default_of(const BoundParameter& parameter) {
   const ParameterInfo& info = parameter.info;
   if (info.required || is_unset(parameter) || !info.default_text.empty()) return {};
@@ -92,7 +92,7 @@ Schema default_of(const BoundParameter& parameter) {
       parameter.target);
 }
 
-/// Meaning, range and unit, as editors show them.
+/// Returns meaning, range and unit, as shown by editors.
 std::string description_of(const ParameterInfo& info) {
   std::string text = info.meaning;
   if (has_unit(info)) text += fmt::format(" [{}]", info.unit);

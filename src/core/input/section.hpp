@@ -18,22 +18,23 @@
 /// section has
 ///   static ParameterTable<T> parameters();
 /// and may have
-///   static constexpr bool required = true;                    the file must hold it
-///   static std::span<const Section<T, Root>> sections();      sections within it
-///   void read_rest(Table&);                                   what no parameter table can read
-///   std::string rest_to_toml() const;                         the same written, lines below those of the keys
-///   static void add_rest(Schema&);                            the same for editors
-///   void check(const Root&, const Faults&) const;             what its keys need of each other and of the root
-///   static const T& inherited(const Root&);                   values of the keys not given, where it is optional
+///   static constexpr bool required = true;                    the section is required
+///   static std::span<const Section<T, Root>> sections();      sub-sections
+///   void read_rest(Table&);                                   content not covered by the parameter table
+///   std::string rest_to_toml() const;                         the same in written form, lines below the keys
+///   static void add_rest(Schema&);                            the same for the schema
+///   void check(const Root&, const Faults&) const;             consistency of its keys with each other and the root
+///   static const T& inherited(const Root&);                   values of missing keys, if it is optional
 /// A section is then one line `section<&Owner::member, Root>("name")` in the list of its owner.
 namespace whipple::input {
 
-/// How one section of an owner is read, checked, written, described and put into a schema, whatever its type.
+/// Describes how one section of an owner is read, checked, written, described and added to a schema, independent of its
+/// type.
 template <class Owner, class Root>
 struct Section {
   const char* name;
-  const char* remark;             ///< after its heading in `describe`
-  bool (*applies)(const Owner&);  ///< to this owner? Else it is neither checked nor written; null: always
+  const char* remark;             ///< appended to its heading in `describe`
+  bool (*applies)(const Owner&);  ///< whether it is checked and written for this owner; null: always
   void (*read)(const Section&, Owner&, const Root&, Table&);
   void (*check)(const Section&, const Owner&, const Root&, const Faults&);
   std::string (*write)(const Section&, const Owner&, const std::string& path);
@@ -79,7 +80,7 @@ concept HasSections = requires { Content::sections(); };
 
 }  // namespace detail
 
-/// Reads the keys of a table and its sections into their object.
+/// Reads the keys of a table and its sections into an object.
 template <class Content, class Root>
 void read_content(Content& content, const Root& root, Table& table) {
   table.read(Content::parameters(), content);
@@ -89,8 +90,8 @@ void read_content(Content& content, const Root& root, Table& table) {
   if constexpr (requires { content.read_rest(table); }) content.read_rest(table);
 }
 
-/// Adds what is wrong with the values of an object and of its sections: out of their ranges, or at odds with
-/// one another and with the rest of the input.
+/// Adds the faults of the values of an object and of its sections: out of range, or inconsistent with each other or the
+/// rest of the input.
 template <class Content, class Root>
 void check_content(const Content& content, const Root& root, const Faults& faults) {
   Content copy = content;
@@ -106,8 +107,8 @@ void check_content(const Content& content, const Root& root, const Faults& fault
   if constexpr (requires { content.check(root, faults); }) content.check(root, faults);
 }
 
-/// Returns the object and its sections as they stand in a file, with every default.
-/// @param path  of the table in the file, with a dot at its end; empty: the file itself
+/// Returns the object and its sections as written in a file, with every default.
+/// @param path  of the table in the file, with a trailing dot; empty: the file
 template <class Content>
 std::string write_content(const Content& content, const std::string& path) {
   Content copy = content;
@@ -139,7 +140,7 @@ void add_content(Schema& table) {
   if constexpr (requires { Content::add_rest(table); }) Content::add_rest(table);
 }
 
-/// Makes the entry of a member, which is a section, a list of them, or one that may be missing.
+/// Creates the entry of a member, which is a section, a list of sections, or an optional section.
 template <auto Member, class Root, class Owner = decltype(detail::owner_of(Member))>
 Section<Owner, Root> section(const char* name, const char* remark = "",
                              bool (*applies)(const std::type_identity_t<Owner>&) = nullptr) {

@@ -6,7 +6,7 @@
 namespace whipple::input {
 namespace {
 
-/// Where the scanner is; each string is named by the text that ends it.
+/// Lists the states of the scanner; strings are distinguished by their delimiters.
 enum class Place { structure, comment, basic, literal, multi_line_basic, multi_line_literal };
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
@@ -29,7 +29,7 @@ class Scanner {
   }
 
  private:
-  /// A point between the parts of a key, or in a number. @returns whether there are not too many
+  /// Counts the points between the parts of a key, or in a number. @returns whether there are not too many
   bool count_parts(char c) {
     constexpr int most_parts = 32;
     if (c == '.') ++points_;
@@ -85,7 +85,7 @@ class Scanner {
       behind_line_break_ = next != std::string_view::npos && text_[next] == '\n';
       at_ += behind_line_break_ ? 1 : 2;
     } else if (take(end)) {
-      // Up to two more quotes belong to the string.
+      // Up to two more quotes are part of the string.
       for (int i = 0; i < 2 && at_ < text_.size() && text_[at_] == end.front(); ++i) ++at_;
       place_ = Place::structure;
     } else {
@@ -116,7 +116,7 @@ class Scanner {
 
   std::string_view text_;
   std::size_t at_ = 0;
-  int points_ = 0;  // since the last key or value began
+  int points_ = 0;  // since the start of the last key or value
   Place place_ = Place::structure;
   bool behind_line_break_ = false;
 };

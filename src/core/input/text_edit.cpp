@@ -17,7 +17,7 @@
 namespace whipple::input {
 namespace {
 
-/// Returns where a position of toml++, counted in characters, lies in the text, counted in bytes.
+/// Converts a toml++ position, counted in characters, to an offset in the text, counted in bytes.
 std::size_t offset_of(const std::string& text, toml::source_position position) {
   std::size_t at = 0;
   for (std::uint32_t line = 1; line < position.line; ++line) at = text.find('\n', at) + 1;
@@ -41,7 +41,7 @@ bool is_value(const toml::node& node) {
   return array == nullptr || !array->is_array_of_tables() || array->get(0)->as_table()->is_inline();
 }
 
-/// Returns the end of the last value that stands in a table itself, whose header is followed by nothing else.
+/// Returns the end of the last value directly in a table; nothing if the table has none.
 std::optional<std::size_t> end_of_values(const std::string& text, const toml::table& table) {
   std::optional<std::size_t> last;
   for (const auto& [key, node] : table) {
@@ -67,7 +67,7 @@ std::string line_break_of(const std::string& text) {
   return text.find("\r\n") == std::string::npos ? "\n" : "\r\n";
 }
 
-/// Inserts a line below that of a place, indented as that one.
+/// Inserts a line below the one at a position, with the same indentation.
 std::string with_line_below(const std::string& text, std::size_t place, const std::string& line) {
   const std::string line_break = line_break_of(text);
   const std::size_t previous = place == 0 ? std::string::npos : text.rfind('\n', place - 1);
@@ -79,7 +79,7 @@ std::string with_line_below(const std::string& text, std::size_t place, const st
   return text.substr(0, end + 1) + indent + line + line_break + text.substr(end + 1);
 }
 
-/// Inserts a key in `{ ... }`, which ends at a place.
+/// Inserts a key in `{ ... }`, which ends at a position.
 std::string with_inline_key(const std::string& text, std::size_t end, bool empty,
                             const std::string& assignment) {
   std::size_t brace = text.rfind('}', end - 1);
@@ -87,7 +87,7 @@ std::string with_inline_key(const std::string& text, std::size_t end, bool empty
   return text.substr(0, content) + (empty ? " " : ", ") + assignment + " " + text.substr(brace);
 }
 
-/// Adds the texts that set a missing key of a table by a line of its own, or within `{ ... }`.
+/// Adds the texts that set a missing key of a table by a separate line, or within `{ ... }`.
 void add_lines(std::vector<std::string>& texts, const std::string& text, const toml::table& table,
                bool is_root, std::span<const std::string> missing, const std::string& value) {
   const std::string assignment = fmt::format("{} = {}", dotted(missing), value);
@@ -112,8 +112,8 @@ void add_table(std::vector<std::string>& texts, const std::string& text, std::sp
                               as_bare_key(path.back()), value, end));
 }
 
-/// Returns texts that may set a missing key, the more usual ones first: not all of them are right.
-/// @param known  the root and what there is of the key
+/// Returns texts that may set a missing key, the more common forms first; not all of them are correct.
+/// @param known  the root and the existing nodes of the key
 std::vector<std::string> with_new_key(const std::string& text, std::span<toml::node* const> known,
                                       std::span<const std::string> path, const std::string& value) {
   std::vector<std::string> texts;
@@ -159,7 +159,7 @@ TextEdit set_in_text(const std::string& text, const std::filesystem::path& file,
     } catch (const InputError&) {
       continue;
     }
-    // Where a value was replaced, and else where the text begins to differ.
+    // Location of a replaced value, otherwise of the first difference of the texts.
     const auto [changed, unused] = std::ranges::mismatch(text, candidate);
     const std::size_t begin =
         edit.before.empty() ? static_cast<std::size_t>(changed - text.begin()) : begin_of(text, node);

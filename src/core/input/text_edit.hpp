@@ -7,18 +7,18 @@
 
 namespace whipple::input {
 
-/// A text of TOML in which one value was set.
+/// Holds a TOML text in which one value was set.
 struct TextEdit {
   std::string text;
-  std::string before;  ///< the value that was replaced; empty: the key is new
+  std::string before;  ///< the replaced value; empty: the key is new
   std::string after;
   std::size_t line = 0;  ///< of the value
 };
 
-/// Sets one key in a text of TOML as `Document::set` does in a document that was read: comments, order and
-/// layout of all else stay. A new key follows the last one of its table.
-/// @param file  that the text is of, for messages
-/// @throws InputError if the key cannot be set, or stands where only its table as a whole could be rewritten
+/// Sets one key in a TOML text, like `Document::set` in a document: comments, order and layout of everything else are
+/// preserved. A new key follows the last one of its table.
+/// @param file  of the text, for messages
+/// @throws InputError if the key cannot be set, or only by rewriting its table as a whole
 TextEdit set_in_text(const std::string& text, const std::filesystem::path& file, std::string_view key,
                      std::string_view value);
 

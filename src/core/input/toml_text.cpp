@@ -20,8 +20,8 @@ InputError fault_of(std::string_view key, std::string_view value, const std::str
   return InputError(fmt::format("{}={}: {}", key, value, why));
 }
 
-/// Parses a value by itself: it is then the only one of the table, without a position, so that errors name
-/// the assignment and not line 1 of the file. Nothing if it is a text without quotes, as in --set
+/// Parses a value separately: it is then the only one of the table, without location, so that errors refer to the
+/// assignment and not to line 1 of the file. Returns nothing if it is a text without quotes, as in --set
 /// body.0.material=copper.toml.
 std::optional<toml::table> parsed_value(std::string_view value) {
   const std::string line = fmt::format("value = {}", value);
@@ -68,7 +68,7 @@ std::vector<std::string> key_parts(std::string_view key, std::string_view value)
   return parts;
 }
 
-/// Whether a part of a key counts the entries of a list.
+/// Returns whether a part of a key is the index of a list entry.
 bool is_number(std::string_view part) {
   return std::ranges::all_of(part, [](unsigned char c) { return std::isdigit(c) != 0; });
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// toml++ asserts that a key begins as keys do, which bad input need not ("[=]"). Without the assertion it
-// reports the fault like any other; with it a build for debugging would abort.
+// toml++ asserts that keys begin with valid characters, which invalid input may violate ("[=]"). Without the assertion
+// it reports the fault like any other; with it, debug builds would abort.
 #ifndef TOML_ASSERT
 #define TOML_ASSERT(condition) static_cast<void>(0)
 #endif
@@ -13,7 +13,8 @@
 #include <string_view>
 #include <vector>
 
-/// Text to TOML, and values set by "table.key": for this module alone, as the library's header stays in it.
+/// Conversion of text to TOML, and values set by "table.key"; for use in this module only, as it includes the header of
+/// the library.
 namespace whipple::input {
 
 /// Parses a text. @throws InputError with file:line:column
@@ -23,14 +24,14 @@ toml::table parse_toml(const std::string& text, const std::filesystem::path& pat
 /// @throws InputError naming the assignment if one is empty
 std::vector<std::string> key_parts(std::string_view key, std::string_view value);
 
-/// Returns the member of a table, or the entry of a list by its number; null if there is none.
+/// Returns the member of a table, or the entry of a list by its index; null if there is none.
 const toml::node* child_of(const toml::node& node, std::string_view part);
 toml::node* child_of(toml::node& node, std::string_view part);
 
-/// Returns a value as TOML: as it stands, or in quotes if it is a text without them.
+/// Returns a value as TOML: unchanged, or in quotes if it is a text without quotes.
 std::string value_as_toml_text(std::string_view value);
 
-/// Sets one key; missing tables are made. @throws InputError naming the assignment
+/// Sets one key; missing tables are created. @throws InputError naming the assignment
 void set_value(toml::table& root, std::string_view key, std::string_view value);
 
 }  // namespace whipple::input

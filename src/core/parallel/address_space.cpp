@@ -9,7 +9,7 @@
 namespace whipple::parallel {
 
 void require_address_space(int threads) {
-  // Open MPI 4.1 starts with 260 MB; each further thread has a stack and a heap of its own (8 and 64 MB).
+  // Open MPI 4.1 starts with 260 MB; each additional thread has a stack and a heap (8 and 64 MB).
   constexpr rlim_t megabyte = 1 << 20, of_mpi = 300, of_a_thread = 72;
   const rlim_t needed = of_mpi + of_a_thread * static_cast<rlim_t>(threads - 1);
   rlimit limit = {};

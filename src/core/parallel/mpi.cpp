@@ -19,8 +19,8 @@
 namespace whipple::parallel {
 namespace {
 
-/// Called when there is no memory to be had. OpenMP lets no exception out of a loop that threads share, and would
-/// end the process without a word.
+/// Handles exhausted memory. OpenMP does not pass exceptions out of parallel loops, and would terminate the process
+/// without a message.
 void on_exhausted_memory() {
   if (omp_get_level() == 0) throw std::bad_alloc();
   std::fputs(
@@ -31,7 +31,7 @@ void on_exhausted_memory() {
   std::_Exit(static_cast<int>(ExitCode::state));
 }
 
-/// MPI is a property of the process, so its lifetime is bound to the process and not to an object of ours.
+/// Manages the lifetime of MPI, which is bound to the process and not to an object of the program.
 class Session {
  public:
   Session() {
@@ -107,7 +107,7 @@ void sum(MPI_Comm comm, std::span<double> values) {
   constexpr int sum_tag = 5;
   const int ranks = size(comm), own = rank(comm), count = static_cast<int>(values.size());
   if (ranks == 1) return;
-  // A binomial tree of our own: MPI_SUM may choose another order from run to run.
+  // A custom binomial tree: MPI_SUM may use another order from run to run.
   std::vector<double> other(values.size());
   for (int reach = 1; reach < ranks; reach *= 2) {
     if ((own & reach) != 0) {
@@ -188,7 +188,7 @@ std::vector<std::vector<std::byte>> exchange_bytes(MPI_Comm comm,
   std::vector<unsigned long> to(ranks), from(ranks);
   for (std::size_t r = 0; r < ranks; ++r) to[r] = outgoing[r].size();
   MPI_Alltoall(to.data(), 1, MPI_UNSIGNED_LONG, from.data(), 1, MPI_UNSIGNED_LONG, comm);
-  // MPI counts in int: longer messages go in pieces.
+  // MPI counts are int: longer messages are sent in pieces.
   constexpr std::size_t piece = std::numeric_limits<int>::max() / 2;
   constexpr int tag = 7;
   std::vector<MPI_Request> requests;

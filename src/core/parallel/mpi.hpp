@@ -11,55 +11,55 @@
 #include <type_traits>
 #include <vector>
 
-/// Communicates between the processes of the solver. Everything with a communicator is collective, and free on one
-/// rank. Sums are taken along one tree of ranks: the same bits for the same number of ranks.
+/// Communication between the processes of the solver. All functions with a communicator are collective, and free on one
+/// rank. Sums use a fixed tree of ranks: results are bitwise equal for the same number of ranks.
 namespace whipple::parallel {
 
-/// Initialises MPI on the first call of the process (threads: only the main thread communicates) and
-/// finalises it at exit. Every later call is free. @returns MPI_COMM_WORLD
+/// Initialises MPI on the first call of the process (threads: only the main thread communicates) and finalises it at
+/// exit. Later calls are free. @returns MPI_COMM_WORLD
 MPI_Comm world();
 
-/// Rank and number of ranks of a communicator.
+/// Returns the rank (number of ranks) in a communicator.
 int rank(MPI_Comm comm);
 int size(MPI_Comm comm);
 
-/// Ranks of the communicator on this machine.
+/// Returns the number of ranks of the communicator on this machine.
 int ranks_on_machine(MPI_Comm comm);
 
-/// Ends all ranks when one of them cannot go on: an error need not reach the others, which may be waiting for
-/// this one. The first rank prints the message; another one only if the first does not end it soon.
+/// Terminates all ranks when one of them cannot continue: an error may not reach the others, which may be waiting for
+/// this one. The first rank prints the message; another rank does so only if the first does not terminate it soon.
 [[noreturn]] void end_all_ranks(MPI_Comm comm, const std::string& message, int exit_code);
 
-/// Largest value of all ranks.
+/// Returns the maximum over all ranks.
 double maximum(MPI_Comm comm, double value);
 /// Replaces the values by their maximum over all ranks, element by element.
 void maximum(MPI_Comm comm, std::span<double> values);
-/// Sum over all ranks, element by element and in place.
+/// Replaces the values by their sum over all ranks, element by element.
 void sum(MPI_Comm comm, std::span<double> values);
 /// Returns whether the value is true on any rank.
 bool any(MPI_Comm comm, bool value);
 
-/// Ends a failed step on every rank: if any rank brings an error (a text that is not empty), all throw a
-/// StateError with the text of the lowest such rank.
+/// Ends a failed step on every rank: if any rank passes an error (a non-empty text), all throw a StateError with the
+/// text of the lowest such rank.
 void throw_together(MPI_Comm comm, const std::string& error);
 
-/// Rows of an array that lie on several ranks, one behind the other in the order of the ranks.
+/// Describes rows of an array distributed over several ranks, consecutive in the order of the ranks.
 struct RowsOfRanks {
-  std::span<const std::byte> own;  ///< those of this rank
-  std::size_t first = 0;           ///< number of the first of them
+  std::span<const std::byte> own;  ///< rows of this rank
+  std::size_t first = 0;           ///< number of the first row
   std::size_t row_size = 1;        ///< bytes
 };
-/// Brings all rows to the first rank, piece by piece, so that it needs no room for all.
-/// @param piece  rows of a piece
-/// @param take   gets there the number of the first row of every piece, and the piece
+/// Gathers all rows on the first rank, piece by piece, so that it does not need memory for all of them.
+/// @param piece  rows per piece
+/// @param take   called on the first rank with the number of the first row of every piece, and the piece
 void gather_rows(MPI_Comm comm, const RowsOfRanks& rows, std::size_t piece,
                  const std::function<void(std::size_t first, std::span<const std::byte> rows)>& take);
 
-/// Sends raw bytes to every rank; entry r of the result came from rank r.
+/// Sends raw bytes to every rank; entry r of the result is from rank r.
 std::vector<std::vector<std::byte>> exchange_bytes(MPI_Comm comm,
                                                    const std::vector<std::vector<std::byte>>& outgoing);
 
-/// Sends outgoing[r] to rank r; entry r of the result came from rank r.
+/// Sends outgoing[r] to rank r; entry r of the result is from rank r.
 template <class T>
   requires std::is_trivially_copyable_v<T>
 std::vector<std::vector<T>> exchange(MPI_Comm comm, const std::vector<std::vector<T>>& outgoing) {

@@ -21,7 +21,7 @@ namespace whipple::process {
 
 namespace {
 
-/// Whoever starts a program by this ends it too, however he ends himself: the kernel sends the signal.
+/// Returns the command prefix that ends a program with its parent, even if that is killed: the kernel sends the signal.
 std::vector<std::string> ends_with_its_parent(const char* signal) {
   return {"setpriv", "--pdeathsig", signal};
 }
@@ -34,7 +34,7 @@ void append(std::vector<std::string>& list, const std::vector<std::string>& more
 
 int mpirun(int ranks, const std::vector<std::string>& program, const Environment& environment,
            double patience_with_end) {
-  // Thousands of processes bring a machine to a standstill before any of them has begun.
+  // Thousands of processes would block a machine before any of them has started.
   constexpr int always_allowed = 16;
   const int processors = usable_processors(), most = std::max(always_allowed, 4 * processors);
   if (ranks > most) {
@@ -45,21 +45,21 @@ int mpirun(int ranks, const std::vector<std::string>& program, const Environment
   }
   require_room_for_mpi();
   require_room_for_mpirun();
-  // mpirun passes SIGUSR2 on and waits, upon which a run saves its state; after SIGTERM and SIGINT it kills
-  // its ranks within a second. Ranks without mpirun are lost.
+  // mpirun passes SIGUSR2 on and waits, whereupon a run saves its state; after SIGTERM and SIGINT it kills its ranks
+  // within a second. Ranks do not survive mpirun.
   std::vector<std::string> arguments = ends_with_its_parent("USR2");
   append(arguments, {"mpirun", "-np", std::to_string(ranks)});
-  // The program says itself what went wrong; mpirun would add a page on the exit code.
+  // The program reports its errors; mpirun would add a page about the exit code.
   if (log::level() != log::Level::verbose) arguments.emplace_back("--quiet");
   append(arguments, ends_with_its_parent("KILL"));
   arguments.push_back(find_executable(program.front()).string());
   arguments.insert(arguments.end(), program.begin() + 1, program.end());
   Environment all = environment;
-  // A waiting rank leaves its core to others.
+  // A waiting rank yields its core.
   all.emplace_back("OMPI_MCA_rmaps_base_oversubscribe", "1");
   all.emplace_back("OMPI_MCA_mpi_yield_when_idle", "1");
   all.emplace_back("OMPI_MCA_hwloc_base_binding_policy", "none");
-  if (geteuid() == 0) {  // Open MPI refuses root, as in containers, unless both are set
+  if (geteuid() == 0) {  // Open MPI refuses to run as root, as in containers, unless both are set
     all.emplace_back("OMPI_ALLOW_RUN_AS_ROOT", "1");
     all.emplace_back("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
   }
@@ -71,7 +71,7 @@ int mpirun(int ranks, const std::vector<std::string>& program, const Environment
                                 .patience_with_end = patience_with_end});
   if (const int signal = last_signal(); code > 128 && (signal == SIGINT || signal == SIGTERM))
     return 128 + signal;
-  // A rank that was killed cannot say so, and mpirun --quiet does not.
+  // A killed rank cannot report it, and mpirun --quiet does not.
   if (const int signal = code - 128;
       std::ranges::count(std::array{SIGKILL, SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL}, signal) > 0) {
     fmt::print(stderr,
@@ -80,7 +80,7 @@ int mpirun(int ranks, const std::vector<std::string>& program, const Environment
                "last checkpoint with --restart, a plan by the same call\n",
                program.front(), signal, strsignal(signal));
   }
-  // The project's programs have codes below it, mpirun has its own where it cannot start them.
+  // Programs of the project use the codes up to 4, mpirun uses others if it cannot start them.
   constexpr int greatest_own = 4, out_of_time = 124, greatest_signal = 64;
   const bool known = code == 0 || (code >= 2 && code <= greatest_own) || code == out_of_time ||
                      (code > 128 && code <= 128 + greatest_signal);
@@ -95,7 +95,7 @@ int run_alone(const std::vector<std::string>& program, const Environment& enviro
   for (char** variable = environ; *variable != nullptr; ++variable) {
     const std::string_view entry(*variable);
     const std::string_view name = entry.substr(0, entry.find('='));
-    // What Open MPI and its runtime tell the ranks of a program about it.
+    // Set by Open MPI and its runtime for the ranks of a program.
     if (name.starts_with("OMPI_") || name.starts_with("PMIX_") || name.starts_with("ORTE_") ||
         name.starts_with("PRTE_")) {
       arguments.insert(arguments.end(), {"-u", std::string(name)});

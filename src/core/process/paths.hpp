@@ -4,19 +4,20 @@
 #include <filesystem>
 #include <string>
 
-/// Where the other executables and the data of the project lie: in the build tree, or in an installation.
+/// Locations of the other executables and the data of the project: in the build tree, or in an installation.
 namespace whipple::process {
 
-/// The executable that is running.
+/// Returns the path of the running executable.
 std::filesystem::path own_executable();
 
-/// An executable of the project ("whipple-md") in the folder of the running one.
-/// @throws InputError if it is not there
+/// Returns the path of an executable of the project ("whipple-md") in the folder of the running one.
+/// @throws InputError if it does not exist
 std::filesystem::path find_executable(const std::string& name);
 
-/// A data file or folder by its path in the source tree ("scripts/plot_fit.py", "report"): share/whipple beside the installed
-/// executables first, then the source tree that this executable was built from.
-/// @throws InputError naming both places if it is in neither
+/// Returns the path of a data file or folder given by its path in the source tree ("scripts/plot_fit.py", "report"):
+/// searches share/whipple next to the installed executables first, then the source tree from which this executable was
+/// built.
+/// @throws InputError naming both locations if it is in neither
 std::filesystem::path find_data(const std::filesystem::path& relative);
 
 }  // namespace whipple::process

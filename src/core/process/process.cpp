@@ -28,14 +28,14 @@ namespace {
 
 constexpr std::array forwarded_signals = {SIGINT, SIGTERM, SIGUSR1};
 
-// A signal handler can reach nothing but variables of static storage.
+// A signal handler can only access variables with static storage.
 std::atomic<pid_t> child = 0;
-std::atomic<unsigned> pending = 0;  ///< signals that the child has still to get, a bit each
+std::atomic<unsigned> pending = 0;  ///< signals not yet sent to the child, one bit each
 std::atomic<int> last_forwarded = 0;
-std::atomic<int> end_signal = 0;  ///< what the child gets for SIGINT and SIGTERM; 0: the same
+std::atomic<int> end_signal = 0;  ///< sent to the child for SIGINT and SIGTERM; 0: the same
 static_assert(std::atomic<pid_t>::is_always_lock_free && std::atomic<unsigned>::is_always_lock_free);
 
-/// Sends the child what is pending, once it is known. Whichever thread comes last, nothing is lost.
+/// Sends pending signals to the child once its process id is available. No signal is lost, whichever thread runs last.
 void send_pending() {
   const pid_t pid = child;
   if (pid <= 0) return;
@@ -48,16 +48,16 @@ void send_pending() {
 
 extern "C" void pass_on(int signal, siginfo_t* info, void* /*context*/) {
   last_forwarded = signal;
-  // The terminal sends its signals to the whole foreground group: the child has this one already, and mpirun
-  // takes a second SIGINT as the order to kill its ranks.
+  // The terminal sends its signals to the whole foreground group: the child has already received this one, and mpirun
+  // interprets a second SIGINT as an order to kill its ranks.
   const bool from_terminal = info->si_code == SI_KERNEL && end_signal == 0;
   if (from_terminal) return;
   pending |= 1U << static_cast<unsigned>(signal);
   send_pending();
 }
 
-/// Routes the signals to `pass_on`, and holds them back in this thread until `release`. Other threads may get
-/// one before the process id of the child is known: it stays pending.
+/// Routes the signals to `pass_on`, and blocks them in this thread until `release`. Other threads may receive one
+/// before the process id of the child is available: it remains pending.
 class SignalForwarding {
  public:
   explicit SignalForwarding(const Supervision& supervision) {
@@ -105,7 +105,7 @@ std::vector<std::string> merged_environment(const Environment& added) {
   return entries;
 }
 
-/// The C interface takes pointers to mutable characters, which it does not change.
+/// Returns pointers for the C interface, which takes mutable characters but does not modify them.
 std::vector<char*> pointers(std::vector<std::string>& texts) {
   std::vector<char*> result;
   result.reserve(texts.size() + 1);
@@ -123,7 +123,7 @@ pid_t start(std::vector<std::string> arguments, const Environment& environment, 
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   short flags = POSIX_SPAWN_SETSIGMASK;
-  if (own_group) flags |= POSIX_SPAWN_SETPGROUP;  // its number is that of the program
+  if (own_group) flags |= POSIX_SPAWN_SETPGROUP;  // its id is that of the program
   posix_spawnattr_setflags(&attributes, flags);
   posix_spawnattr_setsigmask(&attributes, &mask);
   pid_t pid = 0;
@@ -138,12 +138,12 @@ pid_t start(std::vector<std::string> arguments, const Environment& environment, 
   return pid;
 }
 
-/// Takes notice of the ends of programs started in the background, which would stay as zombies.
+/// Reaps terminated programs started in the background, which would remain as zombies.
 void forget_ended(std::vector<pid_t>& started) {
   std::erase_if(started, [](pid_t pid) { return waitpid(pid, nullptr, WNOHANG) != 0; });
 }
 
-/// Tells whether a program has a child that has ended and that it has not taken notice of.
+/// Returns whether a program has a terminated child that it has not reaped.
 bool has_dead_child(pid_t pid) {
   std::error_code gone;
   for (const auto& task : std::filesystem::directory_iterator(fmt::format("/proc/{}/task", pid), gone)) {
@@ -160,7 +160,7 @@ bool has_dead_child(pid_t pid) {
   return false;
 }
 
-/// Waits for the end of a program. @returns its status, as of waitpid
+/// Waits for the end of a program. @returns its status, as from waitpid
 int wait_for(pid_t pid, const std::string& name, const Supervision& supervision) {
   using clock = std::chrono::steady_clock;
   constexpr auto pause = std::chrono::milliseconds(20);

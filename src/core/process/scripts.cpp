@@ -19,7 +19,7 @@ int run_script(const std::string& script, const std::vector<std::string>& argume
   const std::string python = variable != nullptr               ? variable
                              : std::filesystem::exists(debian) ? debian
                                                                : "python3";
-  // -E: a PYTHONPATH of the user, or of a folder that he visits, does not take the place of numpy.
+  // -E: a PYTHONPATH of the user, or modules in a visited folder, must not shadow numpy.
   std::vector<std::string> command = {python, "-E", find_data(script).string()};
   command.insert(command.end(), arguments.begin(), arguments.end());
   return run_process(command);

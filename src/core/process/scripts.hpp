@@ -7,8 +7,8 @@
 
 namespace whipple::process {
 
-/// Runs one of the project's Python scripts ("scripts/plot_fit.py") or packages ("report"). The interpreter is
-/// $WHIPPLE_PYTHON, else /usr/bin/python3 (Debian's, which has numpy, h5py and matplotlib), else python3 of the
+/// Runs a Python script ("scripts/plot_fit.py") or package ("report") of the project. The interpreter is
+/// $WHIPPLE_PYTHON, else /usr/bin/python3 (that of Debian, which has numpy, h5py and matplotlib), else python3 from the
 /// path.
 /// @returns its exit code
 int run_script(const std::string& script, const std::vector<std::string>& arguments);
@@ -17,7 +17,7 @@ int run_script(const std::string& script, const std::vector<std::string>& argume
 /// @throws InputError if it fails
 void draw_with(const std::string& script, const std::vector<std::string>& arguments);
 
-/// Draws JSON text by `SCRIPT DATA.json FIGURE`, the data in a file beside the figure while it is drawn.
+/// Draws JSON text by `SCRIPT DATA.json FIGURE`, with the data in a temporary file in the folder of the figure.
 /// @throws InputError if the folder cannot be written or the script fails
 void draw_json(const std::string& script, const std::string& json, const std::filesystem::path& figure);
 

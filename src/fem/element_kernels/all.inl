@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Included by src/fem/element_kernels.hpp, once per set of registers.
+// Included by src/fem/element_kernels.hpp, once per register width.
 // clang-format off: each file needs those before it
 #include "src/fem/hexahedron.inl"
 #include "src/fem/element_kernels/blocks.inl"

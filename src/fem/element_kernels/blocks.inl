@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Elements that go together, and the nodal fields of their block (part of src/fem/element_kernels.hpp)
+// Groups of elements, and the nodal fields of their block (part of src/fem/element_kernels.hpp)
 
-/// Elements that go together, one per lane: `width` of an ElementGroup, those from a lane of it on. What
-/// lanes without an element hold is nobody's.
+/// Describes elements that are processed together, one per lane: `width` elements of an ElementGroup from a given lane
+/// on. Values in lanes without an element are unspecified.
 struct Group {
   const ElementGroup& all;
   std::size_t lane;
-  std::size_t count;  ///< lanes that are results
-  std::size_t first;  ///< element
+  std::size_t count;  ///< number of valid lanes
+  std::size_t first;  ///< first element
 
   Group(const ElementGroup& group, std::size_t first_lane)
       : all(group),
@@ -15,10 +15,10 @@ struct Group {
         count(std::min<std::size_t>(width, group.count - first_lane)),
         first(group.first + first_lane) {}
 
-  /// The element of a lane; of lanes without one, the last.
+  /// Returns the element of a lane; the last element for lanes without one.
   [[nodiscard]] std::size_t index(std::size_t l) const { return first + std::min(l, count - 1); }
 
-  /// One number per element, and back.
+  /// Loads one number per element.
   [[nodiscard]] WHIPPLE_INLINE Vector load(const std::vector<double>& from) const {
     return load_lanes(&from[first], count);
   }
@@ -27,7 +27,7 @@ struct Group {
   }
 };
 
-/// The groups of a block.
+/// Returns the groups of a block.
 WHIPPLE_INLINE inline std::span<const ElementGroup> groups_of(const Mesh& mesh, std::size_t block) {
   const Blocks& blocks = mesh.blocks;
   return std::span(blocks.groups)
@@ -40,11 +40,11 @@ WHIPPLE_INLINE inline void for_each_part(const ElementGroup& all, Function&& f) 
   for (std::size_t lane = 0; lane < all.count; lane += width) f(Group(all, lane));
 }
 
-/// A nodal field at the slots of a block; not initialised. Behind the slots there is place for the corners of
-/// a group.
+/// Holds a nodal field at the slots of a block; not initialised. The slots are followed by space for the corners of a
+/// group.
 class BlockField {
  public:
-  /// An eighth of the field, as `modes` needs it.
+  /// Copies an eighth of the field, as required by `modes`.
   void copy(const Mesh& mesh, std::size_t block, const std::vector<Vector3>& field) {
     const Blocks& blocks = mesh.blocks;
     const std::uint32_t first = blocks.first_slot[block], end = blocks.first_slot[block + 1];
@@ -52,7 +52,7 @@ class BlockField {
                          WHIPPLE_INLINE { store_lanes(&at_[i][s - first], 0.125 * x, width); };
     for (std::uint32_t s = first; s < end; s += width) {
       const std::uint32_t* const node = &blocks.slot_node[s];
-      if (s + width <= end && node[width - 1] - node[0] == width - 1) {  // ascending: no gap between them
+      if (s + width <= end && node[width - 1] - node[0] == width - 1) {  // ascending: contiguous
         const auto c = load_vectors(field[node[0]].data());
         for (std::size_t i = 0; i < 3; ++i) put(s, i, c[i]);
         continue;
@@ -65,7 +65,7 @@ class BlockField {
       for (std::size_t i = 0; i < 3; ++i) put(s, i, c[i]);
     }
   }
-  /// To where the slots are after a time dt (s) with velocities, in the very operations of `move_nodes`.
+  /// Advances the slots by a time dt (s) with velocities, by exactly the operations of `move_nodes`.
   void advance(const Mesh& mesh, std::size_t block, double dt, const BlockField& velocity) {
     const std::uint32_t count = mesh.blocks.first_slot[block + 1] - mesh.blocks.first_slot[block];
     for (std::size_t i = 0; i < 3; ++i) {
@@ -79,7 +79,7 @@ class BlockField {
     const std::uint32_t count = mesh.blocks.first_slot[block + 1] - mesh.blocks.first_slot[block];
     for (auto& component : at_) std::fill_n(component, count, 0.0);
   }
-  /// The values at the slots.
+  /// Copies the values at the slots.
   void copy_to(std::span<Vector3> values) const {
     std::size_t s = 0;
     for (; s + width <= values.size(); s += width) {
@@ -89,7 +89,7 @@ class BlockField {
     for (; s < values.size(); ++s) values[s] = Vector3(at_[0][s], at_[1][s], at_[2][s]);
   }
 
-  /// Copied values of a group, as modes.
+  /// Provides the values of a group as modes.
   class OfGroup {
    public:
     OfGroup(BlockField& field, const Group& group) : field_(field), group_(group) {
@@ -101,7 +101,7 @@ class BlockField {
         }
       }
     }
-    /// Returns one component of the field as modes: few numbers, which stay in registers.
+    /// Returns one component of the field as modes, few enough to stay in registers.
     [[nodiscard]] WHIPPLE_INLINE std::array<Vector, 7> component(std::size_t i) const {
       std::array<Vector, 8> u;
       for (std::size_t a = 0; a < 8; ++a) {
@@ -119,7 +119,7 @@ class BlockField {
   };
   [[nodiscard]] WHIPPLE_INLINE OfGroup of(const Group& group) { return OfGroup(*this, group); }
 
-  /// Adds the corners' parts of a field given by its modes.
+  /// Adds the corner values of a field given by its modes.
   WHIPPLE_INLINE void add(const Group& group, const Modes<Vector>& field) {
     const std::array<Triple<Vector>, 8> corners = corners_of(field);
     add_component(at_[0], group, [&](std::size_t a) WHIPPLE_INLINE { return corners[a].x; });

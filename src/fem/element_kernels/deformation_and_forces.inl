@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How elements deform, and the forces of their stresses (part of src/fem/element_kernels.hpp)
+// Deformation of elements, and forces of their stresses (part of src/fem/element_kernels.hpp)
 
 template <HourglassControl::Kind kind>
 struct OnePoint {
@@ -23,7 +23,7 @@ struct OnePoint {
     const VolumeGradient<Vector> beta = volume_gradient(x);
     const Vector per_volume = 1.0 / beta.volume, per_eighth = 8.0 * per_volume;
 
-    // Component by component, each a row of a gradient: there are not registers enough for all of a field.
+    // Component by component, each a row of a gradient, as the registers do not hold a complete field.
     using Axis = Vector Triple<Vector>::*;
     std::array<Triple<Vector>, 4> end_modes;
     Modes<Vector> moved = x;
@@ -40,7 +40,7 @@ struct OnePoint {
     };
     const Columns<Vector> l = by_rows(end_row);
 
-    // Velocity gradient of the step. First, because the divisions that follow one another in it take long.
+    // Velocity gradient of the step. Computed first because of its chain of slow divisions.
     const VolumeGradient<Vector> end = volume_gradient(moved);
     for_each_component(with_volume_ratio(l, end.volume * per_volume, dt),
                        [&](const Vector& value, std::size_t k)
@@ -95,7 +95,7 @@ struct OnePoint {
       heat = hourglass_work - (stored - before);
       group.store(elements.hourglass_energy, stored);
       group.store(elements.hourglass_lead, lead);
-      // No spring holds more than what is stored.
+      // The spring energy is limited to the stored energy.
       const Vector most = (2.0 / (root8 * dt)) * resistance * stored;
       const Vector kept = most < force_squared ? root(most / force_squared) : in_all(1.0);
       for (std::size_t m = 0; m < 4; ++m) q[m] = kept * q[m] + advance[m];
@@ -162,7 +162,7 @@ struct DeformEightPoints {
   }
 };
 
-/// Forces f_a = sum_k F_k phi_ka of a stress on the mean gradient (eq. 2.6).
+/// Returns the forces f_a = sum_k F_k phi_ka of a stress on the mean gradient (eq. 2.6).
 WHIPPLE_INLINE inline Modes<Vector> mean_gradient_forces(const Columns<Vector>& stress,
                                                          const VolumeGradient<Vector>& beta) {
   return {-(stress * beta.xi),      -(stress * beta.eta),    -(stress * beta.zeta), -(stress * beta.eta_zeta),
@@ -177,7 +177,7 @@ struct ForcesOfOnePoint {
     add_to_diagonal(stress,
                     -(group.load(mesh.points.pressure) + group.load(mesh.points.artificial_viscosity)));
     const auto q = hourglass_forces_of(mesh.elements, group);
-    // Hourglass resistance (eq. 3.5): its part along B_a acts like a stress, the rest on the four modes.
+    // Hourglass resistance (eq. 3.5): the part along B_a acts like a stress, the rest on the four modes.
     const Vector scale = -root8 / beta.volume;
     const std::array<Triple<Vector>, 4> shape = {x.eta_zeta, x.zeta_xi, x.xi_eta, x.xi_eta_zeta};
     for (std::size_t m = 0; m < 4; ++m) add_dyad(stress, scale * q[m], shape[m]);

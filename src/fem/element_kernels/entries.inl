@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The entries (part of src/fem/element_kernels.hpp)
+// Entry points (part of src/fem/element_kernels.hpp)
 
 /// Prefetches part g of the node data that the next block copies.
 template <class... Fields>
@@ -14,17 +14,17 @@ WHIPPLE_INLINE inline void prefetch_next_block(const Mesh& mesh, std::size_t blo
   }
 }
 
-/// The entries. Everything they call is inlined into them.
+/// Provides the entry points. All functions called by them are inlined.
 struct Kernels {
   using Field = BlockField;
 
-  /// The positions of the nodes of a block.
+  /// Copies the positions of the nodes of a block.
   WHIPPLE_WHOLE_KERNEL static void copy_positions(const Mesh& mesh, std::size_t block, BlockField& position) {
     position.copy(mesh, block, mesh.nodes.position);
   }
 
   /// Calls kernel(step, group, fields, tally) for the elements of a block.
-  /// @param position  those at the end of the step, afterwards
+  /// @param position  on return, the positions at the end of the step
   template <class Kernel>
   WHIPPLE_WHOLE_KERNEL static DeformationReport deform(const DeformationStep& step, const Motion& motion,
                                                        std::size_t block, const Kernel& kernel,
@@ -45,7 +45,7 @@ struct Kernels {
     return tally.report();
   }
 
-  /// Forces kernel(mesh, group, position by modes) of the elements of a block, at its slots.
+  /// Computes the forces kernel(mesh, group, position modes) of the elements of a block, at its slots.
   template <class Kernel>
   WHIPPLE_WHOLE_KERNEL static void forces(Mesh& mesh, std::size_t block, const Kernel& kernel,
                                           BlockField& position) {

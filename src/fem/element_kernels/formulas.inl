@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Formulas at the points of elements (part of src/fem/element_kernels.hpp)
+// Formulas at integration points (part of src/fem/element_kernels.hpp)
 
-/// One of the 2 x 2 x 2 Gauss points; weight 1.
+/// Describes one of the 2 x 2 x 2 Gauss points; weight 1.
 struct GaussPoint {
   std::size_t number;
   double xi, eta, zeta;
@@ -30,7 +30,7 @@ void add_to_diagonal(Columns<T>& m, const T& value) {
   m.z.z += value;
 }
 
-/// Deviators of points, those of lane l from row(l) on.
+/// Loads the deviators of points, those of lane l from row(l) on.
 template <class Row>
 WHIPPLE_INLINE inline Columns<Vector> deviator_of(Row&& row) {
   static_assert(sizeof(SymmetricTensor) == 6 * sizeof(double));
@@ -47,8 +47,8 @@ WHIPPLE_INLINE inline Columns<Vector> deviator_of(Row&& row) {
 WHIPPLE_INLINE inline Columns<Vector> deviator_at(const GaussPoints& points, const Rows& at) {
   return deviator_of([&](std::size_t l) WHIPPLE_INLINE { return &points.deviatoric_stress[at[l]].xx; });
 }
-/// Those of a group of elements with one point. (Lanes without an element may take what follows in the
-/// block.)
+/// Loads the deviators of a group of one-point elements. (Lanes without an element may read the following entries of
+/// the block.)
 WHIPPLE_INLINE inline Columns<Vector> deviator_at(const GaussPoints& points, const Group& group) {
   constexpr std::size_t n = 6;
   const std::vector<SymmetricTensor>& all = points.deviatoric_stress;
@@ -61,7 +61,7 @@ WHIPPLE_INLINE inline Columns<Vector> deviator_at(const GaussPoints& points, con
   return deviator_of([&](std::size_t l) WHIPPLE_INLINE { return from + n * l; });
 }
 
-/// -(p + q)
+/// Returns -(p + q).
 WHIPPLE_INLINE inline Vector mean_stress_at(const GaussPoints& points, const Rows& at) {
   Vector stress;
   for (std::size_t l = 0; l < width; ++l) {
@@ -70,7 +70,7 @@ WHIPPLE_INLINE inline Vector mean_stress_at(const GaussPoints& points, const Row
   return stress;
 }
 
-/// Calls f(component of q, the array of it) for the twelve components of hourglass forces.
+/// Calls f(component of q, its array) for the twelve components of the hourglass forces.
 template <class Function>
 WHIPPLE_INLINE inline void for_each_hourglass_component(std::array<Triple<Vector>, 4>& q, Function&& f) {
   constexpr auto components = Elements::hourglass_components();
@@ -93,13 +93,13 @@ WHIPPLE_INLINE inline Columns<T> scaled(const Columns<T>& m, const T& factor) {
   return {factor * m.x, factor * m.y, factor * m.z};
 }
 
-/// The gradient whose volume ratio det(I + dt L) is `ratio` (eq. 2.8).
+/// Returns the gradient scaled such that det(I + dt L) is `ratio` (eq. 2.8).
 WHIPPLE_INLINE inline Columns<Vector> with_volume_ratio(const Columns<Vector>& gradient, const Vector& ratio,
                                                         double dt) {
   Columns<Vector> f = scaled(gradient, in_all(dt));
   add_to_diagonal(f, in_all(1.0));
   const Vector stretch = cube_root_near_one(ratio / determinant(f));
-  // (stretch F - I)/dt without the difference of large numbers
+  // (stretch F - I)/dt without a difference of large numbers
   Columns<Vector> result = scaled(gradient, stretch);
   add_to_diagonal(result, (stretch - 1.0) / dt);
   return result;
@@ -113,11 +113,11 @@ WHIPPLE_INLINE inline void for_each_component(const Columns<Vector>& l, Function
   f(l.x.z, 6), f(l.y.z, 7), f(l.z.z, 8);
 }
 
-/// The four modes that the mean gradient does not see.
+/// Lists the four modes with zero mean gradient.
 constexpr std::array<Triple<Vector> Modes<Vector>::*, 4> hourglass_modes = {
     &Modes<Vector>::eta_zeta, &Modes<Vector>::zeta_xi, &Modes<Vector>::xi_eta, &Modes<Vector>::xi_eta_zeta};
 
-/// The report of a block in the making: sums of each lane of the groups.
+/// Accumulates the report of a block: sums for each lane of the groups.
 struct Tally {
   std::array<Vector, ElementGroup::size / width> work{}, hourglass_work{}, overdrawn{}, limited{};
   DeformationReport inverted;
@@ -126,8 +126,9 @@ struct Tally {
     work[group.lane / width] += first_lanes(work_done, group.count);
     hourglass_work[group.lane / width] += first_lanes(hourglass_work_done, group.count);
   }
-  /// @param overdrawn_energy  J, that hourglass forces gave beyond what was stored
-  /// @param cut               1 where the forces were limited to what the stored energy allows
+  /// Counts limited hourglass forces.
+  /// @param overdrawn_energy  J, returned by hourglass forces beyond the stored energy
+  /// @param cut               1 if the forces were limited by the stored energy
   WHIPPLE_INLINE void add_limits(const Group& group, Vector overdrawn_energy, Vector cut) {
     overdrawn[group.lane / width] += first_lanes(overdrawn_energy, group.count);
     limited[group.lane / width] += first_lanes(cut, group.count);
@@ -154,8 +155,8 @@ struct Tally {
   }
 };
 
-/// Returns the factor by which the plastic strain since the last step reduces the hourglass forces (eq. 3.9),
-/// and marks it as applied.
+/// Returns the factor by which the plastic strain since the last step reduces the hourglass forces (eq. 3.9), and marks
+/// it as applied.
 /// @param modulus  rho c^2
 WHIPPLE_INLINE inline Vector return_factor(const Group& group, Elements& elements, const GaussPoints& points,
                                            const Columns<Vector>& deviator, const Vector& modulus) {
@@ -167,12 +168,12 @@ WHIPPLE_INLINE inline Vector return_factor(const Group& group, Elements& element
   return overshoot > 0.0 ? equivalent / (equivalent + overshoot) : in_all(1.0);
 }
 
-/// Fields at the corners of a group that determine its motion.
+/// Holds the fields at the corners of a group that determine its motion.
 struct Fields {
   BlockField::OfGroup position, mean_velocity, end_velocity;
 };
 
-/// The matrix of the rows row(index, axis).
+/// Returns the matrix with the rows row(index, axis).
 template <class Row>
 WHIPPLE_INLINE inline Columns<Vector> by_rows(Row&& row) {
   const Triple<Vector> x = row(0, &Triple<Vector>::x), y = row(1, &Triple<Vector>::y),
