@@ -14,8 +14,8 @@ template class ConstantHeatCapacity<JwlReactantCurve>;
 
 namespace {
 
-// Two large numbers and a small one add up to the pressure at rest: a digit that is wrong moves T0 by
-// thousands of kelvins.
+// The pressure at rest is the small difference of two large numbers: one wrong digit shifts T0 by thousands of
+// kelvins.
 constexpr double coldest_rest = 200.0, hottest_rest = 400.0;  // K
 
 }  // namespace
