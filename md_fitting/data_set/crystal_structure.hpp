@@ -9,8 +9,7 @@
 
 namespace whipple::md {
 
-/// Lists the crystal structures of metals; the words are those of plans, databases and the LAMMPS command
-/// `lattice`.
+/// Lists the crystal structures of metals; the words are those of plans, databases and the LAMMPS command `lattice`.
 enum class CrystalStructure : std::uint8_t { fcc, bcc, hcp };
 constexpr std::array<Word<CrystalStructure>, 3> words(CrystalStructure) {
   return {{{CrystalStructure::fcc, "fcc"}, {CrystalStructure::bcc, "bcc"}, {CrystalStructure::hcp, "hcp"}}};

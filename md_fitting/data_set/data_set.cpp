@@ -102,8 +102,7 @@ void write_point(const hdf5::Group& points, const PointRecord& point) {
   for (const auto& [name, text] : point.provenance) write_text(provenance, name, text);
 }
 
-/// Checks the format of a database. @throws InputError unless the file is a database in a format known to this
-/// program.
+/// Checks the format of a database. @throws InputError unless the file is a database in a format known to this program.
 void check_format(const hdf5::File& file, const std::filesystem::path& path) {
   if (!file.root.has_attribute("format") || file.root.text_attribute("format") != format_name) {
     throw InputError(

@@ -53,8 +53,7 @@ constexpr std::array<Word<PointStatus>, 2> words(PointStatus) {
 /// Holds one computed point. The conditions and results of each protocol are listed in
 /// docs/theory/molecular_dynamics.md.
 struct PointRecord {
-  std::string
-      key;  ///< SHA-256 (hexadecimal) of everything the point depends on; identifies the point in the database
+  std::string key;       ///< SHA-256 (hexadecimal) of everything on which the point depends; identifies it
   std::string protocol;  ///< "lattice", "isotherm", "hugoniot", ...
   PointStatus status = PointStatus::not_tried;
   std::string message;                       ///< reason for the failure; remarks on a finished point
@@ -103,13 +102,11 @@ std::vector<PointRecord> select(std::span<const PointRecord> points, std::string
 /// replaced atomically (copy, change, sync, rename), so that a reader or a crash sees either the old or the new
 /// database, never a partial one; a lock file in the same folder serialises writers. A missing database is created,
 /// together with its folder.
-/// @returns false, leaving the database unchanged, if it holds a finished point with the same key and as many
-/// segments.
+/// @returns false, leaving the database unchanged, if it holds a finished point with the same key and as many segments.
 /// @throws InputError if the database cannot be written or the file is not a database.
 bool append_point(const std::filesystem::path& path, const PointRecord& point);
 
-/// Checks that `append_point` can write to the path; called before any expensive work. @throws InputError if it
-/// cannot.
+/// Checks that `append_point` can write to the path; called before any expensive work. @throws InputError if it cannot.
 void require_writable(const std::filesystem::path& path);
 
 }  // namespace whipple::md

@@ -14,7 +14,7 @@
 /// and source. The fit takes numbers that are not in the database from here only.
 namespace whipple::elements {
 
-/// States what a constant that is not fitted is based on.
+/// Specifies the basis of a constant that is not fitted.
 enum class Evidence { chosen, measured };
 constexpr std::array<Word<Evidence>, 2> words(Evidence) {
   return {{{Evidence::chosen, "chosen"}, {Evidence::measured, "measured"}}};
@@ -31,11 +31,10 @@ struct NamedDefault {
 };
 
 struct ElementDefaults {
-  std::string element;  ///< chemical symbol
-  std::string metal;    ///< English name
-  std::optional<std::string>
-      template_name{};                    ///< library material that supplies strength and failure, if any
-  std::vector<NamedDefault> constants{};  ///< several for one parameter: the first is the default
+  std::string element;                         ///< chemical symbol
+  std::string metal;                           ///< English name
+  std::optional<std::string> template_name{};  ///< library material with strength and failure
+  std::vector<NamedDefault> constants{};       ///< several for one parameter: the first is the default
 
   /// Returns the default of a parameter, if there is one.
   [[nodiscard]] const NamedDefault* find(std::string_view parameter) const;

@@ -211,8 +211,7 @@ md::Plan Ranges::plan_of(std::span<const PlannedPoint> points) const {
   plan.seed = plan_.seed;
   plan.ranks_per_point = plan_.ranks_per_point;
   plan.folder = plan_.folder;
-  plan.zero_pressure =
-      plan_.zero_pressure;  // required by Hugoniot points; those in the database cost nothing
+  plan.zero_pressure = plan_.zero_pressure;  // required by Hugoniot points; free if in the database
   for (const PlannedPoint& point : points) {
     if (point.protocol == md::PointKind::hugoniot) {
       if (!plan.hugoniot) plan.hugoniot = md::HugoniotPlan{{}, plan_.hugoniot->size, {}};

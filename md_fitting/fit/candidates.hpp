@@ -24,8 +24,7 @@ struct Candidate {
   double cost = 0.0;  ///< atom-steps
 };
 
-/// Represents the sections of a plan as ranges of equidistant values, with the points that a database holds of
-/// them.
+/// Represents the sections of a plan as ranges of equidistant values, with the points that a database holds of them.
 class Ranges {
  public:
   /// @param points  of the database; may be empty

@@ -22,10 +22,9 @@ struct LeaveOneOut {
   std::string mover{};       ///< the datum whose omission shifts it
 };
 
-/// Computes leave-one-out residuals and shifts, exact for a linear problem, here linearised about the solution:
-/// with the inverse covariance Q = Sigma^-1 - Sigma^-1 X (X^T Sigma^-1 X)^-1 X^T Sigma^-1 of the residuals, a datum
-/// R predicted from the others deviates by Q_RR^-1 (Q r)_R, with covariance Q_RR^-1 (Dubrule, Math. Geol. 15 (1983)
-/// 687).
+/// Computes leave-one-out residuals and shifts, exact for a linear problem, here linearised about the solution: with
+/// the inverse covariance Q = Sigma^-1 - Sigma^-1 X (X^T Sigma^-1 X)^-1 X^T Sigma^-1 of the residuals, a datum R
+/// predicted from the others deviates by Q_RR^-1 (Q r)_R, with covariance Q_RR^-1 (Dubrule, Math. Geol. 15 (1983) 687).
 /// @param constants  number of leading parameters whose shifts are evaluated
 std::vector<LeaveOneOut> leave_one_out(std::span<const Datum> data, const LeastSquaresSolution& solution,
                                        Eigen::Index constants);

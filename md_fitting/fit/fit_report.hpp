@@ -14,9 +14,8 @@ struct NamedFit {
   Fit fit;
 };
 
-/// Formats the main constants of the model (GRAY: V0, C, S, gamma0, a, g, T_m0, Delta S) with errors (1 sigma:
-/// total, noise in brackets) for all fits, which must be of one model; for GRAY the published rows of the elements
-/// follow.
+/// Formats the main constants of the model (GRAY: V0, C, S, gamma0, a, g, T_m0, Delta S) with errors (1 sigma: total,
+/// noise in brackets) for all fits, which must be of one model; for GRAY the published rows of the elements follow.
 std::string constants_table(std::span<const NamedFit> fits);
 
 /// Formats every constant with its value, error and origin: MD, measured, default or given.

@@ -30,8 +30,8 @@ struct Constant {
   std::string meaning;
   double value = 0.0;  ///< SI
   Origin origin = Origin::by_default;
-  double error =
-      0.0;  ///< 1 sigma: from noise and model error for a fitted constant, otherwise from its source; 0: unknown
+  /// 1 sigma: from noise and model error for a fitted constant, otherwise from its source; 0: unknown.
+  double error = 0.0;
   double statistical_error = 0.0;  ///< 1 sigma from the noise alone
   std::string source;              ///< for a constant that is not fitted: name of the default and its source
   Evidence evidence = Evidence::chosen;  ///< for a constant that is not fitted
@@ -44,8 +44,9 @@ struct Residual {
                          ///< "thermal_energy", "melting", "latent_heat", "liquid_density", "vapour_density"
   double volume = 0.0;
   double temperature = 0.0;
-  double abscissa =
-      0.0;  ///< temperature, up, volume, thermal energy, temperature, pressure, pressure, temperature
+  /// In the order of the quantities: temperature, up, volume, thermal energy, temperature, pressure, pressure,
+  /// temperature (both densities).
+  double abscissa = 0.0;
   double datum = 0.0;
   double fitted = 0.0;
   double sigma = 0.0;  ///< from noise and model error

@@ -12,8 +12,8 @@
 namespace whipple::fit {
 
 /// Holds fits whose constants are drawn from the normal distribution given by the covariance of a fit: an ensemble
-/// of materials. A draw that does not yield a valid material is replaced. The sources of drawn constants state that
-/// they were drawn, and the samples carry no covariance.
+/// of materials. A draw that does not yield a valid material is replaced. The sources of drawn constants record
+/// the draw, and the samples have no covariance.
 struct FitSamples {
   std::vector<Fit> fits;
   int refused = 0;  ///< draws that were replaced

@@ -12,8 +12,7 @@ namespace whipple::fit {
 
 /// Describes how well the data determine one constant.
 struct Determination {
-  double relative_error =
-      0.0;  ///< total error over the size of the constant; infinite for a constant of zero
+  double relative_error = 0.0;     ///< total error over the constant; infinite for a constant of zero
   double conditional_error = 0.0;  ///< error if all other constants were known, SI
   double inflation = 1.0;          ///< total over conditional error: 1 for an uncorrelated constant
   std::size_t partner = 0;         ///< constant of the largest correlation

@@ -36,8 +36,7 @@ struct LeastSquaresSolution {
 /// iteration does not converge, or the data leave a combination of the parameters undetermined.
 LeastSquaresSolution solve(const LeastSquaresProblem& problem);
 
-/// Holds a straight line y = intercept + slope x from ordinary least squares, for start values and simple
-/// summaries.
+/// Holds a straight line y = intercept + slope x from ordinary least squares, for start values and simple summaries.
 struct Line {
   double intercept = 0.0;
   double slope = 0.0;

@@ -98,7 +98,7 @@ std::vector<std::string> bootstrap_errors(const Fit& fit) {
 }
 
 std::string covariance_table(const Fit& fit) {
-  if (fit.fitted_names.empty()) return {};  // sample
+  if (fit.fitted_names.empty()) return {};  // a sample has no covariance
   std::vector<std::string> names;
   std::vector<std::string> si_units;
   for (const std::string& name : fit.fitted_names) {
@@ -204,7 +204,7 @@ std::string defaults_table(const Fit& fit) {
       text += fmt::format("{} = {}\n", constant.name, toml_string(constant.source));
     }
   }
-  if (fit.fitted_names.empty()) return text;  // sample
+  if (fit.fitted_names.empty()) return text;  // a sample has no covariance
   std::vector<std::string> names, units, errors, sources, unknown;
   for (const Constant& constant : fit.constants) {
     if (constant.origin != Origin::by_default) continue;
@@ -265,8 +265,7 @@ StoreOrigin store_origin(const std::filesystem::path& store, std::span<const md:
     for (const auto& [name, value] : point.provenance) values[name].insert(value);
   }
   for (const auto& [name, found] : values) {
-    if (found.size() != 1 || name == "lammps_commands")
-      continue;  // the commands are kept in the database only
+    if (found.size() != 1 || name == "lammps_commands") continue;  // kept in the database only
     const bool everywhere =
         std::all_of(points.begin(), points.end(), [&, key = name](const md::PointRecord& point) {
           return !point.done() || point.provenance.contains(key);

@@ -214,8 +214,7 @@ void compare_nuclei(Observations& data) {
 }
 
 /// Converts the isotherm of classical nuclei, and the volume at zero pressure, to those of quantum nuclei.
-/// @throws InputError if the points of the protocol do not cover the isotherm, or its states do not give a bulk
-/// modulus
+/// @throws InputError if the points of the protocol do not cover the isotherm, or its states do not give a bulk modulus
 void take_quantum_nuclei(Observations& data, const std::string& store_name) {
   if (data.quantum.empty()) return;
   const auto addition = [&](double volume) {

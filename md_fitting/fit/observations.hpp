@@ -80,9 +80,8 @@ struct NucleiPressures {
 
 /// Holds the effect of quantum nuclei on the isotherm at the reference temperature.
 struct NucleiComparison {
-  std::vector<NucleiPressures>
-      isotherm;            ///< by decreasing volume; empty without points of the protocol "quantum"
-  double expansion = 0.0;  ///< relative growth of the reference volume
+  std::vector<NucleiPressures> isotherm;  ///< by decreasing volume; empty without "quantum" points
+  double expansion = 0.0;                 ///< relative growth of the reference volume
   bool contained = false;  ///< whether the isotherm and the reference volume of the fit include it
 };
 
@@ -113,7 +112,7 @@ struct Needs {
 /// solids.
 bool is_solid(const md::PointRecord& point);
 
-/// Sorts the finished points of a store into data.
+/// Converts the finished points of a database to data.
 /// @param settings  reference temperature, and the window of particle velocities, which must contain at least three
 /// Hugoniot states
 /// @throws InputError listing every protocol whose points are missing or too few, and mixed potentials.

@@ -20,9 +20,8 @@ struct Outcome {
 /// @throws StateError if the model has none; InputError if the constants contradict each other
 Outcome outcome_of(const eos::GrayConstants& constants, const md::AdaptivePlan& wish);
 
-/// Returns d(outcome)/d(constant) from differences over about a quarter of each constant's error, the range over
-/// which the outcome should be linear. Uses one-sided differences where the outcome does not exist on the other
-/// side.
+/// Returns d(outcome)/d(constant) from differences over about a quarter of each constant's error, the range over which
+/// the outcome should be linear. Uses one-sided differences where the outcome does not exist on the other side.
 /// @param names   of GRAY's parameter table
 /// @param errors  1 sigma, > 0
 /// @throws StateError naming a constant that can be varied in neither direction

@@ -22,8 +22,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Prior scale of a parameter without data: 100 GPa and 1 MJ/kg for the intercepts of an isochore, e^100 for a
-/// constant.
+/// Prior standard deviation of a parameter without data: 100 GPa and 1 MJ/kg for the intercepts of an isochore,
+/// e^100 for a constant.
 constexpr double weak = 100.0;
 /// Minimum relative reduction of the variance for which a point is worth its cost.
 constexpr double least_gain = 1e-3;
@@ -117,10 +117,9 @@ class Planner {
     bool too_dear = false;  ///< a worthwhile candidate exceeds the remaining budget
   };
 
-  /// Returns the better of two greedy paths: each step takes the largest reduction of the variance, either in
-  /// absolute terms or per cost. Either can be misled by costs that differ a hundredfold; the better of the two is
-  /// within a bounded factor of the optimum (Krause, Guestrin, CMU CALD-05-103 (2005); Leskovec et al., Proc. KDD
-  /// 2007, 420).
+  /// Returns the better of two greedy paths: each step takes the largest reduction of the variance, either in absolute
+  /// terms or per cost. Either can be misled by costs that differ a hundredfold; the better of the two is within a
+  /// bounded factor of the optimum (Krause, Guestrin, CMU CALD-05-103 (2005); Leskovec et al., Proc. KDD 2007, 420).
   [[nodiscard]] Path best_path(double purse, double target) const {
     const Path by_gain = path(purse, target, false);
     const Path by_price = path(purse, target, true);

@@ -25,8 +25,7 @@ struct Proposal {
   std::optional<Standing> standing;
 };
 
-/// Proposes the points with the largest reduction of the error of the outcome per cost (docs/theory/fit.md, section
-/// 8).
+/// Proposes the points with the largest reduction of the error of the outcome per cost (docs/theory/fit.md, section 8).
 /// @param plan    with [adaptive]
 /// @param points  of the database; may be empty
 /// @param count   points to compute at once; a new isochore may add up to two more

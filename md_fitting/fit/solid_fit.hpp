@@ -32,8 +32,7 @@ SolidConstants fixed_solid(const Observations& data);
 
 /// Holds the starting point of a fit.
 struct SolidStart {
-  SolidConstants
-      constants;  ///< values of all constants that are not fitted; the others are estimated from the data
+  SolidConstants constants;                   ///< values that are not fitted; others are estimated
   std::optional<double> melting_temperature;  ///< T_m0; none: known at most from coexistence points
 };
 

@@ -20,8 +20,7 @@ namespace whipple::fit {
 enum class DataKind { volume, shock, isotherm, isochore, melting, fusion };
 constexpr std::size_t data_kinds = 6;
 
-/// Holds the factors of the model errors by kind of data: 1 as stated, larger where the data follow the law less
-/// well.
+/// Holds the factors of the model errors by kind of data: 1 as stated, larger where the data follow the law less well.
 struct ModelScale {
   std::array<double, data_kinds> factor = {1, 1, 1, 1, 1, 1};
   double& of(DataKind kind) { return factor[static_cast<std::size_t>(kind)]; }

@@ -28,7 +28,8 @@ using eos::GrayConstants;
 constexpr Bounds join_bounds = {.lower = 1.05, .upper = 1.45};
 constexpr double beside_the_bounds = 0.01;
 
-/// Returns the logarithms of the saturated densities, melt and vapour alternating; NaN where the model has none.
+/// Returns the logarithms of the saturated densities, melt and vapour alternating; NaN from the first temperature at
+/// which the model has none.
 VectorXd log_densities(const GrayConstants& constants, const std::vector<SaturationState>& data) {
   VectorXd values =
       VectorXd::Constant(2 * static_cast<Index>(data.size()), std::numeric_limits<double>::quiet_NaN());
@@ -202,8 +203,7 @@ std::pair<double, double> saturated_densities(const GrayConstants& constants, do
 VapourFit fit_vapour(const GrayConstants& constants, const std::vector<SaturationState>& data,
                      const ModelErrors& errors, bool inflation, const FittedBefore& before) {
   constexpr double width = join_bounds.upper - join_bounds.lower;
-  const double unknown =
-      width / std::sqrt(12.0);  // standard deviation of a uniform distribution between the bounds
+  const double unknown = width / std::sqrt(12.0);  // standard deviation of a uniform distribution
   std::string remark;
   try {
     VapourFit fit = solve_vapour(constants, data, errors, inflation, before, true);

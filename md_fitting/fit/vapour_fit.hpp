@@ -12,8 +12,7 @@
 
 namespace whipple::fit {
 
-/// Holds the attraction a_y of GRAY's vapour and, if the data determine it, the volume V_J of its join to the
-/// liquid.
+/// Holds the attraction a_y of GRAY's vapour and, if the data determine it, the volume V_J of its join to the liquid.
 struct VapourFit {
   std::vector<std::string> names;          ///< keys of GRAY's parameter table
   Eigen::VectorXd values;                  ///< SI
@@ -22,8 +21,8 @@ struct VapourFit {
   Eigen::MatrixXd sensitivity;             ///< d(value)/d(constant), for the constants fitted before
   double chi_squared = 0.0;
   int degrees_of_freedom = 0;
-  double inflation =
-      1.0;  ///< factor on the stated model errors: (chi^2/degrees of freedom)^(1/2) if that exceeds 1
+  /// Factor on the stated model errors: (chi^2/degrees of freedom)^(1/2) if that exceeds 1.
+  double inflation = 1.0;
   std::string remark;  ///< why V_J was left at its default; empty otherwise
 };
 

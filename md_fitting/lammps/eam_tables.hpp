@@ -33,8 +33,7 @@ struct EamTables {
   [[nodiscard]] double crystal_energy(double a) const;
   /// Returns the energy per atom (eV) of static hcp with the ideal axial ratio at a volume per atom (A^3).
   [[nodiscard]] double hexagonal_energy(double volume) const;
-  /// Returns the lattice constant (A) of minimum energy near that of the header (between 2 and 8 A if it gives
-  /// none).
+  /// Returns the lattice constant (A) of minimum energy near that of the header (between 2 and 8 A if it gives none).
   /// @throws InputError if there is no minimum in that interval.
   [[nodiscard]] double static_lattice_constant() const;
   /// Returns V/V0 of the static crystal, V0 at its minimum energy, at which its electron density reaches `density`;

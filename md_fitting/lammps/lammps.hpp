@@ -40,8 +40,7 @@ class Lammps {
   /// @throws LammpsError if there is no such fix.
   std::vector<std::vector<double>> series(const std::string& fix, int columns);
 
-  /// Returns a per-atom array of three components ("x", "v", "f"), ordered by atom number: x1 y1 z1 x2 ...
-  /// Collective.
+  /// Returns a per-atom array of three components ("x", "v", "f"), ordered by atom number: x1 y1 z1 x2 ... Collective.
   std::vector<double> gather(const std::string& name);
 
   /// Returns whether LAMMPS was built with a style, e.g. has_style("pair", "eam/alloy").

@@ -24,7 +24,7 @@
 namespace whipple::md {
 namespace {
 
-/// Describes a potential that the program knows by name.
+/// Describes a built-in potential.
 struct KnownPotential {
   const char* name;
   const char* element;
@@ -125,8 +125,7 @@ bool is_ascii(const std::string& text) {
 /// @return the difference from the header; empty if none
 std::string choose_structure(EamTables& tables, std::optional<CrystalStructure> stated,
                              const std::string& name) {
-  constexpr double clearly =
-      5e-3;  // eV per atom: typical difference of fcc and hcp in potentials of fcc metals
+  constexpr double clearly = 5e-3;  // eV per atom: typical difference of fcc and hcp in fcc metals
   const std::optional<CrystalStructure> header = value_of<CrystalStructure>(tables.header_structure);
   const bool cubic = header == CrystalStructure::fcc || header == CrystalStructure::bcc;
   const double header_volume = std::pow(tables.header_lattice_constant, 3) / tables.atoms_per_cell();

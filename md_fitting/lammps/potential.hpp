@@ -85,8 +85,7 @@ class Potential {
 
   /// Margin for thermal motion, which raises the density at single atoms above that of the static crystal.
   static constexpr double density_margin = 0.10;
-  /// Margin in volume for thermal motion in models with unknown electron density; that of metals grows about as
-  /// 1/V^2.
+  /// Margin in volume for thermal motion in models with unknown electron density; that of metals grows about as 1/V^2.
   static constexpr double volume_margin = 0.05;
 
  private:

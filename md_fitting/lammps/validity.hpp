@@ -16,10 +16,9 @@ struct Validity {
   std::string reason;                           ///< "hcp has less energy than fcc"
 };
 
-/// Returns the lowest pressure of the static crystal at which one of these holds: another structure (fcc, bcc, or
-/// hcp of the ideal axial ratio) has less energy at the same volume by more than 1 meV per atom; the density
-/// exceeds that to which the embedding function was fitted, where known; the limit of the admissible volumes is
-/// reached.
+/// Returns the lowest pressure of the static crystal at which one of these holds: another structure (fcc, bcc, or hcp
+/// of the ideal axial ratio) has less energy at the same volume by more than 1 meV per atom; the density exceeds that
+/// to which the embedding function was fitted, where known; the limit of the admissible volumes is reached.
 /// @param least_volume_ratio  V/V0 at which states are rejected
 Validity validity_of(const EamTables& tables, double least_volume_ratio);
 

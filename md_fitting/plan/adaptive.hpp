@@ -18,7 +18,7 @@ struct Plan;
 /// ranges from which points are chosen (docs/theory/fit.md, section 8).
 struct AdaptivePlan {
   std::string outcome;
-  /// V/V0 of the fit at the Hugoniot state of an outcome; infinite: not given
+  /// V/V0 (V0 of the fit) at the Hugoniot state of an outcome; infinite: not given.
   double volume_ratio = std::numeric_limits<double>::infinity();
   double pressure = 1e5;        ///< Pa: after release, or for the melting temperature
   double target_error = 0.0;    ///< relative, of the outcome; 0: none

@@ -80,8 +80,8 @@ std::optional<PointRecord> find_point(const std::filesystem::path& store, const 
   return std::nullopt;
 }
 
-/// Reads the state of the tasks on rank 0 and broadcasts it: 'd' done, 'c' done but to be continued, 'f' failed, '
-/// ' missing, one letter per task.
+/// Reads the state of the tasks on rank 0 and broadcasts it: 'd' done, 'c' done but to be continued, 'f'
+/// failed, blank: missing; one letter per task.
 std::string read_status(std::span<const Task> tasks, const std::filesystem::path& store,
                         MPI_Comm communicator, int rank) {
   std::string status(tasks.size(), ' ');
@@ -245,8 +245,7 @@ struct Counts {
 /// Computes the orders announced by the leader of the team, until it dismisses the team.
 void follow(std::span<const Task> tasks, const std::filesystem::path& store, const PointTeam& team) {
   while (const auto order = team.wait()) {
-    // An exception here need not occur on the leader, which waits in the point for this rank. It terminates all
-    // ranks.
+    // An exception here need not occur on the leader, which waits in the point for this rank. It terminates all ranks.
     const Task& task = tasks[static_cast<std::size_t>(order->task)];
     std::optional<PointRecord> dependency;
     if (!task.dependency.empty()) dependency = find_point(store, task.dependency);
@@ -298,9 +297,9 @@ class Leader {
   }
   [[nodiscard]] const Counts& counts() const { return counts_; }
   [[nodiscard]] double busy() const { return busy_; }  ///< s, in points
-  /// s of processor time of this rank in points, by protocol.
+  /// Returns the processor time (s) of this rank spent on points, by protocol.
   [[nodiscard]] const std::map<std::string, double>& processor_time() const { return processor_time_; }
-  /// s, waiting for other teams until now, after the last point of this one.
+  /// Returns the time (s) spent waiting for other teams, including that since the last point of this team.
   [[nodiscard]] double waiting() const { return waiting_ + seconds_since(finished_); }
 
  private:

@@ -23,8 +23,7 @@ struct CoexistenceRun {
   /// Crystal order in the least and the most ordered layer of the second half, 0 for melt, 1 for the hot crystal.
   double least_order = 0.0;
   double largest_order = 1.0;
-  Estimate
-      whole{};  ///< K, mean temperature of both halves; its error includes the slow exchange of the phases
+  Estimate whole{};  ///< K, mean temperature of both halves; the error includes the slow phase exchange
 };
 
 /// Returns the standard error of the mean temperature of crystal and melt at constant enthalpy. A run shorter than

@@ -14,8 +14,7 @@ struct CompressedStart {
 /// Returns the static crystal at a pressure (Pa) if it is shorter than that at zero pressure by more than 3 %, and
 /// that at zero pressure otherwise: a barostat can change a crystal over small distances, whereas a jump of 50 GPa
 /// heats and destroys it. Collective over the team of the point.
-/// @throws StateError if the crystal does not reach the pressure at the smallest volume of the potential, or V/V0 =
-/// 0.4
+/// @throws StateError if the crystal does not reach the pressure at the smallest volume of the potential, or V/V0 = 0.4
 CompressedStart compressed_start(const Potential& potential, double pressure);
 
 }  // namespace whipple::md

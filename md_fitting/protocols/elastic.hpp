@@ -10,9 +10,8 @@
 
 namespace whipple::md {
 
-/// Holds the elastic constants of a static cubic crystal: the coefficients of stress with respect to strain, at
-/// nonzero pressure those of Birch (Barron, Klein, Proc. Phys. Soc. 85 (1965) 523). Errors are those of the strain
-/// series.
+/// Holds the elastic constants of a static cubic crystal: the coefficients of stress with respect to strain, at nonzero
+/// pressure those of Birch (Barron, Klein, Proc. Phys. Soc. 85 (1965) 523). Errors are those of the strain series.
 struct ElasticResult {
   Estimate c11, c12, c44;        ///< Pa
   Estimate bulk_modulus;         ///< Pa

@@ -21,11 +21,10 @@ struct ReferenceState {
 ReferenceState reference_state(const PointRecord& zero_pressure);
 
 struct HugoniotSearch {
-  double first_temperature = 0.0;  ///< K; any guess; a good one saves runs
-  double specific_heat = 0.0;      ///< J/(kg K) for the first Newton steps, about 3R
-  double gruneisen = 2.0;          ///< for the first Newton steps
-  double temperature_tolerance =
-      0.02;  ///< the final run is made when two temperatures agree to this fraction
+  double first_temperature = 0.0;       ///< K; any guess; a good one saves runs
+  double specific_heat = 0.0;           ///< J/(kg K) for the first Newton steps, about 3R
+  double gruneisen = 2.0;               ///< for the first Newton steps
+  double temperature_tolerance = 0.02;  ///< relative difference of two temperatures for the final run
   int most_runs = 8;
 };
 
@@ -39,8 +38,8 @@ struct HugoniotState {
   double crystal_share = 1.0;
   bool solid = true;
   int runs = 0;
-  std::vector<double>
-      pressure_blocks{};  ///< Pa, of the final run, each shifted onto the Hugoniot; may be empty
+  /// Pa, of the final run, each shifted onto the Hugoniot; may be empty.
+  std::vector<double> pressure_blocks{};
 };
 
 /// Computes the state behind a steady shock at one specific volume: the temperature at which G(T) = E - E0 - (P +

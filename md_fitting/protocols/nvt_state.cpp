@@ -17,7 +17,7 @@
 namespace whipple::md {
 namespace {
 
-/// Fraction of the steps used in a search run, whose noise affects the next temperature but not the result.
+/// Divisor of the steps for search runs, whose noise affects the next temperature but not the result.
 constexpr std::int64_t search_share = 4;
 
 }  // namespace

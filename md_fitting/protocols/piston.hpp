@@ -33,9 +33,8 @@ PistonResult measure_piston(const Potential& potential, const ReferenceState& re
                             double reference_temperature, double particle_velocity, const PistonPlan& section,
                             std::int64_t seed);
 
-/// Returns the fraction of the listed atoms displaced transversely to the shock by more than half the shortest slip
-/// of an fcc crystal, a/sqrt(6). Uniaxial compression causes no transverse displacement; slip displaces whole
-/// regions.
+/// Returns the fraction of the listed atoms displaced transversely to the shock by more than half the shortest slip of
+/// an fcc crystal, a/sqrt(6). Uniaxial compression causes no transverse displacement; slip displaces whole regions.
 double slipped_share(std::span<const double> before, std::span<const double> after,
                      std::span<const std::size_t> atoms, double period, double lattice_constant);
 
@@ -43,8 +42,7 @@ double slipped_share(std::span<const double> before, std::span<const double> aft
 /// about 0 behind it: the outermost crossing of -velocity/2; negative if there is none.
 double front_position(std::span<const double> layer_velocity, double velocity);
 
-/// Returns the slope of y(x) over the last two thirds, with the error of the mean of the slopes of five equal
-/// parts.
+/// Returns the slope of y(x) over the last two thirds, with the error of the mean of the slopes of five equal parts.
 Estimate late_slope(std::span<const double> x, std::span<const double> y);
 
 }  // namespace whipple::md

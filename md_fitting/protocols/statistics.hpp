@@ -34,9 +34,8 @@ SeriesMean series_statistics(std::span<const double> series);
 /// @throws as `series_mean`; InternalError for different lengths.
 Estimate series_covariance(std::span<const double> first, std::span<const double> second);
 
-/// Returns weighted averages over all windows of `length` samples (Hann window: the weights fall to zero at both
-/// ends). They retain slow fluctuations, which determine the error of the mean, and suppress oscillations within a
-/// window.
+/// Returns weighted averages over all windows of `length` samples (Hann window: the weights fall to zero at both ends).
+/// They retain slow fluctuations, which determine the error of the mean, and suppress oscillations within a window.
 /// @throws InternalError for a window longer than the series, or empty.
 std::vector<double> window_averages(std::span<const double> series, std::size_t length);
 

@@ -17,8 +17,7 @@ inline constexpr double crystal_order = 0.45;
 double crystal_share(Crystal& crystal, const Potential& potential);
 
 /// Returns the fraction of crystalline atoms after minimisation to the nearest minimum of the energy at constant
-/// volume, which removes the disorder of thermal motion. About 1 in a crystal at any temperature, 0.1 to 0.2 in a
-/// melt.
+/// volume, which removes the disorder of thermal motion. About 1 in a crystal at any temperature, 0.1 to 0.2 in a melt.
 double inherent_crystal_share(Crystal& crystal, const Potential& potential);
 
 /// Returns the nearest-neighbour distance in the crystal, m.

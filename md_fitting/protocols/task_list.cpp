@@ -149,8 +149,7 @@ std::string with_validity(std::string message, const PointRecord& point) {
 
 std::string structure_remark(double crystal_share, bool solid, double displacement) {
   constexpr double lindemann = 0.2;  // crystals melt at 0.15, overheated ones without surfaces a little above
-  constexpr double whole =
-      0.9;  // a cavity or a stacking fault involves more than a tenth of a few hundred atoms
+  constexpr double whole = 0.9;      // a cavity or stacking fault involves more than a tenth of the atoms
   if (!solid) return fmt::format("the crystal melted (fraction of crystal {:.2f})", crystal_share);
   if (crystal_share < whole) {
     return fmt::format("the crystal has defects or a cavity (fraction of crystal {:.2f})", crystal_share);

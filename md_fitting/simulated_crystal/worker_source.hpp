@@ -17,8 +17,7 @@ namespace whipple::md {
 class WorkerSource final : public eos::IsochoreSource {
  public:
   /// Runs whipple-md for the lattice, whose point identifies the tables of the potential in the database.
-  /// @throws InputError if the potential cannot be used, or if the database contains two different tables of its
-  /// name
+  /// @throws InputError if the potential cannot be used, or if the database contains two different tables of its name
   WorkerSource(const eos::SimulatedConstants& constants, const std::filesystem::path& store);
 
   [[nodiscard]] double static_volume() const override { return static_volume_; }
