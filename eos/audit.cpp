@@ -18,11 +18,10 @@ namespace whipple::eos {
 namespace {
 
 // Limits, each stated in the message of its finding.
-constexpr double condensed_pressure =
-    0.1;  ///< of rho c^2: a higher pressure at rest indicates a gas or a reaction product
+constexpr double condensed_pressure = 0.1;         ///< of rho c^2: a higher pressure at rest indicates a gas
 constexpr double greatest_defect = 1e-4;           ///< of the identities in a phase
 constexpr double resting_pressure = 1e-3;          ///< of rho c^2
-constexpr double greatest_thermal_excess = 9;      ///< of rho c^2: lower limit of K_T at rest, below zero
+constexpr double greatest_thermal_excess = 9;      ///< of rho c^2: limit of -K_T at rest
 constexpr double least_compression = 1.02;         ///< smallest useful compression limit
 constexpr double modest_compression = 1.2;         ///< compression limit sufficient for impact shocks
 constexpr double least_strength = 0.01;            ///< of rho c^2: smallest useful strongest shock
@@ -343,9 +342,8 @@ class Auditor {
     }
   }
 
-  /// Checks convexity over density and temperature. In expansion K_T < 0 is not a fault: cold material fractures,
-  /// hot material boils there. Instability next to the compression limit narrows the range; elsewhere it is a
-  /// finding.
+  /// Checks convexity over density and temperature. In expansion K_T < 0 is not a fault: cold material fractures, hot
+  /// material boils there. Instability next to the compression limit narrows the range; elsewhere it is a finding.
   void check_stability() {
     const double rho0 = eos_.reference_density();
     int states = 0, unstable = 0;

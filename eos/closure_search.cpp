@@ -25,7 +25,7 @@ double squared_sound_speed(const State& s) {
   return std::isfinite(from_moduli) ? from_moduli : s.sound_speed * s.sound_speed;
 }
 /// Returns whether a component is stable: beyond its spinodal it is unstable at the common pressure; on melting
-/// isochores K_T is negative in the equation of state itself.
+/// isochores K_T is negative in the equation of state.
 bool stable(const State& s) {
   const bool melting = s.melted_fraction > 0 && s.melted_fraction < 1;
   return melting || s.isothermal_bulk_modulus > 0;

@@ -25,9 +25,9 @@ inline constexpr double greatest_compression_ratio = 10;
 ///
 /// Explicit policies at the limits:
 ///  - energy below that of `least_temperature`: T, p and c are those of that temperature, the point is
-///   counted, e is kept;
+///    counted, e is kept;
 ///  - c^2 < `least_sound_speed_ratio`^2 of the reference state (tension beyond the spinodal): c is limited to
-///   that value;
+///    that value;
 ///  - density not positive, beyond `maximum_density()`, or a non-finite value: NaN, the point is counted.
 template <Curve C>
 class ConstantHeatCapacity {

@@ -18,7 +18,7 @@ struct Response {
 
 /// Holds four densities of a model whose pressure is linear in the energy, p = A + B e with B = rho Gamma.
 struct LinearIsochore {
-  Lanes work;         ///< B/rho^2: derivative of c^2 with respect to the pressure
+  Lanes work;         ///< B/rho^2: factor of the pressure in c^2
   Lanes cold_energy;  ///< e_c
   Lanes A, A_slope;   ///< and its derivative with respect to rho
   Lanes B, B_slope;   ///< and its derivative with respect to rho

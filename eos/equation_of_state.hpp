@@ -61,8 +61,7 @@ class EquationOfState {
   virtual ~EquationOfState() = default;
 
   [[nodiscard]] virtual std::string_view model() const = 0;
-  /// Returns the density of the reference state (kg/m^3); the next two return its temperature (K) and energy
-  /// (J/kg).
+  /// Returns the density of the reference state (kg/m^3); the next two return its temperature (K) and energy (J/kg).
   [[nodiscard]] virtual double reference_density() const = 0;
   [[nodiscard]] virtual double reference_temperature() const = 0;
   [[nodiscard]] virtual double reference_energy() const = 0;
@@ -76,8 +75,7 @@ class EquationOfState {
   [[nodiscard]] virtual double relative_cost() const { return 1.0; }
   /// Returns the largest density for which the model is valid (kg/m^3).
   [[nodiscard]] virtual double maximum_density() const = 0;
-  /// Returns the lowest specific internal energy at a density (J/kg): that of the coldest state described by the
-  /// model.
+  /// Returns the lowest specific internal energy at a density (J/kg): that of the coldest state described by the model.
   [[nodiscard]] virtual double minimum_energy(double density) const = 0;
   /// Returns the lowest temperature described by the model (K); points with less energy are limited to it.
   [[nodiscard]] virtual double least_temperature() const = 0;
@@ -97,8 +95,7 @@ class EquationOfState {
   /// Returns the full state of one point.
   /// @throws StateError out of range
   [[nodiscard]] virtual State state(double density, double specific_internal_energy) const = 0;
-  /// Returns the state at a temperature. @throws StateError out of range, InputError if the model has no
-  /// temperature
+  /// Returns the state at a temperature. @throws StateError out of range, InputError if the model has no temperature
   [[nodiscard]] virtual State state_at_temperature(double density, double temperature) const = 0;
 
   /// Returns the dome of liquid and vapour in equilibrium; null if the model has none.

@@ -85,8 +85,8 @@ IdentityDefects check_identities(const EquationOfState& eos, double density, dou
     if (along_volume) {
       const double by_volume = derivative(*along_volume, &State::pressure, dVe);
       const double squared = V * V * (P * slope - by_volume);
-      // In the loop of a metastable fluid c^2 may fall below the limit of the model, which is detected by c^2 = V
-      // K_T + Gamma^2 C_v T.
+      // In the loop of a metastable fluid c^2 may fall below the limit of the model, which is detected by
+      // c^2 = V K_T + Gamma^2 C_v T.
       const double from_moduli =
           V * s.isothermal_bulk_modulus + s.gruneisen * s.gruneisen * s.heat_capacity * T;
       const double reported = s.sound_speed * s.sound_speed;

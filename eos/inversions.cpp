@@ -33,9 +33,8 @@ State checked(const State& state, double found, double asked, double scale, cons
 
 double stiffness(const State& s) { return s.density * s.sound_speed * s.sound_speed; }
 
-/// Returns the energy above `start` at which a function of the energy that is initially negative first crosses
-/// zero, with a first step of `scale`. Steps are doubled until the sign changes; a step that leaves the model is
-/// halved.
+/// Returns the energy above `start` at which a function of the energy that is initially negative first crosses zero,
+/// with a first step of `scale`. Steps are doubled until the sign changes; a step that leaves the model is halved.
 template <class Function>
 double rising_root(const Function& residual, double start, double scale, const char* what) {
   double inside = start, outside = std::numeric_limits<double>::infinity(), step = scale;

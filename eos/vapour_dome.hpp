@@ -42,8 +42,7 @@ class VapourDome {
  public:
   struct Search {
     std::function<FluidPoint(double V, double T)> fluid;
-    std::function<IsothermPoint(double V, double T)>
-        isotherm;              ///< of the same surface; the most frequent call
+    std::function<IsothermPoint(double V, double T)> isotherm;  ///< of the same surface; called most often
     double dense_volume;       ///< smaller than the volume of every saturated liquid
     double loop_volume;        ///< the loop at the critical temperature is above this volume
     double dilute_volume;      ///< larger than the vapour spinodal at the lowest temperature
@@ -60,10 +59,9 @@ class VapourDome {
   [[nodiscard]] VapourDome transformed(double factor, double energy) const;
 
   [[nodiscard]] const CriticalPoint& critical_point() const { return critical_; }
-  /// Returns the equilibrium mass fraction of vapour at given volume and energy (lever rule at the temperature at
-  /// which the mixture has both): 0 for V below the saturated liquid, 1 beyond the saturated vapour and for
-  /// supercritical fluid less dense than the critical point. Continuous; piecewise linear in E between rows of the
-  /// table.
+  /// Returns the equilibrium mass fraction of vapour at given volume and energy (lever rule at the temperature at which
+  /// the mixture has both): 0 for V below the saturated liquid, 1 beyond the saturated vapour and for supercritical
+  /// fluid less dense than the critical point. Continuous; piecewise linear in E between rows of the table.
   [[nodiscard]] double vaporised_fraction(double V, double E) const;
   /// Returns the saturation at a pressure, recomputed on the surface; none above the critical pressure or below the
   /// coldest row.

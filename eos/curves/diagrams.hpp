@@ -46,7 +46,7 @@ enum class DiagramKind {
 
 /// Computes the curves of a diagram.
 /// @param greatest  pressure (Pa) at which the curves end
-/// @param releases  shock pressures (Pa) to release from; empty: a quarter, a half and all of the greatest one
+/// @param releases  shock pressures (Pa) to release from; empty: a quarter, a half and all of `greatest`
 /// @throws InputError if the greatest pressure is not positive
 Figure diagram(DiagramKind kind, const Subjects& subjects, double greatest,
                std::vector<double> releases = {});

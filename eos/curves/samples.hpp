@@ -42,7 +42,7 @@ struct SampledHugoniot {
 };
 
 /// Computes the Hugoniots of samples of one equation of state.
-/// @param velocities        particle velocities, m/s, rising
+/// @param velocities        particle velocities, m/s, increasing
 /// @param release_pressure  Pa: end of the releases
 /// @throws InputError for fewer than two samples
 SampledHugoniot sampled_hugoniot(const Subjects& samples, const std::vector<double>& velocities,

@@ -61,8 +61,7 @@ CurveTable detonation_table(const Subjects& explosives);
 /// Tabulates isentropes of products from the Chapman-Jouguet state down to a pressure or density (default: a
 /// hundred times the volume of the explosive), with the remaining fraction of the energy of the explosive.
 CurveTable products_table(const Subjects& explosives, Variable variable, const CurveRange& range);
-/// Tabulates the interaction of the detonation wave of the first subject with each of the others at normal
-/// incidence.
+/// Tabulates the interaction of the detonation wave of the first subject with each of the others at normal incidence.
 CurveTable contact_table(const Subjects& explosive_and_inert);
 /// Tabulates Gurney velocities of driven metal over the mass ratio M/C, from 0.1 to 10 at equal ratios.
 /// @param volume  relative volume up to which the products drive the metal

@@ -40,8 +40,7 @@ struct Calibration {
 std::vector<double> measurement_errors(const Experiment& experiment, std::span<const double> slope);
 
 /// Compares the scatter over samples of an equation of state with an experiment. A point has a band if the equation of
-/// Compares the scatter over samples of an equation of state with an experiment. A point has a band if the equation
-/// of
+/// Compares the scatter over samples of an equation of state with an experiment. A point has a band if the equation of
 /// @param samples  with their initial states, two or more
 Calibration calibrate(const EquationOfState& eos, const State& initial,
                       std::span<const std::pair<const EquationOfState*, State>> samples,

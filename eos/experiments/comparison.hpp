@@ -17,10 +17,8 @@ struct Comparison {
   int points = 0;                 ///< within the range of the material
   std::vector<int> out_of_range;  ///< lines of the points outside it
   std::vector<int> porous;        ///< lines of the points with an initial density below that of the material
-  std::vector<int>
-      denser;  ///< lines of those above it: they are treated as having the density of the material
-  double rms = 0.0, mean = 0.0,
-         maximum = 0.0;  ///< `maximum`: the deviation of largest magnitude, with its sign
+  std::vector<int> denser;        ///< lines of those above it, evaluated at the density of the material
+  double rms = 0.0, mean = 0.0, maximum = 0.0;  ///< `maximum`: largest by magnitude, with its sign
 };
 
 /// Returns whether a material name denotes the measured material.

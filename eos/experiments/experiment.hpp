@@ -57,16 +57,15 @@ struct Experiment {
   bool only_its_material = false;    ///< not applicable to other materials
 };
 
-/// Reads a table (`MeasuredTable`). us and up give a Hugoniot; P and a volume or density give a Hugoniot or
-/// isentrope if the name or the comments indicate it, otherwise isotherms, with temperatures from a column if there
-/// is one; P and a bulk sound speed give sound speeds along the Hugoniot; P and a temperature without a volume give
-/// a melting line or shock temperatures, as indicated first by name, headings or comments; C and S (S2, S3) with a
-/// material in each row give a Hugoniot for each row. A comment "material: copper" specifies the measured material.
-/// Densities and specific volumes of isotherms are absolute; those of Hugoniots and isentropes are absolute if
-/// there is neither rho0 nor a row at rest (|P| up to 2 bar). V0 of the ratios of an isotherm is that at ambient
-/// temperature (298 K, or the temperature of the isotherm if it is from 273 to 323 K), unless a row at rest has
-/// V/V0 = 1 or a comment reads "V0 at 1500 K". Rows that are not compressed states, such as sound speeds (up = 0),
-/// are excluded and listed.
+/// Reads a table (`MeasuredTable`). us and up give a Hugoniot; P and a volume or density give a Hugoniot or isentrope
+/// if the name or the comments indicate it, otherwise isotherms, with temperatures from a column if there is one; P and
+/// a bulk sound speed give sound speeds along the Hugoniot; P and a temperature without a volume give a melting line or
+/// shock temperatures, as indicated first by name, headings or comments; C and S (S2, S3) with a material in each row
+/// give a Hugoniot for each row. A comment "material: copper" specifies the measured material. Densities and specific
+/// volumes of isotherms are absolute; those of Hugoniots and isentropes are absolute if there is neither rho0 nor a row
+/// at rest (|P| up to 2 bar). V0 of the ratios of an isotherm is that at ambient temperature (298 K, or the temperature
+/// of the isotherm if it is from 273 to 323 K), unless a row at rest has V/V0 = 1 or a comment reads "V0 at 1500 K".
+/// Rows that are not compressed states, such as sound speeds (up = 0), are excluded and listed.
 /// @param temperature  of an isotherm; if absent, "298K" in the file name or "298 K" in a comment, or "room
 /// temperature" (298 K)
 /// @throws InputError with file and line

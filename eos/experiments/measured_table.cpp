@@ -181,8 +181,7 @@ MeasuredTable MeasuredTable::read(const std::filesystem::path& file) {
     };
     if (line.find('\0') != std::string::npos) fail("not a text in UTF-8: it holds a zero byte (UTF-16?)");
     line = trimmed(line);
-    if (line.find_first_not_of(";,") == std::string::npos)
-      continue;  // empty, including the form written by spreadsheets
+    if (line.find_first_not_of(";,") == std::string::npos) continue;  // no cells
     if (line.front() == '#' || line.front() == '%') {
       table.comments_.push_back(trimmed(line.substr(line.find_first_of("#%") + 1)));
       continue;

@@ -36,8 +36,7 @@ enum class Quantity {
 /// "up_km_s"; or the line below the headings contains the units.
 class MeasuredTable {
  public:
-  /// Reads a table. @throws InputError with file and line: no rows, a row of different length, a unit of the wrong
-  /// kind
+  /// Reads a table. @throws InputError with file and line: no rows, a row of different length, a unit of the wrong kind
   static MeasuredTable read(const std::filesystem::path& file);
 
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
@@ -47,8 +46,7 @@ class MeasuredTable {
   /// Returns the headings verbatim, separated by ", ".
   [[nodiscard]] std::string headings() const;
 
-  /// Returns the column of a quantity; if there are several, that of the best spelling, e.g. a revised pressure
-  /// scale.
+  /// Returns the column of a quantity; if there are several, that of the best spelling, e.g. a revised pressure scale.
   [[nodiscard]] std::optional<std::size_t> find(Quantity quantity) const;
   /// Returns the quantity named by a heading, such as "us_km_s" or "P [GPa]"; none if it is not a `Quantity`.
   static std::optional<Quantity> quantity_of(const std::string& heading);

@@ -38,8 +38,7 @@ std::optional<int> integer_in(std::string_view line, std::size_t first, std::siz
   return value;
 }
 
-/// Holds a Fortran number at the beginning of a text: the E may be a D, or be missing before the sign of the
-/// exponent.
+/// Holds a Fortran number at the beginning of a text: the E may be a D, or be missing before the sign of the exponent.
 struct Real {
   double value = 0;
   std::size_t end = 0;  ///< number of characters including preceding blanks; 0: there is none

@@ -67,8 +67,7 @@ ImpedanceMatch DetonationProducts::contact(const Hugoniot& inert) const {
   if (inert.at_particle_velocity(incident.particle_velocity).state.pressure >= incident.state.pressure) {
     return match_shock(*eos_, incident, inert);
   }
-  // Expansion: gases do not reach zero pressure, so the search follows the isentrope down instead of starting
-  // there.
+  // Expansion: gases do not reach zero pressure, so the search follows the isentrope down instead of starting there.
   const auto products = [&](double p) { return isentrope_at_pressure(*eos_, incident.state, p); };
   const auto residual = [&](double p) {
     return inert.at_pressure(p).particle_velocity -

@@ -12,8 +12,7 @@ struct ShockState {
   double particle_velocity = 0;  ///< m/s, relative to the material ahead
 };
 
-/// Computes the shock Hugoniot from an initial state at rest, with the mass, momentum and energy jump conditions
-/// (L1)
+/// Computes the shock Hugoniot from an initial state at rest, with the mass, momentum and energy jump conditions (L1)
 ///   rho0 Us = rho (Us - up),  p - p0 = rho0 Us up,  e - e0 = (p + p0)(V0 - V)/2.
 class Hugoniot {
  public:

@@ -19,8 +19,7 @@ std::vector<IsentropeState> isentrope(const EquationOfState& eos, const State& s
                                       const std::vector<double>& densities);
 
 /// Follows the isentrope to a pressure on the surface of the model (a liquid may carry tension).
-/// @throws StateError if the isentrope turns around before it reaches the pressure; the message includes the
-/// location
+/// @throws StateError if the isentrope turns around before it reaches the pressure; the message includes the location
 IsentropeState isentrope_at_pressure(const EquationOfState& eos, const State& start, double pressure);
 
 /// Holds the result of a release (or isentropic compression) to a pressure.
@@ -31,8 +30,7 @@ struct Release {
   bool in_equilibrium = false;
 };
 /// Releases a state to a pressure. If the model has a liquid-vapour dome at the pressure and the initial entropy is
-/// inside it, the end is the equilibrium mixture (lever rule on the entropy, L4); otherwise
-/// `isentrope_at_pressure`.
+/// inside it, the end is the equilibrium mixture (lever rule on the entropy, L4); otherwise `isentrope_at_pressure`.
 /// @throws StateError as `isentrope_at_pressure`
 Release release(const EquationOfState& eos, const State& start, double pressure);
 

@@ -68,7 +68,7 @@ CrystalSurface::Node CrystalSurface::node_of(const SimulatedIsochore& isochore) 
     const double t = state.temperature;
     const double pressure = node.cold_pressure + heat_capacity_ * node.gruneisen * t / node.volume;
     const double energy = node.cold_energy + t * (heat_capacity_ + 0.5 * anharmonic_ * t);
-    // At given energy, an error of E is one of T, and gives an error of P = rho gamma E.
+    // At given energy, an error of E is one of T, and hence an error of P = rho gamma E.
     node.misfit =
         std::fmax(node.misfit, std::abs(state.pressure - pressure) +
                                    std::abs(node.gruneisen * (state.energy - energy) / node.volume));

@@ -56,7 +56,7 @@ class CrystalSurface {
     }
   };
 
-  /// Requests the isochore at the volume of the static crystal, which gives g.
+  /// Requests the isochore at the volume of the static crystal, which determines g.
   /// @throws StateError if there is none
   CrystalSurface(std::unique_ptr<IsochoreSource> source, const Settings& settings);
   ~CrystalSurface();
@@ -83,7 +83,7 @@ class CrystalSurface {
   std::unique_ptr<IsochoreSource> source_;
   Settings settings_;
   double static_volume_, heat_capacity_, anharmonic_ = 0.0;
-  // Lazily filled; the entries of `cells_` are published once and stay.
+  // Lazily filled; published entries of `cells_` never change.
   mutable std::mutex mutex_;
   mutable std::map<double, Node> nodes_;
   mutable std::vector<std::atomic<const Cell*>> cells_;

@@ -51,8 +51,7 @@ struct DebyeGruneisenConstants {
 /// fraction is 1 and the energies remain those of the solid.
 ///
 /// Explicit policies at the limits:
-///  - energy below that of `least_temperature` on its isochore: T is limited to it, the point is counted, E is
-/// kept;
+///  - energy below that of `least_temperature` on its isochore: T is limited to it, the point is counted, E is kept;
 ///  - c^2 < `least_sound_speed_ratio`^2 K0 V0 (expanded beyond the spinodal): c is limited to that value;
 ///  - density outside [`minimum_density()`, `maximum_density()`]: results are NaN, the point is counted.
 class DebyeGruneisen {

@@ -18,8 +18,7 @@ namespace whipple::eos {
 /// uses GrayFreeEnergy.
 ///
 /// Explicit policies at the limits:
-///  - energy below that of `least_temperature` on its isochore: T is limited to it, the point is counted, E is
-/// kept;
+///  - energy below that of `least_temperature` on its isochore: T is limited to it, the point is counted, E is kept;
 ///  - c^2 < `least_sound_speed_ratio`^2 C^2 (in the van der Waals loop, where c^2 < 0): c is limited to that value;
 ///  - equilibrium melting is followed into tension until the liquid reaches V_J; isochores beyond the solid
 ///  of that last tie line, with less energy than on it, melt isochorically (docs/theory/gray.md, section 3);

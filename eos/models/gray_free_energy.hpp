@@ -9,10 +9,9 @@
 #include "eos/vapour_dome.hpp"
 #include "src/core/base/vector_math.hpp"
 
-/// Provides the Helmholtz free energy of GRAY in closed form, phase by phase (docs/theory/gray.md, sections 2 to
-/// 4). All arguments and results are SI; V is the specific volume in m^3/kg, T is in K. Construction is cheap (a
-/// quarter of a millisecond with a given attraction), so that a fit may construct one object per trial set of
-/// constants.
+/// Provides the Helmholtz free energy of GRAY in closed form, phase by phase (docs/theory/gray.md, sections 2 to 4).
+/// All arguments and results are SI; V is the specific volume in m^3/kg, T is in K. Construction is cheap (a quarter of
+/// a millisecond with a given attraction), so that a fit may construct one object per trial set of constants.
 namespace whipple::eos {
 
 /// Holds one branch of the free energy on the isochore V: in every phase of GRAY energy and pressure are quadratic
@@ -60,8 +59,7 @@ inline BasicGrayBranch<Lanes> select_branch(LanesMask mask, const BasicGrayBranc
 }
 
 /// Returns the vapour at V > V_J, joined to a liquid whose branch at V_J is given (G20 to G25): hard spheres and
-/// attraction relative to V_J, and F_E(V) D(T) with D = P_l(V_J, T) - P_HS(V_J, T) + a_y/V_J^2 = d0 + d1 T + d2
-/// T^2.
+/// attraction relative to V_J, and F_E(V) D(T) with D = P_l(V_J, T) - P_HS(V_J, T) + a_y/V_J^2 = d0 + d1 T + d2 T^2.
 /// @param constants  with a finite attraction
 template <class Number>
 BasicGrayBranch<Number> gray_vapour_branch(const GrayConstants& constants, const GrayBranch& liquid_at_join,
@@ -118,8 +116,7 @@ class GrayFreeEnergy {
 
   /// Returns the constants with the defaults resolved and the attraction of the vapour solved.
   [[nodiscard]] const GrayConstants& constants() const { return constants_; }
-  /// Returns the smallest specific volume, where the cold pressure turns over or the shock curve nears its pole
-  /// (G29).
+  /// Returns the smallest specific volume, where the cold pressure turns over or the shock curve nears its pole (G29).
   [[nodiscard]] double least_volume() const { return least_volume_; }
   /// Returns V_J: condensed phases at and below, vapour above.
   [[nodiscard]] double join_volume() const { return join_volume_; }

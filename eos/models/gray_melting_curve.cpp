@@ -65,8 +65,7 @@ std::optional<Node> follow(const GrayFreeEnergy& f, const Node& from, double T) 
   return tangent(f, T, from.Vs + from.Vs1 * (T - from.T), from.Vl + from.Vl1 * (T - from.T));
 }
 
-/// Marches from a node by steps of a factor in T until `past` holds; returns the last point before it, to 1e-12 in
-/// T.
+/// Marches from a node by steps of a factor in T until `past` holds; returns the last point before it, to 1e-12 in T.
 Node march(const GrayFreeEnergy& f, Node at, double factor, const std::function<bool(const Node&)>& past) {
   constexpr int most_steps = 10000;  // 2 % each: longer than the curve of any material
   for (int i = 0; i < most_steps && std::abs(factor - 1) > 1e-12; ++i) {
@@ -205,7 +204,7 @@ double GrayMeltingCurve::liquid_fraction(double V, double T) const {
 }
 
 double GrayMeltingCurve::temperature(double V, double E, const GrayBand& edges) const {
-  // The energy is nearly linear in T between the edges, and increases (C_v > 0): Newton's method, kept in between.
+  // The energy is nearly linear in T between the edges, and increases (C_v > 0): Newton's method, kept within them.
   const double T1 = edges.T1, T2 = edges.T2, E1 = edges.E1, E2 = edges.E2;
   double T = std::clamp(T1 + (T2 - T1) * (E - E1) / (E2 - E1), T1, T2);
   for (int i = 0; i < 20; ++i) {

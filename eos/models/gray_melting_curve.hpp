@@ -10,8 +10,8 @@ namespace whipple::eos {
 /// temperatures (G27), docs/theory/gray.md, section 3. It extends from the state where the liquid reaches V_J, far
 /// in tension, to that where the solid reaches the compression limit. SI per unit mass.
 ///
-/// The pressure P(T) and the Gibbs energy g(T) of the coexisting phases give the free energy of every mixture, F(V,
-/// T) = g - P V, and all its properties by differentiation: the mixture is thermodynamically consistent, whatever
+/// The pressure P(T) and the Gibbs energy g(T) of the coexisting phases give the free energy of every mixture,
+/// F(V, T) = g - P V, and all its properties by differentiation: the mixture is thermodynamically consistent, whatever
 /// the interpolation error.
 class GrayMeltingCurve {
  public:

@@ -41,8 +41,7 @@ struct TabulatedIsochore {
 /// (docs/theory/equations_of_state.md, section 2.2):
 ///   compression: A(rho) of `Reference`, rho Gamma by the law;
 ///   expansion:   A = p0 + K mu, Gamma = its value at rho0.
-/// A batch reads A, C, D of c^2 = C + D e, and e_c from one table; less dense material is computed from closed
-/// forms.
+/// A batch reads A, C, D of c^2 = C + D e, and e_c from one table; less dense material is computed from closed forms.
 /// @tparam Reference  ReferencePressure operator()(double mu) const, mu = rho/rho0 - 1
 template <class Reference>
 class GruneisenSolid {

@@ -14,8 +14,8 @@ template class ConstantHeatCapacity<JwlReactantCurve>;
 
 namespace {
 
-// The pressure at rest is the small difference of two large numbers: one wrong digit shifts T0 by thousands of
-// kelvins.
+// The pressure at rest is the sum of two large terms that nearly cancel and a small one: one wrong digit shifts T0 by
+// thousands of kelvins.
 constexpr double coldest_rest = 200.0, hottest_rest = 400.0;  // K
 
 }  // namespace

@@ -80,8 +80,7 @@ inline Batch part_of(const Batch& batch, std::size_t first, std::size_t size) {
           part(batch.distension)};
 }
 
-/// Calls f(part of the batch) for chunks that fit the scratch arrays and merges the reports, with indices of the
-/// batch.
+/// Calls f(part of the batch) for chunks that fit the scratch arrays and merges the reports, with indices of the batch.
 template <class Function>
 RangeReport in_chunks(const Batch& batch, Function&& f) {
   RangeReport report;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Evaluates a batch of states of a table. Points pass through the stages block by block: four at once where their
-// data are contiguous, one by one where each reads a different location. No stage depends on the chain of look-ups
-// of a single point.
+// Evaluates a batch of states of a table. Points pass through the stages block by block: four at once where their data
+// are contiguous, one by one where each reads a different location. No stage depends on the chain of look-ups of a
+// single point.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,8 +29,7 @@ Lanes piece_of(Lanes position, Lanes n) {
   return Lanes(_mm256_round_pd(__m256d(within), _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC));
 }
 
-/// Holds the edges of the regions at the density of a point: curve 0 is e_0, the uppermost edge the top of the
-/// table.
+/// Holds the edges of the regions at the density of a point: curve 0 is e_0, the uppermost edge the top of the table.
 struct Edges {
   alignas(32) std::array<double, 12> value, slope, half_curvature;
 };

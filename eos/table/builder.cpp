@@ -178,7 +178,7 @@ TableData tabulate(const EquationOfState& eos, const TableRequest& request, cons
   }
   std::ranges::sort(fitted, {}, [](const table::FittedStrip& f) { return f.strip.begin; });
   for (table::FittedStrip& f : fitted) table::append(data, f);
-  // Only the entropy was sampled: it must be consistent with the pressure, as far as the model itself is.
+  // Only the entropy was sampled: it must be consistent with the pressure, as far as the model is.
   for (const auto& [phase, found] : verify(Table(data), eos, consistency_states)) {
     if (found.pressure > greatest_contradiction) {
       throw InputError(

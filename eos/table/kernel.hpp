@@ -71,8 +71,7 @@ inline Curves curves(const TableData& data, const TableData::Strip& strip, doubl
   return result;
 }
 
-/// Returns the edges of the regions, from the bottom to the top of a strip, with their derivatives with respect to
-/// x.
+/// Returns the edges of the regions, from the bottom to the top of a strip, with their derivatives with respect to x.
 inline Curves edges(const TableData::Strip& strip, double x, double bottom, const Curves& curves) {
   const auto last = strip.region_count;
   Curves result = curves;

@@ -9,11 +9,10 @@
 
 namespace whipple::eos {
 
-/// Implements table 301 of a SESAME material as a model (docs/theory/equations_of_state.md, section "SESAME
-/// tables"): e and p are piecewise cubic in the density and linear in the temperature, so that p is linear in e on
-/// an isochore. The energy increases with temperature at every density, including those between the densities of
-/// the table. Pressure and energy are interpolated separately: they are as consistent as the table and its
-/// resolution.
+/// Implements table 301 of a SESAME material as a model (docs/theory/equations_of_state.md, section "SESAME tables"): e
+/// and p are piecewise cubic in the density and linear in the temperature, so that p is linear in e on an isochore. The
+/// energy increases with temperature at every density, including those between the densities of the table. Pressure and
+/// energy are interpolated separately: they are as consistent as the table and its resolution.
 ///
 /// Range: densities and temperatures of the table. Where c^2 < `least_sound_speed_ratio`^2 of the reference state
 /// (van der Waals loop, tension), c is limited to that value; energies below that of the lowest temperature are

@@ -6,9 +6,8 @@
 
 #include "eos/equation_of_state.hpp"
 
-/// Defines tables of the SESAME library (Lyon and Johnson, LA-UR-92-3407, 1992): pressure, energy and Helmholtz
-/// energy on a grid of density and temperature. SI in memory; Mg/m^3, K, GPa and MJ/kg in files
-/// (docs/manual/output.md).
+/// Defines tables of the SESAME library (Lyon and Johnson, LA-UR-92-3407, 1992): pressure, energy and Helmholtz energy
+/// on a grid of density and temperature. SI in memory; Mg/m^3, K, GPa and MJ/kg in files (docs/manual/output.md).
 namespace whipple::eos {
 
 /// Holds table 301. Both axes increase strictly; values at density i and temperature j are at [j * nr + i].

@@ -34,9 +34,8 @@ struct Cut {
 struct StripTask {
   double begin, end, first_sample, last_sample;
   std::vector<Cut> cuts = {};
-  double miss_of_whole =
-      INFINITY;               ///< remaining error along y, over the request, in the strip that was halved
-  bool last_attempt = false;  ///< a non-converged fit is accepted, and appears in the verification
+  double miss_of_whole = INFINITY;  ///< error along y, over the request, in the strip that was halved
+  bool last_attempt = false;        ///< a non-converged fit is accepted, and appears in the verification
 };
 
 struct FittedStrip {

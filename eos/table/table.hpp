@@ -47,8 +47,7 @@ struct TableData {
   std::vector<Strip> strips;  ///< in the order of the density, without gaps
   std::vector<Interval> intervals;
   std::vector<double> cells;
-  /// Melted and vaporised mass fraction in units of 1/65535 at the corners of their cells, with bilinear
-  /// interpolation.
+  /// Melted and vaporised mass fraction in units of 1/65535 at the corners of their cells, with bilinear interpolation.
   std::vector<std::array<std::uint16_t, 2>> fractions;
   std::vector<std::string> phases;
 
