@@ -72,8 +72,7 @@ struct States {
   std::vector<eos::State> states;
   /// Further columns in addition to the state: shock velocities, Riemann velocities.
   std::vector<std::vector<double>> further = {};
-  std::shared_ptr<const RestoredNames> restored =
-      {};  ///< of a pickle; these states have no equation of state
+  std::shared_ptr<const RestoredNames> restored = {};  ///< from a pickle, without equation of state
 
   [[nodiscard]] std::string model() const { return eos ? std::string(eos->model()) : restored->model; }
   /// Returns the only state.
