@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bounds of the checks: docs/theory/equations_of_state.md, section 5.
+// Limits of the checks: docs/theory/equations_of_state.md, section 5.
 #include "eos/audit.hpp"
 
 #include <fmt/format.h>
@@ -17,23 +17,23 @@
 namespace whipple::eos {
 namespace {
 
-// Bounds, each named in the message of its finding.
-constexpr double condensed_pressure = 0.1;         ///< of rho c^2: more at rest is a gas or a product
+// Limits, each stated in the message of its finding.
+constexpr double condensed_pressure = 0.1;         ///< of rho c^2: a higher pressure at rest indicates a gas
 constexpr double greatest_defect = 1e-4;           ///< of the identities in a phase
 constexpr double resting_pressure = 1e-3;          ///< of rho c^2
-constexpr double greatest_thermal_excess = 9;      ///< of rho c^2: how far below zero K_T may be at rest
-constexpr double least_compression = 1.02;         ///< compression limit that is of any use
-constexpr double modest_compression = 1.2;         ///< compression limit of shocks of impact
-constexpr double least_strength = 0.01;            ///< of rho c^2: strongest shock that is of any use
+constexpr double greatest_thermal_excess = 9;      ///< of rho c^2: limit of -K_T at rest
+constexpr double least_compression = 1.02;         ///< smallest useful compression limit
+constexpr double modest_compression = 1.2;         ///< compression limit sufficient for impact shocks
+constexpr double least_strength = 0.01;            ///< of rho c^2: smallest useful strongest shock
 constexpr double modest_strength = 0.5;            ///< of rho c^2
-constexpr double greatest_velocity = 20e3;         ///< m/s: particle velocity where the search ends
-constexpr double hottest = 1e5;                    ///< K: temperature where the search ends
+constexpr double greatest_velocity = 20e3;         ///< m/s: particle velocity at the end of the search
+constexpr double hottest = 1e5;                    ///< K: temperature at the end of the search
 constexpr double modest_temperature = 3000;        ///< K
-constexpr double greatest_melting_point = 5000;    ///< K at zero pressure: no known material
-constexpr double greatest_critical_point = 25000;  ///< K: no known material
+constexpr double greatest_melting_point = 5000;    ///< K at zero pressure: exceeds all known materials
+constexpr double greatest_critical_point = 25000;  ///< K: exceeds all known materials
 constexpr double densest_matter = 25e3;            ///< kg/m^3 at rest: osmium has 22.6e3
-constexpr double slowest_detonation = 1e3;         ///< m/s: no known explosive
-constexpr double fastest_detonation = 12e3;        ///< m/s: no known explosive
+constexpr double slowest_detonation = 1e3;         ///< m/s: below all known explosives
+constexpr double fastest_detonation = 12e3;        ///< m/s: above all known explosives
 constexpr double atmosphere = 101325;              ///< Pa
 constexpr double thinnest = 1e-6;                  ///< of the reference density
 
@@ -41,14 +41,14 @@ constexpr double thinned = 1.0 / 30;  ///< of the reference density: end of the 
 
 constexpr double GPa = 1e9;
 
-/// c^2 that follows from the moduli, V K_T + Gamma^2 C_v T: it may be negative where the model holds the
-/// sound speed that it reports. NaN if a modulus is not known.
+/// Returns c^2 from the moduli, V K_T + Gamma^2 C_v T, which may be negative where the model limits its reported
+/// sound speed. NaN if a modulus is unknown.
 double squared_sound_speed(const State& s) {
   return s.isothermal_bulk_modulus / s.density + s.gruneisen * s.gruneisen * s.heat_capacity * s.temperature;
 }
 
-/// Returns what is wrong with a state of a condensed material or of a gas; empty if nothing is. Unknown quantities
-/// (NaN) are no fault.
+/// Returns the fault of a state of a condensed material or of a gas; empty if there is none. Unknown quantities
+/// (NaN) are not faults.
 std::string instability(const State& s) {
   if (!std::isfinite(s.pressure)) return "the pressure is not finite";
   if (!(s.sound_speed > 0) || !std::isfinite(s.sound_speed)) {
@@ -106,7 +106,7 @@ class Auditor {
 
   [[nodiscard]] double stiffness() const { return result_.reference.isentropic_bulk_modulus; }
 
-  /// False: nothing else can be asked.
+  /// Checks the reference state; returns false if no further check is possible.
   bool check_reference() {
     State& s = result_.reference;
     const double density = eos_.reference_density();
@@ -117,8 +117,8 @@ class Auditor {
       return false;
     }
     if (const std::string fault = instability(s); !fault.empty()) {
-      // With c^2 > 0 the flow is well posed where K_T is not positive (stiffened gases): only what is asked
-      // at constant temperature fails. Far below zero the heat capacity or the stiffness are in another unit.
+      // With c^2 > 0 the flow is well posed where K_T is not positive (stiffened gases): only queries at constant
+      // temperature fail. K_T far below zero indicates a wrong unit of heat capacity or stiffness.
       const bool flows = s.isothermal_bulk_modulus > -greatest_thermal_excess * stiffness() &&
                          s.isothermal_bulk_modulus <= 0 && s.heat_capacity > 0 && s.sound_speed > 0 &&
                          squared_sound_speed(s) > 0;
@@ -150,7 +150,7 @@ class Auditor {
     return true;
   }
 
-  /// Constants in another unit are constants of an explosive that does not exist.
+  /// Checks the detonation velocity, which is far outside the known range if constants have a wrong unit.
   void check_detonation() {
     const double velocity = chapman_jouguet(eos_).detonation_velocity;
     if (velocity >= slowest_detonation && velocity <= fastest_detonation) return;
@@ -189,7 +189,7 @@ class Auditor {
     }
   }
 
-  /// Along the principal Hugoniot to 20 km/s: stable states, rising pressure and entropy.
+  /// Checks the principal Hugoniot up to 20 km/s: stable states, increasing pressure and entropy.
   void check_hugoniot() {
     const Hugoniot hugoniot(eos_);
     ValidRange& range = result_.range;
@@ -210,7 +210,7 @@ class Auditor {
       if (!(s.state.pressure > before.state.pressure)) return "the pressure does not rise with the velocity";
       const double entropy = s.state.specific_entropy, entropy_before = before.state.specific_entropy;
       if (entropy < entropy_before - 1e-6 * (std::abs(entropy) + std::abs(entropy_before))) {
-        // Where the pressure does not depend on the energy, the shock is a ramp there and no more is wrong.
+        // Where the pressure does not depend on the energy, the shock is a ramp and nothing else is wrong.
         if (s.state.gruneisen != 0) return "the entropy falls";
         spreads_to = s.state.pressure;
       }
@@ -246,7 +246,7 @@ class Auditor {
            strength < least_strength ? least_strength : modest_strength, range.end_of_shocks);
   }
 
-  /// Heating at the reference density.
+  /// Checks heating at the reference density.
   void check_temperatures() {
     double& last = result_.range.greatest_temperature;
     while (last < hottest) {
@@ -320,7 +320,7 @@ class Auditor {
     }
   }
 
-  /// Grid over densities (from the densest: linear in compression, logarithmic to one thirtieth of the
+  /// Visits a grid of densities (from the largest: linear in compression, logarithmic down to one thirtieth of the
   /// reference density) and temperatures from 200 to 30,000 K.
   template <class Visit>
   void over_the_range(const Visit& visit) const {
@@ -336,18 +336,18 @@ class Auditor {
         try {
           visit(eos_.state_at_temperature(density, T));
         } catch (const StateError&) {
-          continue;  // outside the model, which says so
+          continue;  // outside the model, as reported by it
         }
       }
     }
   }
 
-  /// Convexity over density and temperature. In expansion K_T < 0 is no fault: cold material breaks, hot material
-  /// boils there. Instability next to the compression limit narrows the range; elsewhere it is a finding.
+  /// Checks convexity over density and temperature. In expansion K_T < 0 is not a fault: cold material fractures, hot
+  /// material boils there. Instability next to the compression limit narrows the range; elsewhere it is a finding.
   void check_stability() {
     const double rho0 = eos_.reference_density();
     int states = 0, unstable = 0;
-    double unstable_to = std::numeric_limits<double>::infinity();  ///< the limit's own unstable layer
+    double unstable_to = std::numeric_limits<double>::infinity();  ///< end of the unstable layer at the limit
     double row = 0;
     bool in_layer = true, row_is_unstable = true;
     std::string first;
@@ -384,7 +384,7 @@ class Auditor {
                                            &IdentityDefects::entropy_volume, &IdentityDefects::round_trip};
     over_the_range([&](const State& s) {
       IdentityDefects defects = check_identities(eos_, s.density, s.specific_internal_energy);
-      // A stencil across a kink of the model (a join, the edge of a table) tells of the kink: a closer look.
+      // If the stencil crosses a kink of the model (a join, the edge of a table), use a smaller step.
       if (defects.largest() > 1e-6) {
         const IdentityDefects closer = check_identities(eos_, s.density, s.specific_internal_energy, 1e-4);
         if (closer.largest() < defects.largest()) defects = closer;

@@ -65,7 +65,7 @@ const Catalogue<ModelEntry>& catalogue() {
                                              entry<Polynomial>(),
                                              entry<Murnaghan>(),
                                              entry<JwlReactant>(),
-                                             // Porous material with a crush curve of its own.
+                                             // Porous material with a built-in crush curve.
                                              entry<HolmquistJohnsonCook>(),
                                              // Liquids, gases, detonation products.
                                              entry<Tait>(),

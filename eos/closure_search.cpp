@@ -15,26 +15,26 @@ namespace {
 constexpr double tolerance = 1e-10;  ///< relative spread of pressure and temperature
 constexpr double round_off = 1e-14;  ///< of the pressure, relative to the stiffest component
 constexpr int newton_steps = 60;
-constexpr double greatest_change = 0.25;  ///< |dV_i/V_i| in one step
+constexpr double greatest_change = 0.25;  ///< |dV_i/V_i| in one step, maximum
 
 double stiffness(const State& s) { return s.density * s.sound_speed * s.sound_speed; }
-/// c^2 without the least value that models report inside a van der Waals loop.
+/// Returns c^2 without the lower limit that models apply inside a van der Waals loop.
 double squared_sound_speed(const State& s) {
   const double from_moduli =
       s.isothermal_bulk_modulus / s.density + s.gruneisen * s.gruneisen * s.heat_capacity * s.temperature;
   return std::isfinite(from_moduli) ? from_moduli : s.sound_speed * s.sound_speed;
 }
-/// Beyond its spinodal a component is unstable at the common pressure; where isochores melt, K_T is below
-/// zero in the equation of state itself.
+/// Returns whether a component is stable: beyond its spinodal it is unstable at the common pressure; on melting
+/// isochores K_T is negative in the equation of state.
 bool stable(const State& s) {
   const bool melting = s.melted_fraction > 0 && s.melted_fraction < 1;
   return melting || s.isothermal_bulk_modulus > 0;
 }
-/// Spread of p and T over the components: scales are frozen during one step.
+/// Holds the spread of p and T over the components; the scales are frozen during one step.
 struct Spread {
   double pressure = 0, temperature = 0;  ///< means
   double pressure_scale = 0, temperature_scale = 0;
-  double stiffest = 0;  ///< greatest rho c^2
+  double stiffest = 0;  ///< largest rho c^2
 
   Spread(std::span<const Component> components, const std::vector<State>& states) {
     double softest = INFINITY;
@@ -47,7 +47,7 @@ struct Spread {
     pressure_scale = std::abs(pressure) + softest;
     temperature_scale = temperature;
   }
-  /// Sum of the squared deviations from the means of `states`, in the scales of this spread.
+  /// Returns the sum of the squared deviations from the means of `states`, in the scales of this spread.
   [[nodiscard]] double measure(std::span<const Component> components,
                                const std::vector<State>& states) const {
     double P = 0, T = 0, sum = 0;
@@ -61,7 +61,7 @@ struct Spread {
     }
     return sum;
   }
-  /// @param noise  pressure (Pa) that the least digits of V and e leave open
+  /// @param noise  pressure (Pa) equivalent to the round-off of V and e
   [[nodiscard]] bool equal(const std::vector<State>& states, double noise) const {
     return std::ranges::all_of(states, [&](const State& s) {
       return std::abs(s.pressure - pressure) <= tolerance * pressure_scale + noise &&
@@ -129,14 +129,14 @@ std::optional<std::vector<State>> ClosureSearch::newton(Trial trial) {
     if (conserved && spread.equal(states, 0.0)) return states;
     if (conserved && spread.equal(states, round_off * spread.stiffest)) {
       if (last_step) return states;
-      last_step = true;  // one more step polishes, as far as the digits go
+      last_step = true;  // one more step, to round-off
     }
     last_attempt_ = fmt::format("Newton's method stopped at {:.6g} to {:.6g} Pa and {:.6g} to {:.6g} K",
                                 std::ranges::min(states, {}, &State::pressure).pressure,
                                 std::ranges::max(states, {}, &State::pressure).pressure,
                                 std::ranges::min(states, {}, &State::temperature).temperature,
                                 std::ranges::max(states, {}, &State::temperature).temperature);
-    // Common p and T such that the changes of V_i and e_i add up to what is missing (K3).
+    // Common changes of p and T such that the changes of V_i and e_i sum to the residuals (K3).
     std::vector<Response> responses;
     Response sum;
     double right_volume = missing_volume, right_energy = missing_energy;
@@ -174,14 +174,14 @@ std::optional<std::vector<State>> ClosureSearch::newton(Trial trial) {
       }
       try {
         std::vector<State> next_states = evaluate(next);
-        // A step that only restores the sums may leave the spread as it is.
+        // A step that only restores the sums need not reduce the spread.
         const double after = spread.measure(components_, next_states);
         if (!(after <= (conserved ? 1 - 0.1 * part : 1.0) * before || after <= noise)) continue;
         trial = std::move(next);
         states = std::move(next_states);
         accepted = true;
       } catch (const StateError&) {
-        // beyond a model: a shorter step
+        // Outside a model: use a shorter step.
       }
     }
     if (!accepted) {
@@ -255,7 +255,7 @@ std::optional<ClosureSearch::Trial> ClosureSearch::equal_temperature(
   } catch (const StateError&) {
     return std::nullopt;
   }
-  // Isochoric melting lies between the last two: some of the components take a part of the step.
+  // Isochoric melting is between the last two: some of the components take a fraction of the step.
   const double span = hot.excess - cold.excess;
   const double part = span > 0 ? std::clamp(-cold.excess / span, 0.0, 1.0) : 0.0;
   for (std::size_t i = 0; i < volume.size(); ++i) {
@@ -280,8 +280,8 @@ std::vector<State> ClosureSearch::others(double volume, double energy) const {
   return mixture_at_energy(rest, 1 / volume, energy).components;
 }
 
-/// At given volumes the temperature of the first component rises with its part of the energy and that of the
-/// others falls: one division of the energy makes them equal.
+/// Divides the energy: at given volumes the temperature of the first component increases with its part of the
+/// energy and that of the others decreases, so that one division makes them equal.
 std::optional<ClosureSearch::Division> ClosureSearch::divide(double log_ratio) const {
   const Component& first = components_.front();
   const double x = first.mass_fraction;
@@ -291,7 +291,7 @@ std::optional<ClosureSearch::Division> ClosureSearch::divide(double log_ratio) c
     double low = first.eos->minimum_energy(1 / V), least = 0;
     if (components_.size() == 2) least = components_[1].eos->minimum_energy(1 / V_rest);
     double high = (energy_ - (1 - x) * least) / x;
-    if (components_.size() > 2) high = std::max(high, low) + 1e7 / x;  // the others say what is too cold
+    if (components_.size() > 2) high = std::max(high, low) + 1e7 / x;  // the other components set the limit
     if (!(high > low)) return std::nullopt;                            // colder than the coldest states
     std::vector<State> rest;
     State state;
@@ -324,7 +324,7 @@ std::vector<double> ClosureSearch::divisions() const {
   constexpr double reach = 28;
   std::vector<double> grid;
   for (double u = -reach; u <= reach; u += 0.25) grid.push_back(u);
-  // A condensed component takes little energy of compression: closer around the reference densities.
+  // A condensed component stores little energy of compression: use a finer grid around the reference densities.
   double rest = 0;
   for (const Component& c : components_.subspan(1)) rest += c.mass_fraction / c.eos->reference_density();
   const double first = components_.front().mass_fraction / components_.front().eos->reference_density();
@@ -358,7 +358,7 @@ std::optional<std::vector<State>> ClosureSearch::between(Division left, Division
     const bool same = (next->difference <= 0) == (left.difference <= 0);
     (same ? left : right) = std::move(*next);
   }
-  // At the edge of melting Newton's method may swing: the bracket itself is the answer.
+  // At the edge of melting Newton's method may oscillate: the bracket is then the solution.
   const Spread spread(components_, left.states);
   if (spread.equal(left.states, 100 * round_off * spread.stiffest) && accept(left.states)) {
     return left.states;
@@ -367,8 +367,8 @@ std::optional<std::vector<State>> ClosureSearch::between(Division left, Division
 }
 
 std::optional<std::vector<State>> ClosureSearch::split() {
-  // The difference of the pressures is a continuous function of the division of the volume, positive where
-  // the first component is squeezed: every change of its sign is an equilibrium.
+  // The difference of the pressures is a continuous function of the division of the volume, positive where the
+  // first component is compressed: every sign change is an equilibrium.
   std::optional<Division> before;
   double u_before = -INFINITY;
   for (const double u : divisions()) {

@@ -12,24 +12,23 @@
 #include "eos/equation_of_state.hpp"
 #include "src/core/base/error.hpp"
 
-/// The common core of the models with a constant heat capacity (docs/theory/equations_of_state.md, section
+/// Provides the common core of the models with a constant heat capacity (docs/theory/equations_of_state.md, section
 /// 2).
 namespace whipple::eos {
 
-/// Compression limit rho/rho0 of condensed models that have no limit of their own.
+/// Compression limit rho/rho0 of condensed models without another limit.
 inline constexpr double greatest_compression_ratio = 10;
 
-/// A complete equation of state from p(rho, e) and the cold energy e_c(rho):
+/// Evaluates a complete equation of state from p(rho, e) and the cold energy e_c(rho):
 ///   T = (e - e_c)/c_v,  c^2 = (dp/drho)_e + (p/rho^2) (dp/de)_rho,  Gamma = (dp/de)_rho/rho,
 ///   s = c_v ln(T/T_s),  d ln T_s/d ln rho = Gamma,  K_T = rho [(dp/drho)_e + (dp/de)_rho de_c/drho].
 ///
-/// Policies, all named and none silent:
+/// Explicit policies at the limits:
 ///  - energy below that of `least_temperature`: T, p and c are those of that temperature, the point is
-///  counted,
-///    e is kept;
-///  - c^2 < `least_sound_speed_ratio`^2 of the reference state's (tension beyond the spinodal): c is held
-///    there;
-///  - density not positive, beyond `maximum_density()`, or anything not finite: NaN, the point is counted.
+///    counted, e is kept;
+///  - c^2 < `least_sound_speed_ratio`^2 of the reference state (tension beyond the spinodal): c is limited to
+///    that value;
+///  - density not positive, beyond `maximum_density()`, or a non-finite value: NaN, the point is counted.
 template <Curve C>
 class ConstantHeatCapacity {
  public:
@@ -37,10 +36,10 @@ class ConstantHeatCapacity {
   static constexpr std::string_view name = C::name;
   static constexpr std::string_view summary = C::summary;
   static constexpr double least_temperature = 1.0;         ///< K
-  static constexpr double least_sound_speed_ratio = 0.01;  ///< of the reference state's
+  static constexpr double least_sound_speed_ratio = 0.01;  ///< of that of the reference state
   static constexpr bool has_phases =
       requires(const C& curve, Lanes lanes) { curve.isochore(lanes).vaporised_fraction(lanes); };
-  /// p = A + B e at constant density.
+  /// Whether p = A + B e at constant density.
   static constexpr bool linear_in_energy = requires(const C& curve, Lanes lanes) {
     curve.isochore(lanes).A;
     curve.isochore(lanes).B;
@@ -58,19 +57,19 @@ class ConstantHeatCapacity {
   [[nodiscard]] double maximum_density() const { return curve_.maximum_density(); }
   [[nodiscard]] bool condensed() const { return curve_.condensed(); }
 
-  /// Energy of the coldest state at a density.
+  /// Returns the energy of the coldest state at a density.
   /// @throws StateError above the compression limit
   [[nodiscard]] double minimum_energy(double density) const {
     return state_at_temperature(density, least_temperature).specific_internal_energy;
   }
 
-  /// Energies that the pressure works on; empty: they are given.
+  /// Describes the energies updated with the work of the pressure; empty: the energies are given.
   struct Work {
     std::span<double> energy;
     std::span<const double> half_change;
   };
   RangeReport evaluate(const Batch& batch) const { return evaluate(batch, Work{}); }
-  /// See EquationOfState: here the slope of the pressure is known.
+  /// Overrides EquationOfState::integrate; here the slope of the pressure is known.
   RangeReport integrate(const Batch& batch, std::span<double> energy,
                         std::span<const double> half_change) const
     requires linear_in_energy
@@ -82,8 +81,8 @@ class ConstantHeatCapacity {
 
  private:
   static constexpr std::size_t width = 4;  ///< points of a group
-  static constexpr std::size_t block = 8;  ///< groups that pass through one step together
-  /// The curve looks its points up in a table: first where they lie, then what is there.
+  static constexpr std::size_t block = 8;  ///< groups processed together in one step
+  /// Whether the curve uses table look-ups: first the positions of the points, then the values there.
   static constexpr bool tabulated = requires { typename C::Places; };
   static auto no_places() {
     if constexpr (tabulated) {
@@ -94,7 +93,7 @@ class ConstantHeatCapacity {
   }
 
   RangeReport evaluate(const Batch& batch, const Work& work) const;
-  /// e = e_0 - h p(e) with p = A + B max(e, coldest). Where the slope is too steep, by iteration from the
+  /// Solves e = e_0 - h p(e) with p = A + B max(e, coldest). Where the slope is too steep, it iterates from the
   /// pressure before the step.
   template <class Isochore>
   static Lanes solve_work(const Isochore& isochore, Lanes without, Lanes half_change, Lanes coldest,
@@ -111,15 +110,15 @@ class ConstantHeatCapacity {
     return select(resolved, select(linear >= coldest, linear, after(coldest)), iterated);
   }
 
-  /// `n` points, a multiple of `width`; leaves the bound of the report empty. `melted` and `vaporised` may be
-  /// null, and so may `worked`, where the energies go that the pressure has worked on (it may be `energies`).
-  /// Not to be inlined or cloned: a single point must run through the very instructions of a batch.
+  /// Evaluates `n` points, a multiple of `width`; leaves the bound of the report empty. `melted` and `vaporised`
+  /// may be null, and so may `worked`, which receives the energies after the work of the pressure (it may be
+  /// `energies`). Must not be inlined or cloned: a single point must execute the same instructions as a batch.
   [[gnu::noipa]] RangeReport evaluate_whole(const double* densities, const double* energies, double* worked,
                                             const double* half_changes, double* __restrict p,
                                             double* __restrict T, double* __restrict c,
                                             double* __restrict melted, double* __restrict vaporised,
                                             std::size_t n) const;
-  /// Why a point is out of range; empty: it is not.
+  /// Returns the reason for a point being out of range; empty if it is not.
   [[nodiscard]] std::string_view broken_bound(double density, double energy) const {
     if (!(density > 0) || !std::isfinite(density)) return "density must be positive and finite";
     if (!std::isfinite(energy)) return "specific internal energy must be finite";
@@ -159,7 +158,7 @@ State ConstantHeatCapacity<C>::state(double density, double specific_internal_en
   s.gruneisen = by_energy / density;
   s.specific_entropy =
       heat * (std::log(s.temperature / reference_temperature()) - curve_.log_isentrope_temperature(density));
-  // de_c/drho: the cold curve's own work, unless the temperature is only an estimate.
+  // de_c/drho: from the work of the cold curve, unless the temperature is only an estimate.
   double cold_slope = (s.pressure - by_energy * (held - cold_energy)) / (density * density);
   if constexpr (requires { curve_.cold_energy_slope(density); }) {
     cold_slope = curve_.cold_energy_slope(density);

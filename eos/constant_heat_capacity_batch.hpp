@@ -9,7 +9,7 @@
 
 #include "eos/constant_heat_capacity.hpp"
 
-/// Evaluation of many states by the models with a constant heat capacity.
+/// Evaluates batches of states by the models with a constant heat capacity.
 namespace whipple::eos {
 
 template <Curve C>
@@ -22,7 +22,7 @@ RangeReport ConstantHeatCapacity<C>::evaluate(const Batch& batch, const Work& wo
                      batch.sound_speed.data(), melted ? batch.melted_fraction.data() : nullptr,
                      vaporised ? batch.vaporised_fraction.data() : nullptr, whole);
   if (rest > 0) {
-    // The last points, with the reference state beside them.
+    // The last points, padded with the reference state.
     using Group = std::array<double, width>;
     Group density, energy, half_change{}, p{}, T, c, melt, vapour;
     density.fill(reference_density());
@@ -79,7 +79,7 @@ RangeReport ConstantHeatCapacity<C>::evaluate_whole(const double* densities, con
       Lanes density = load(densities + i), energy = load(energies + i);
       unsigned in_range = all_lanes;
       decltype(curve_.isochore(density)) isochore;
-      // One test for the usual group, which NaN fails too; another one for its energies.
+      // One test for the usual group, which also fails for NaN; a second one for its energies.
       if (bits((density >= least_density) & (density <= greatest_density)) == all_lanes) [[likely]] {
         if constexpr (tabulated) {
           isochore = curve_.usual_isochore(density, places[g]);
@@ -129,7 +129,7 @@ RangeReport ConstantHeatCapacity<C>::evaluate_whole(const double* densities, con
         }
       }
     }
-    // The floor comes first: a NaN in the second operand stays.
+    // The floor is the first operand: a NaN in the second operand is preserved.
     for (std::size_t g = 0; g < groups; ++g) {
       double* const at = c + start + g * width;
       store(at, sqrt(maximum(least_squared, load(at))));

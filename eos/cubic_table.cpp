@@ -12,7 +12,7 @@ CubicTable::CubicTable(const std::function<double(double)>& function, double end
     pieces_.assign(static_cast<std::size_t>(n), {});
     double worst = 0;
     for (int i = 0; i < n; ++i) {
-      // Through t = 0, 1/4, 3/4, 1: divided differences.
+      // Interpolate at t = 0, 1/4, 3/4, 1 by divided differences.
       const auto at = [&](double t) { return function((i + t) * step); };
       const double f0 = at(0), f1 = at(0.25), f2 = at(0.75), f3 = at(1);
       const double d01 = (f1 - f0) / 0.25, d12 = (f2 - f1) / 0.5, d23 = (f3 - f2) / 0.25;

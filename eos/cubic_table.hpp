@@ -12,19 +12,19 @@
 
 namespace whipple::eos {
 
-/// A smooth function on [0, end] as cubics on equal intervals, for four arguments at once: each interval is
-/// one register of coefficients, so that four look-ups are four loads and a transposition. The cubic passes
-/// through the function at four Chebyshev-Lobatto points, both ends among them: continuous, error of order
+/// Approximates a smooth function on [0, end] by cubics on equal intervals, for four arguments at once: each
+/// interval is one register of coefficients, so that four look-ups are four loads and a transposition. The cubic
+/// interpolates the function at four Chebyshev-Lobatto points, including both ends: continuous, error of order
 /// step^4.
 class CubicTable {
  public:
   CubicTable() = default;
-  /// Doubles the intervals until the cubics miss the function by less than `tolerance` (in units of the
-  /// function's value plus `scale`) at points between, or until there are `most_intervals`.
+  /// Doubles the number of intervals until the error of the cubics is below `tolerance` (in units of the function
+  /// value plus `scale`) at intermediate points, or until there are `most_intervals`.
   CubicTable(const std::function<double(double)>& function, double end, double scale,
              double tolerance = 1e-13, int most_intervals = 4096);
 
-  /// Below 0 the first polynomial continues, beyond the end the last.
+  /// Evaluates the table; below 0 the first polynomial is continued, beyond the end the last.
   [[nodiscard]] Lanes operator()(Lanes x) const {
     const Lanes position = x * inverse_step_;
     const __m128i index =

@@ -7,27 +7,27 @@
 #include "src/core/base/parameter_table.hpp"
 #include "src/core/base/vector_math.hpp"
 
-/// What a model with a constant heat capacity provides: pressure and cold energy along isochores
+/// Defines the interface of a model with a constant heat capacity: pressure and cold energy along isochores
 /// (docs/theory/equations_of_state.md, section 2).
 namespace whipple::eos {
 
-/// p(rho, e), its partial derivatives and c^2, of four points.
+/// Holds p(rho, e), its partial derivatives and c^2, of four points.
 struct Response {
   Lanes pressure, by_density, by_energy, squared_sound_speed;
 };
 
-/// Four densities of a model whose pressure is linear in the energy, p = A + B e with B = rho Gamma.
+/// Holds four densities of a model whose pressure is linear in the energy, p = A + B e with B = rho Gamma.
 struct LinearIsochore {
-  Lanes work;         ///< B/rho^2: what a pressure adds to c^2
+  Lanes work;         ///< B/rho^2: factor of the pressure in c^2
   Lanes cold_energy;  ///< e_c
-  Lanes A, A_slope;   ///< and its derivative by rho
-  Lanes B, B_slope;   ///< and its derivative by rho
+  Lanes A, A_slope;   ///< and its derivative with respect to rho
+  Lanes B, B_slope;   ///< and its derivative with respect to rho
 
   [[nodiscard]] Response response(Lanes energy) const {
     const Lanes pressure = A + B * energy, by_density = A_slope + B_slope * energy;
     return {pressure, by_density, B, by_density + pressure * work};
   }
-  /// p = p_r + rho Gamma (e - e_r) with Gamma constant and a curve that does its own work, de_r = p_r/rho^2
+  /// Returns p = p_r + rho Gamma (e - e_r) with Gamma constant and an isentropic reference curve, de_r = p_r/rho^2
   /// drho.
   [[nodiscard]] static LinearIsochore on_curve(Lanes density, Lanes specific_volume, double gruneisen,
                                                Lanes pressure, Lanes slope, Lanes energy, Lanes cold_energy) {
@@ -38,7 +38,7 @@ struct LinearIsochore {
             gruneisen * density,
             broadcast(gruneisen)};
   }
-  /// Lane by lane one of two.
+  /// Selects one of two isochores lane by lane.
   [[nodiscard]] static LinearIsochore select(LanesMask first, const LinearIsochore& a,
                                              const LinearIsochore& b) {
     return {first ? a.work : b.work, first ? a.cold_energy : b.cold_energy,
@@ -47,7 +47,7 @@ struct LinearIsochore {
   }
 };
 
-/// Requires of a model its pressure (Pa) and the energy e_c(rho) (J/kg) of its coldest state, T = 0.
+/// Requires a model to provide its pressure (Pa) and the energy e_c(rho) (J/kg) of its coldest state, T = 0.
 template <class C>
 concept Curve = requires(const C& curve, Lanes lanes, double number) {
   typename C::Constants;
@@ -66,7 +66,7 @@ concept Curve = requires(const C& curve, Lanes lanes, double number) {
   { curve.reference_sound_speed() } -> std::same_as<double>;
   { curve.heat_capacity() } -> std::same_as<double>;
   { curve.maximum_density() } -> std::same_as<double>;
-  { curve.condensed() } -> std::same_as<bool>;  // false: a gas, which has no state of zero pressure
+  { curve.condensed() } -> std::same_as<bool>;  // false: a gas, which has no zero-pressure state
 };
 
 }  // namespace whipple::eos

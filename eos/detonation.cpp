@@ -12,7 +12,8 @@
 namespace whipple::eos {
 namespace {
 
-/// Products with a constant adiabatic exponent g touch at (g + 1)/g: known ones stay below 1.5.
+/// Largest compression of the search. Products with a constant adiabatic exponent g are tangent at (g + 1)/g; known
+/// ones are below 1.5.
 constexpr double greatest_compression = 10;
 constexpr double greatest_energy = 1e12;  // J/kg
 constexpr int most_doublings = 200;
@@ -28,20 +29,20 @@ ChapmanJouguet chapman_jouguet(const Products& products, const Explosive& explos
                     "J/kg are not above its pressure",
                     rho0, e0));
   }
-  // State of the Hugoniot at a density: the residual rises with e while Gamma (rho/rho0 - 1) < 2.
+  // State on the Hugoniot at a density: the residual increases with e while Gamma (rho/rho0 - 1) < 2.
   const auto hugoniot = [&](double density) {
     const double half = 0.5 * (1 / rho0 - 1 / density);
     const auto residual = [&](double e) { return e - e0 - (products(density, e).pressure + p0) * half; };
     double upper = e0 + half * released;
     for (int i = 0; residual(upper) < 0; ++i) {
       upper = e0 + 2 * (upper - e0);
-      // Not reached where the step is lost in the round-off of e0, however often it doubles.
+      // Unreachable if the step is lost in the round-off of e0, however often it is doubled.
       if (i == most_doublings || upper - e0 > greatest_energy)
         throw StateError("no Hugoniot of the products at this compression");
     }
     return products(density, find_root(residual, e0, upper, "energy on the products' Hugoniot"));
   };
-  // > 0 below the point of contact, where the flow behind the wave is supersonic.
+  // > 0 below the tangent point, where the flow behind the wave is supersonic.
   const auto contact = [&](double density) {
     const State s = hugoniot(density);
     return (s.pressure - p0) - (1 / rho0 - 1 / density) * std::pow(density * s.sound_speed, 2);

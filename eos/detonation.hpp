@@ -7,29 +7,29 @@
 
 namespace whipple::eos {
 
-/// The unreacted explosive ahead of a detonation wave, at rest (SI). Its energy counts from the zero of the
-/// products' equation of state: it holds the energy that the reaction sets free.
+/// Describes the unreacted explosive ahead of a detonation wave, at rest (SI). Its energy is relative to the zero
+/// of the products' equation of state and thus includes the heat of reaction.
 struct Explosive {
   double density;                   ///< kg/m^3
   double specific_internal_energy;  ///< J/kg
   double pressure = 0;              ///< Pa
 };
 
-/// State behind a detonation wave that moves at the least possible velocity.
+/// Holds the state behind a detonation wave of minimum velocity.
 struct ChapmanJouguet {
   double detonation_velocity;  ///< D, m/s
-  double particle_velocity;    ///< m/s, of the products in the frame of the explosive
+  double particle_velocity;    ///< m/s, of the products, relative to the explosive
   State state;                 ///< of the products
 };
 
-/// State of the products from density and specific internal energy; pressure and sound speed are used.
+/// Returns the state of the products at a density and specific internal energy; pressure and sound speed are used.
 using Products = std::function<State(double density, double specific_internal_energy)>;
 
-/// The Chapman-Jouguet state: where the Rayleigh line touches the Hugoniot of the products,
+/// Computes the Chapman-Jouguet state, where the Rayleigh line is tangent to the Hugoniot of the products,
 ///   e - e0 = (p + p0) (V0 - V)/2,  (p - p0)/(V0 - V) = (rho c)^2, D = V0 sqrt[(p - p0)/(V0 - V)]
 /// (Fickett and Davis, Detonation, 1979, section 2A; docs/theory/equations_of_state.md, section 2.5).
-/// @throws StateError if the products hold no energy to detonate or the line touches nowhere below their
-///         compression limit
+/// @throws StateError if the products have no energy to detonate or there is no point of tangency below their
+/// compression limit
 ChapmanJouguet chapman_jouguet(const Products& products, const Explosive& explosive, double maximum_density);
 
 /// Finds the Chapman-Jouguet state of products whose reference state is the unreacted explosive (jwl).

@@ -8,21 +8,21 @@
 namespace whipple::eos {
 namespace {
 
-constexpr std::size_t block_size = 64;  ///< points whose first evaluation is kept on the stack
+constexpr std::size_t block_size = 64;  ///< number of points whose first evaluation is kept on the stack
 
 template <class Value>
 std::span<Value> part(std::span<Value> of, std::size_t begin, std::size_t count) {
   return of.empty() ? of : of.subspan(begin, count);
 }
 
-/// At most `block_size` points.
+/// Integrates at most `block_size` points.
 RangeReport integrate_block(const EquationOfState& eos, const Batch& batch, std::span<double> energy,
                             std::span<const double> half_change) {
   const std::size_t n = energy.size();
   std::array<double, block_size> before, first_energy, first_pressure, distension;
   std::copy_n(energy.begin(), n, before.begin());
   std::ranges::copy(batch.distension,
-                    distension.begin());  // both evaluations begin with that before the step
+                    distension.begin());  // both evaluations start from the distension before the step
   for (std::size_t k = 0; k < n; ++k) {
     energy[k] = first_energy[k] = before[k] - half_change[k] * batch.pressure[k];
   }

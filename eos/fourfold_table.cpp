@@ -9,12 +9,12 @@ namespace whipple::eos {
 
 FourfoldTable::FourfoldTable(const Functions& below, const Functions& above, double begin, double kink,
                              double end, const Values& scale, double tolerance, int most_cells) {
-  // In long double: the powers of t lose digits against the polynomial.
+  // Use long double: the powers of t lose digits compared with the polynomial.
   std::array<long double, terms> nodes{};
   for (std::size_t i = 0; i < terms; ++i)
     nodes[i] = -0.5L * std::cos(std::numbers::pi_v<long double> * static_cast<long double>(i) / (terms - 1));
   for (int lower = 8;; lower *= 2) {
-    // A little wider than need be, and one cell at the end, so that `begin` and `end` are not on an edge.
+    // Slightly wider than necessary, with one cell more at the end, so that `begin` and `end` are not on an edge.
     const double width = (kink - begin) / lower * (1 + 1e-9);
     const int n = lower + static_cast<int>((end - kink) / width) + 1;
     cells_.assign(static_cast<std::size_t>(n), {});

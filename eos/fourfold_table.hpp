@@ -13,32 +13,32 @@
 
 namespace whipple::eos {
 
-/// Four functions of one variable that are wanted together, as polynomials of degree five on equal cells, the
-/// edge of two of which may be a kink: error of order width^6, so that the table stays in a first-level
-/// cache. A coefficient of all four functions is one register, and each of four arguments reads one run of
-/// memory. The polynomials pass through the functions at Chebyshev-Lobatto points, both ends of the cell
-/// among them, and are continuous.
+/// Approximates four functions of one variable that are evaluated together by polynomials of degree five on equal
+/// cells, with an optional kink at one cell boundary: the error is of order width^6, so that the table fits into a
+/// first-level cache. A coefficient of all four functions is one register, and each of four arguments reads
+/// contiguous memory. The polynomials interpolate the functions at Chebyshev-Lobatto points, including both ends of
+/// the cell, and are continuous.
 class FourfoldTable {
  public:
   using Values = std::array<double, 4>;
   using Functions = std::function<Values(double)>;
 
   FourfoldTable() = default;
-  /// Halves the width of the cells until the polynomials miss the functions by less than `tolerance` (in
-  /// units of the value plus `scale`) at points between, or until there are `most_cells` of them. The
-  /// functions are sampled up to one cell beyond `end`.
+  /// Halves the width of the cells until the error of the polynomials is below `tolerance` (in units of the value
+  /// plus `scale`) at intermediate points, or until there are `most_cells` of them. The functions are sampled up to
+  /// one cell beyond `end`.
   FourfoldTable(const Functions& below, const Functions& above, double begin, double kink, double end,
                 const Values& scale, double tolerance = 1e-13, int most_cells = 1024);
 
-  /// Where four arguments lie, begin <= x <= end. A step of its own: over a few groups of points first this,
-  /// then the functions, or else each group is one chain of operations too long for the processor to begin
-  /// the next ones meanwhile.
+  /// Holds the positions of four arguments, begin <= x <= end. Finding them is a separate step, done for several
+  /// groups of points before the functions are evaluated; otherwise each group is one dependency chain too long for
+  /// the processor to overlap with the next.
   struct Places {
     alignas(32) std::array<double, 4> distance;     ///< from the centre of the cell, in widths
-    alignas(32) std::array<std::uint64_t, 4> cell;  ///< bytes from the first one
+    alignas(32) std::array<std::uint64_t, 4> cell;  ///< byte offset from the first one
   };
   void find(Lanes x, Places& places) const {
-    // A sum with 3/2 2^52 is rounded to whole cells, whose number is then in the low bits.
+    // Adding 3/2 2^52 rounds to whole cells, with the cell number in the low bits.
     constexpr double rounding = 0x1.8p52;
     const Lanes from_first = x - first_;
     const Lanes rounded = from_first * per_width_ + rounding;
@@ -47,7 +47,7 @@ class FourfoldTable {
         reinterpret_cast<__m256i*>(places.cell.data()),
         _mm256_mul_epu32(_mm256_castpd_si256(__m256d(rounded)), _mm256_set1_epi64x(sizeof(Cell))));
   }
-  /// The four functions at four arguments.
+  /// Evaluates the four functions at four arguments.
   [[nodiscard]] std::array<Lanes, 4> operator()(const Places& places) const {
     const auto* const cells = reinterpret_cast<const std::byte*>(cells_.data());
     const auto at_point = [&](std::size_t i) {

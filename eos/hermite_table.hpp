@@ -9,11 +9,11 @@
 
 namespace whipple::eos {
 
-/// Quintic Hermite interpolation on a uniform grid from exact values and first and second derivatives: error
-/// of order step^6, twice continuously differentiable.
+/// Interpolates by quintic Hermite polynomials on a uniform grid of exact values and first and second derivatives:
+/// error of order step^6, twice continuously differentiable.
 class HermiteTable {
  public:
-  /// Values at one node: f, f', f''.
+  /// Holds the values at one node: f, f', f''.
   struct Node {
     double value = 0, slope = 0, curvature = 0;
   };
@@ -27,13 +27,13 @@ class HermiteTable {
     }
   }
 
-  /// Outside the grid the last polynomial continues.
+  /// Evaluates the interpolant; outside the grid the last polynomial is continued.
   [[nodiscard]] double operator()(double x) const {
     const Polynomial f = polynomial(x);
     return f.c0 + f.t * (f.c1 + f.t * (f.c2 + f.t * (f.c3 + f.t * (f.c4 + f.t * f.c5))));
   }
 
-  /// Four values at once; not bitwise those of single numbers.
+  /// Evaluates four values at once; not bitwise equal to the scalar evaluation.
   [[nodiscard]] Lanes operator()(Lanes x) const {
     const Lanes position = (x - begin_) * inverse_step_;
     const double last = static_cast<double>(nodes_.size() - 2);
@@ -61,7 +61,7 @@ class HermiteTable {
     return f + t * (f1 + t * (0.5 * f2 + t * (c3 + t * (c4 + t * c5))));
   }
 
-  /// Value and exact derivatives of the interpolant.
+  /// Returns value and exact derivatives of the interpolant.
   [[nodiscard]] Node at(double x) const {
     const Polynomial f = polynomial(x);
     const double t = f.t;
@@ -71,7 +71,7 @@ class HermiteTable {
   }
 
  private:
-  /// c0 + c1 t + ... + c5 t^5 on the interval that holds x, t in units of the step.
+  /// Holds c0 + c1 t + ... + c5 t^5 on the interval that contains x, t in units of the step.
   struct Polynomial {
     double t, c0, c1, c2, c3, c4, c5;
   };

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int reach = 4;  ///< nodes on each side of the eighth-order stencil
 
-/// States at offsets -4..4 of the stencil, or nothing if one leaves the phase or the model.
+/// Returns the states at offsets -4..4 of the stencil, or nothing if one leaves the phase or the model.
 template <class At>
 std::optional<std::array<State, 2 * reach + 1>> stencil(const At& at, std::string_view phase) {
   std::array<State, 2 * reach + 1> states;
@@ -35,7 +35,7 @@ double derivative(const std::array<State, 2 * reach + 1>& s, double State::* qua
   return sum / h;
 }
 
-/// Returns whether more points of the stencil than the middle have exactly this sound speed.
+/// Returns whether further points of the stencil, besides the middle, have exactly this sound speed.
 bool repeated(const std::array<State, 2 * reach + 1>& states, double sound_speed) {
   return std::ranges::count(states, sound_speed, &State::sound_speed) > 1;
 }
@@ -58,10 +58,10 @@ IdentityDefects check_identities(const EquationOfState& eos, double density, dou
   const double V = 1 / density, T = s.temperature, P = s.pressure;
   const double dV = step * V, dT = step * T, stiffness = density * s.sound_speed * s.sound_speed;
 
-  // (V, E): holds in every phase, also where T is a function of V alone.
+  // (V, E): valid in every phase, even where T is a function of V alone.
   const double dE = step * (std::isfinite(s.heat_capacity) ? s.heat_capacity * T
                                                            : 0.01 * std::abs(specific_internal_energy));
-  // Where a model holds the temperature (below its cold curve), the energy no longer follows from it.
+  // Where a model limits the temperature (below its cold curve), the energy is no longer a function of it.
   const bool thermal = std::isfinite(s.heat_capacity);
   const auto unclamped = [&](double rho, double e) {
     const State node = eos.state(rho, e);
@@ -73,7 +73,7 @@ IdentityDefects check_identities(const EquationOfState& eos, double density, dou
   };
   const auto along_energy =
       stencil([&](int i) { return unclamped(density, specific_internal_energy + i * dE); }, s.phase);
-  // At constant energy the cold curve's work -P dV heats the point: the step must change T by little.
+  // At constant energy the work -P dV of the cold curve heats the point: the step must change T only slightly.
   const double thermal_energy = thermal ? s.heat_capacity * T : dE / step;
   const double dVe = std::min(dV, 0.02 * thermal_energy / (std::abs(P) + 1.0));
   const auto along_volume =
@@ -85,12 +85,12 @@ IdentityDefects check_identities(const EquationOfState& eos, double density, dou
     if (along_volume) {
       const double by_volume = derivative(*along_volume, &State::pressure, dVe);
       const double squared = V * V * (P * slope - by_volume);
-      // In the loop of a metastable fluid c^2 may fall below what the model reports at least: known from
+      // In the loop of a metastable fluid c^2 may fall below the limit of the model, which is detected by
       // c^2 = V K_T + Gamma^2 C_v T.
       const double from_moduli =
           V * s.isothermal_bulk_modulus + s.gruneisen * s.gruneisen * s.heat_capacity * T;
       const double reported = s.sound_speed * s.sound_speed;
-      // Without an entropy the moduli do not tell: a held c is the same at the points beside.
+      // Without an entropy the moduli are inconclusive: a limited c is equal at adjacent points.
       const bool held = std::isnan(s.specific_entropy)
                             ? repeated(*along_energy, s.sound_speed) && repeated(*along_volume, s.sound_speed)
                             : from_moduli < 0.999999 * reported;
@@ -119,7 +119,7 @@ IdentityDefects check_identities(const EquationOfState& eos, double density, dou
     defects.bulk_modulus =
         (s.isothermal_bulk_modulus + V * slope) / (std::abs(s.isothermal_bulk_modulus) + stiffness);
   }
-  // Only a model with an entropy claims that its temperature belongs to its pressure.
+  // Consistency of temperature and pressure is required only of a model with an entropy.
   if (hotter && wider && !std::isnan(s.specific_entropy)) {
     const double by_temperature = derivative(*hotter, &State::pressure, dT);
     const double by_volume = derivative(*wider, &State::specific_internal_energy, dV);

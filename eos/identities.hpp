@@ -3,12 +3,12 @@
 
 #include "eos/equation_of_state.hpp"
 
-/// Identities that every thermodynamically consistent equation of state satisfies, checked by finite
-/// differences through the public face (docs/theory/equations_of_state.md, section 5).
+/// Checks identities that every thermodynamically consistent equation of state satisfies, by finite differences
+/// through the public interface (docs/theory/equations_of_state.md, section 5).
 namespace whipple::eos {
 
-/// Relative defects at one state; each is divided by the scale named beside it. NaN: the model does not carry
-/// a quantity, or the stencil leaves the phase of the state.
+/// Holds relative defects at one state; each is divided by the scale given after it. NaN: the model does not
+/// provide a quantity, or the stencil leaves the phase of the state.
 struct IdentityDefects {
   double pressure = State::unknown;        ///< P - [T (dP/dT)_V - (dE/dV)_T]; |P| + T |dP/dT| + |dE/dV|
   double sound_speed = State::unknown;     ///< c^2 - V^2 [P (dP/dE)_V - (dP/dV)_E]; the sum of the magnitudes
@@ -19,11 +19,11 @@ struct IdentityDefects {
   double entropy_volume = State::unknown;  ///< T (dS/dV)_E - P; |P| + rho c^2
   double round_trip = State::unknown;      ///< E(V, T(V, E)) - E; |E| + C_v T
 
-  /// The largest that is known.
+  /// Returns the largest known defect.
   [[nodiscard]] double largest() const;
 };
 
-/// Eighth-order central differences with a relative step in volume and temperature.
+/// Computes the defects by eighth-order central differences with a relative step in volume and temperature.
 /// @param step 1e-3 balances truncation and round-off for smooth models
 IdentityDefects check_identities(const EquationOfState& eos, double density, double specific_internal_energy,
                                  double step = 1e-3);

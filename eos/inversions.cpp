@@ -14,16 +14,16 @@
 namespace whipple::eos {
 namespace {
 
-/// Greatest thermal energy of the searches: far beyond any impact.
+/// Maximum thermal energy (J/kg) of the searches: far beyond any impact.
 constexpr double greatest_energy = 1e15;
-/// Least density of the searches, of the reference density.
+/// Minimum density of the searches, relative to the reference density.
 constexpr double least_density_ratio = 1e-12;
-/// Steps of ln(rho) along an isotherm: the first one, and the bounds of all.
+/// Steps of ln(rho) along an isotherm: the first one, and the limits of all.
 constexpr double first_step = 0.01, least_step = 0.002, greatest_step = 0.05;
 constexpr int root_digits = 51;
 
-/// A search that ends at a jump of the model has found no state. (Tables of a model may have steps of 1e-6 of
-/// the bulk modulus at the edges of phases.)
+/// Returns the state found, or throws if the search ended at a discontinuity of the model. (Tables of a model may
+/// have steps of 1e-6 of the bulk modulus at the edges of phases.)
 State checked(const State& state, double found, double asked, double scale, const char* quantity) {
   if (std::abs(found - asked) <= 3e-6 * (std::abs(asked) + std::abs(scale))) return state;
   throw StateError(
@@ -33,8 +33,8 @@ State checked(const State& state, double found, double asked, double scale, cons
 
 double stiffness(const State& s) { return s.density * s.sound_speed * s.sound_speed; }
 
-/// Energy above `start` at which a function of the energy that begins negative first passes zero, from a
-/// first step of `scale`. Steps double until the sign changes; one that leaves the model is halved.
+/// Returns the energy above `start` at which a function of the energy that is initially negative first crosses zero,
+/// with a first step of `scale`. Steps are doubled until the sign changes; a step that leaves the model is halved.
 template <class Function>
 double rising_root(const Function& residual, double start, double scale, const char* what) {
   double inside = start, outside = std::numeric_limits<double>::infinity(), step = scale;
@@ -99,7 +99,7 @@ State state_at_pressure_and_temperature(const EquationOfState& eos, double press
                       pressure, temperature, from.value_or(eos.reference_density()), eos.model(),
                       turns ? "turns" : "has not reached it", next.density, next.pressure));
     }
-    // Longer steps where the bulk modulus foretells the pressure, shorter ones towards a spinodal.
+    // Use longer steps where the bulk modulus predicts the pressure well, shorter ones towards a spinodal.
     const double foretold = here.isothermal_bulk_modulus * step;
     const bool smooth = std::abs(std::abs(next.pressure - here.pressure) - foretold) < 0.2 * foretold;
     step = smooth ? std::min(1.5 * step, greatest_step) : std::max(0.5 * step, least_step);
@@ -112,7 +112,7 @@ double density_at_pressure(const EquationOfState& eos, double pressure, double t
 }
 
 State state_at_pressure(const EquationOfState& eos, double density, double pressure) {
-  // p rises with e wherever the Grueneisen parameter is positive.
+  // p increases with e wherever the Grueneisen parameter is positive.
   const double coldest = eos.minimum_energy(density);
   const State cold = eos.state(density, coldest);
   const double scale = std::abs(pressure) + stiffness(cold);

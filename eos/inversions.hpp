@@ -5,30 +5,30 @@
 
 #include "eos/equation_of_state.hpp"
 
-/// States from the pairs of variables that no model answers by itself. All searches are bracketed and bounded
-/// by the model's own range (docs/theory/equations_of_state.md, section 4); SI. Where several states have the
-/// asked pair, the documented one is taken; where none has it, the error says which bound was met.
+/// Finds states from pairs of variables that no model evaluates directly. All searches are bracketed and bounded by
+/// the range of the model (docs/theory/equations_of_state.md, section 4); SI. Where several states have the
+/// requested pair, the documented one is returned; where there is none, the error names the violated bound.
 namespace whipple::eos {
 
-/// State at pressure and temperature on the isotherm's branch through a starting density: the one reached
-/// from there by compression or expansion without crossing a spinodal. From the reference density, the
-/// condensed branch (of a gas the only one); from a thin state, the vapour below the critical temperature.
-/// @param from  density to start at (kg/m^3); the reference density if nothing
+/// Returns the state at pressure and temperature on the branch of the isotherm through a starting density, reached
+/// from there by compression or expansion without crossing a spinodal. From the reference density, the condensed
+/// branch (for a gas the only one); from a dilute state, the vapour below the critical temperature.
+/// @param from  starting density (kg/m^3); the reference density if nothing
 /// @throws StateError if the isotherm turns, or the model ends, before it reaches the pressure
 State state_at_pressure_and_temperature(const EquationOfState& eos, double pressure, double temperature,
                                         std::optional<double> from = std::nullopt);
 
-/// Its density.
+/// Returns the density of `state_at_pressure_and_temperature`.
 double density_at_pressure(const EquationOfState& eos, double pressure, double temperature);
 
-/// State at pressure and density: solves p(rho, e) = pressure for e. The coldest one, where the pressure
-/// falls with the energy somewhere (Grueneisen parameter below zero).
-/// @throws StateError if the pressure lies below the coldest state at the density, or beyond the model
+/// Returns the state at pressure and density: solves p(rho, e) = pressure for e. Returns the coldest solution where
+/// the pressure decreases with energy somewhere (negative Grueneisen parameter).
+/// @throws StateError if the pressure is below that of the coldest state at the density, or beyond the model
 State state_at_pressure(const EquationOfState& eos, double density, double pressure);
 
-/// State at specific entropy and density: solves s(rho, e) = entropy for e.
-/// @throws StateError if the entropy lies below that of the coldest state at the density, beyond the model,
-/// or the model knows none
+/// Returns the state at specific entropy and density: solves s(rho, e) = entropy for e.
+/// @throws StateError if the entropy is below that of the coldest state at the density, beyond the model, or the
+/// model has no entropy
 State state_at_entropy(const EquationOfState& eos, double density, double entropy);
 
 }  // namespace whipple::eos

@@ -12,15 +12,14 @@ namespace whipple::eos {
 namespace {
 
 constexpr int most_iterations = 100;
-constexpr double energy_step =
-    1e5;  // J/kg, over which slopes are taken: exact for models linear in the energy
-constexpr double energy_raise = 1e6;     // J/kg, for a component that was tried below its cold curve
+constexpr double energy_step = 1e5;      // J/kg, difference for slopes: exact for models linear in the energy
+constexpr double energy_raise = 1e6;     // J/kg, for a component evaluated below its cold curve
 constexpr double tolerance = 1e-9;       // of pressure and energy
-constexpr double least_pressure = 1e-1;  // Pa, that is resolved beside those that cancel in a solid
-constexpr double largest_shrinkage = 0.75, largest_growth = 1.5;  // of a volume in an iteration
-constexpr double edge = 1e-9;                                     // from the compression limits
+constexpr double least_pressure = 1e-1;  // Pa, resolution against pressures that cancel in a solid
+constexpr double largest_shrinkage = 0.75, largest_growth = 1.5;  // of a volume in one iteration
+constexpr double edge = 1e-9;                                     // distance from the compression limits
 
-/// One of the two materials at all points: where it is tried, and what it answers there.
+/// Holds one of the two materials at all points: its trial states and their results.
 class Side {
  public:
   explicit Side(const EquationOfState& model)
@@ -28,7 +27,7 @@ class Side {
 
   ModifierScratch volume, energy, pressure, temperature;
 
-  /// Evaluates `count` points, and their slopes by the energy.
+  /// Evaluates `count` points, and their slopes with respect to the energy.
   void evaluate(std::size_t count) {
     ModifierScratch density, raised, raised_pressure, raised_temperature, unused;
     for (std::size_t i = 0; i < count; ++i) {
@@ -45,8 +44,8 @@ class Side {
       temperature_slope_[i] = (raised_temperature[i] - temperature[i]) / energy_step;
     }
   }
-  /// Returns whether a point was tried below the cold curve, where nothing depends on the energy; it is then
-  /// tried above.
+  /// Returns whether a point was evaluated below the cold curve, where nothing depends on the energy; its energy is
+  /// then raised above it.
   bool raise_if_cold(std::size_t i) {
     if (temperature[i] > least_temperature_ * (1.0 + edge)) return false;
     energy[i] += energy_raise + std::max(pressure[i], 0.0) * volume[i];
@@ -62,7 +61,7 @@ class Side {
     temperature[i] = wanted;
     return change;
   }
-  /// (K1) and (K2).
+  /// Returns the response of (K1) and (K2).
   [[nodiscard]] Response response(std::size_t i) const {
     const double P_e = pressure_slope_[i], T_e = temperature_slope_[i],
                  impedance = sound_speed_[i] / volume[i];
@@ -78,8 +77,7 @@ class Side {
   ModifierScratch sound_speed_, pressure_slope_, temperature_slope_;
 };
 
-/// Bounds of the volume of the first material, between which the difference of the pressures changes its
-/// sign.
+/// Holds bounds of the volume of the first material between which the difference of the pressures changes sign.
 struct Bracket {
   double lower, upper;
   [[nodiscard]] bool is_closed() const { return upper - lower <= 4e-16 * upper; }
@@ -134,7 +132,7 @@ class Solution {
   }
 
  private:
-  /// Takes one step; returns whether the point is solved.
+  /// Performs one iteration; returns whether the point is solved.
   bool advance(std::size_t i, RangeReport& report) {
     const bool cold_first = first_.raise_if_cold(i), cold_second = second_.raise_if_cold(i);
     if (cold_first || cold_second) return false;
@@ -157,7 +155,7 @@ class Solution {
       finish(i, x * p2 + (1.0 - x) * p1, T, sum);
       return true;
     }
-    // (K3): the change of the common pressure and temperature that restores volume and energy.
+    // (K3): change of the common pressure and temperature that restores volume and energy.
     const double of_volume = (1.0 - x) * r1.volume_by_pressure * p1 + x * r2.volume_by_pressure * p2;
     const double of_energy = (1.0 - x) * r1.energy_by_pressure * p1 + x * r2.energy_by_pressure * p2;
     const double p =
@@ -176,14 +174,14 @@ class Solution {
     second_.volume[i] = (V - (1.0 - x) * first_.volume[i]) / x;
     return false;
   }
-  /// Returns the temperature that both have at their volumes if they hold the energy of the point together.
+  /// Returns the common temperature of both at their volumes if together they have the energy of the point.
   [[nodiscard]] double common_temperature(std::size_t i) const {
     const double x = fraction_[i], c1 = first_.heat_capacity(i), c2 = second_.heat_capacity(i);
     const double cold = (1.0 - x) * (first_.energy[i] + shift_ - c1 * first_.temperature[i]) +
                         x * (second_.energy[i] - c2 * second_.temperature[i]);
     return (batch_.specific_internal_energy[i] - cold) / ((1.0 - x) * c1 + x * c2);
   }
-  /// (K4)
+  /// Stores the results of (K4).
   void finish(std::size_t i, double pressure, double temperature, const Response& sum) const {
     const double V = 1.0 / batch_.density[i], determinant = sum.determinant();
     const double P_e = -sum.volume_by_temperature / determinant,

@@ -13,8 +13,7 @@
 
 namespace whipple::eos {
 
-/// Requires of a model a plain struct of constants with a parameter table, and functions on points and
-/// batches.
+/// Requires a model to be a plain struct of constants with a parameter table, and functions on points and batches.
 template <class M>
 concept Model = requires(const M& model, const Batch& batch, double number) {
   typename M::Constants;
@@ -33,7 +32,7 @@ concept Model = requires(const M& model, const Batch& batch, double number) {
   { M::least_temperature } -> std::convertible_to<double>;
 };
 
-/// Puts the run-time face on a model: one virtual call per batch.
+/// Adapts a model to the run-time interface: one virtual call per batch.
 template <Model M>
 class ModelEquationOfState final : public EquationOfState {
  public:

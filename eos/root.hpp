@@ -5,9 +5,9 @@
 
 namespace whipple::eos {
 
-/// Root of a continuous function between two points at which it has opposite signs (or is zero), by the
+/// Finds the root of a continuous function between two points with values of opposite sign (or zero), by the
 /// bracketing method TOMS 748 of Boost.Math; at most 200 evaluations.
-/// @param digits  bits of the result that are asked for
+/// @param digits  required bits of the result
 /// @throws StateError if the signs are equal or a value is NaN; `what` names the quantity in the message
 double find_root(const std::function<double(double)>& function, double from, double to, const char* what,
                  int digits = 48);

@@ -15,7 +15,7 @@ namespace whipple::eos {
 namespace {
 
 constexpr int scan_points = 240;
-/// sqrt(1 - T/T_c) of the hottest row: T = 0.9999 T_c
+/// sqrt(1 - T/T_c) of the hottest row: T = 0.9999 T_c.
 constexpr double least_distance = 0.01;
 
 double spaced(double from, double to, int i, int n) {
@@ -28,8 +28,7 @@ double gibbs(const FluidPoint& p, double V, double T) { return p.energy - T * p.
 
 VapourDome::VapourDome(const Search& search)
     : search_(search), critical_(whipple::eos::critical_point(search)) {
-  // V_l and V_v leave the critical point like sqrt(1 - T/T_c): rows uniform in that distance keep them
-  // smooth.
+  // Near the critical point V_l and V_v vary like sqrt(1 - T/T_c): rows uniform in that distance keep them smooth.
   const double far = std::sqrt(1 - search_.least_reduced_temperature);
   rows_.reserve(search_.rows);
   for (int i = 0; i < search_.rows; ++i) {
@@ -64,8 +63,7 @@ LoopPoint steepest_point(const VapourDome::Search& search, double T) {
 }
 
 CriticalPoint critical_point(const VapourDome::Search& search) {
-  // The first temperature without a loop, from below: hotter isotherms may fall again at the join of the
-  // model.
+  // Find the lowest temperature without a loop: hotter isotherms may decrease again at the join of the model.
   const auto steepness = [&](double T) { return steepest_point(search, T).steepness; };
   const double lowest = search.temperature_guess / 6, highest = 6 * search.temperature_guess;
   double low = lowest, high = 0;
@@ -93,8 +91,8 @@ CriticalPoint critical_point(const VapourDome::Search& search) {
 Saturation saturation(const VapourDome::Search& search, double T, double volume_in_loop) {
   const auto slope = [&](double V) { return search.isotherm(V, T).pressure_by_volume; };
   const auto pressure = [&](double V) { return search.isotherm(V, T).pressure; };
-  // From a volume in the loop outwards to the first volume where P falls again: the
-  // spinodals of this loop, also if the model's join makes another one elsewhere.
+  // Search from a volume in the loop outwards to the first volume where P decreases again: the spinodals of this
+  // loop, even if the join of the model causes another loop elsewhere.
   const auto spinodal = [&](double outer) {
     double inside = volume_in_loop;
     bool in_loop = slope(inside) >= 0;
@@ -124,7 +122,7 @@ Saturation saturation(const VapourDome::Search& search, double T, double volume_
     return find_root([&](double V) { return pressure(V) / p - 1; }, vapour_spinodal,
                      std::max(ideal, 2 * vapour_spinodal), "volume of the saturated vapour");
   };
-  // Gibbs energy of the liquid minus that of the vapour falls with P, d(dG)/dP = V_l - V_v < 0.
+  // The Gibbs energy of the liquid minus that of the vapour decreases with P, d(dG)/dP = V_l - V_v < 0.
   const auto difference = [&](double log_pressure) {
     const double p = std::exp(log_pressure);
     const double Vl = liquid_volume(p), Vv = vapour_volume(p);
@@ -155,7 +153,7 @@ Saturation VapourDome::saturation_at(double temperature) const {
 }
 
 double VapourDome::vaporised_fraction(double V, double E) const {
-  // Fraction that the volume asks for at a row, and the energy of that mixture; continued linearly out of the
+  // Fraction required by the volume at a row, and the energy of that mixture, extrapolated linearly out of the
   // dome.
   const auto colder = [&](const TieLine& s) {
     const double x = s.fraction(V);
@@ -163,7 +161,7 @@ double VapourDome::vaporised_fraction(double V, double E) const {
   };
   const TieLine& coldest = tie_lines_.front();
   if (V <= coldest.liquid_volume) return 0.0;
-  // The last row that lies in the dome at V with less energy than E.
+  // Last row inside the dome at V with less energy than E.
   const auto next = std::partition_point(tie_lines_.begin(), tie_lines_.end(), colder);
   if (next == tie_lines_.begin()) return std::clamp(coldest.fraction(V), 0.0, 1.0);
   const TieLine& below = *(next - 1);

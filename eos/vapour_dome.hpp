@@ -7,20 +7,20 @@
 
 namespace whipple::eos {
 
-/// A fluid at (V, T), SI per mass.
+/// Holds a fluid state at (V, T), SI per unit mass.
 struct FluidPoint {
   double pressure = 0;
   double energy = 0;
   double entropy = 0;
 };
 
-/// Its isotherm: pressure and slope.
+/// Holds a point of an isotherm: pressure and slope.
 struct IsothermPoint {
   double pressure = 0;
   double pressure_by_volume = 0;  ///< (dP/dV)_T
 };
 
-/// Liquid and vapour in equilibrium (equal T, P and Gibbs energy), SI per mass.
+/// Holds liquid and vapour in equilibrium (equal T, P and Gibbs energy), SI per unit mass.
 struct Saturation {
   double temperature = 0;
   double pressure = 0;
@@ -28,7 +28,7 @@ struct Saturation {
   double liquid_energy = 0, vapour_energy = 0;
   double liquid_entropy = 0, vapour_entropy = 0;
 
-  /// Enthalpy of vaporisation, J/kg
+  /// Returns the enthalpy of vaporisation, J/kg.
   [[nodiscard]] double latent_heat() const { return temperature * (vapour_entropy - liquid_entropy); }
 };
 
@@ -36,16 +36,16 @@ struct CriticalPoint {
   double temperature = 0, pressure = 0, specific_volume = 0, energy = 0;
 };
 
-/// Liquid-vapour dome of a pressure surface with a van der Waals loop, by Maxwell's construction on a grid of
-/// temperatures (docs/theory/gray.md, section 5). Immutable after construction.
+/// Computes the liquid-vapour dome of a pressure surface with a van der Waals loop, by Maxwell's construction on a
+/// grid of temperatures (docs/theory/gray.md, section 5). Immutable after construction.
 class VapourDome {
  public:
   struct Search {
     std::function<FluidPoint(double V, double T)> fluid;
-    std::function<IsothermPoint(double V, double T)> isotherm;  ///< of the same surface, called most
-    double dense_volume;                                        ///< denser than every saturated liquid
-    double loop_volume;        ///< the loop at the critical temperature lies above this volume
-    double dilute_volume;      ///< thinner than the vapour's spinodal at the least temperature
+    std::function<IsothermPoint(double V, double T)> isotherm;  ///< of the same surface; called most often
+    double dense_volume;       ///< smaller than the volume of every saturated liquid
+    double loop_volume;        ///< the loop at the critical temperature is above this volume
+    double dilute_volume;      ///< larger than the vapour spinodal at the lowest temperature
     double gas_constant;       ///< R/M: P V -> R T/M for V -> infinity
     double temperature_guess;  ///< critical temperature, within a factor of 6
     int rows = 320;
@@ -54,22 +54,21 @@ class VapourDome {
   /// @throws InputError if the surface has no critical point within the search
   explicit VapourDome(const Search& search);
 
-  /// The dome of the surface whose volumes, energies and entropies are `factor` times as large, the energies
-  /// then `energy` more (J/kg).
+  /// Returns the dome of the surface with volumes, energies and entropies multiplied by `factor`, and the energies
+  /// then increased by `energy` (J/kg).
   [[nodiscard]] VapourDome transformed(double factor, double energy) const;
 
   [[nodiscard]] const CriticalPoint& critical_point() const { return critical_; }
-  /// Equilibrium mass fraction of vapour at given volume and energy (lever rule at the temperature at which
-  /// the mixture has both): 0 for V below the saturated liquid, 1 beyond the saturated vapour and for
-  /// supercritical fluid thinner than the critical point. Continuous; piecewise linear in E between rows of
-  /// the table.
+  /// Returns the equilibrium mass fraction of vapour at given volume and energy (lever rule at the temperature at which
+  /// the mixture has both): 0 for V below the saturated liquid, 1 beyond the saturated vapour and for supercritical
+  /// fluid less dense than the critical point. Continuous; piecewise linear in E between rows of the table.
   [[nodiscard]] double vaporised_fraction(double V, double E) const;
-  /// Saturation at a pressure, recomputed on the surface; none above the critical pressure or below the
+  /// Returns the saturation at a pressure, recomputed on the surface; none above the critical pressure or below the
   /// coldest row.
   [[nodiscard]] std::optional<Saturation> at_pressure(double pressure) const;
-  /// Saturation at a temperature; none above the critical temperature or below the coldest row.
+  /// Returns the saturation at a temperature; none above the critical temperature or below the coldest row.
   [[nodiscard]] std::optional<Saturation> at_temperature(double temperature) const;
-  /// Rows of the table, coldest first.
+  /// Returns the rows of the table, coldest first.
   [[nodiscard]] const std::vector<Saturation>& rows() const { return rows_; }
 
  private:
@@ -78,7 +77,7 @@ class VapourDome {
   Search search_;
   CriticalPoint critical_;
   std::vector<Saturation> rows_;
-  /// Holds the volumes and energies of a row for the lever rule (SI, per mass).
+  /// Holds the volumes and energies of a row for the lever rule (SI, per unit mass).
   struct TieLine {
     double liquid_volume, inverse_width, liquid_energy, energy_width;
     [[nodiscard]] double fraction(double V) const { return (V - liquid_volume) * inverse_width; }
@@ -87,21 +86,21 @@ class VapourDome {
   std::vector<TieLine> tie_lines_;
 };
 
-// What the dome is made of, for whoever needs a part of it only.
+// Steps of the construction, for separate use.
 
-/// Where an isotherm rises most steeply: the volume of the greatest V^2 (dP/dV)_T beyond `loop_volume`, and
-/// that value (J/kg), which is positive below the critical temperature and zero at it.
+/// Holds the point of steepest increase of an isotherm: the volume of the maximum of V^2 (dP/dV)_T beyond
+/// `loop_volume`, and that value (J/kg), which is positive below the critical temperature and zero at it.
 struct LoopPoint {
   double volume = 0, steepness = 0;
 };
 LoopPoint steepest_point(const VapourDome::Search& search, double temperature);
 
-/// The first temperature, from below, at which the loop has vanished.
+/// Returns the lowest temperature at which the loop has vanished.
 /// @throws InputError if there is none within a factor of 6 of the guess
 CriticalPoint critical_point(const VapourDome::Search& search);
 
-/// Maxwell's construction at a temperature; the volume lies in the loop of the isotherm.
-/// @throws InputError without a loop, StateError if the saturation pressure is out of the search
+/// Performs Maxwell's construction at a temperature; the volume must be in the loop of the isotherm.
+/// @throws InputError without a loop, StateError if the saturation pressure is outside the search range
 Saturation saturation(const VapourDome::Search& search, double temperature, double volume_in_loop);
 
 }  // namespace whipple::eos

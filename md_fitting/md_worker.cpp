@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// whipple-md: computes what is missing of a plan of molecular-dynamics points, alone or under mpirun.
+// whipple-md: computes the missing points of a molecular-dynamics plan, alone or under mpirun.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <mpi.h>
@@ -41,7 +41,7 @@ struct Options {
   bool verbose = false;
 };
 
-/// Rank 0 tries the store, all ranks learn the outcome.
+/// Checks on rank 0 that the database is writable and broadcasts the result to all ranks.
 void require_writable_on_all(const std::filesystem::path& store, int rank) {
   std::string fault;
   if (rank == 0) {
@@ -58,7 +58,7 @@ void require_writable_on_all(const std::filesystem::path& store, int rank) {
   if (length > 0) throw InputError(fault);
 }
 
-/// Tells what the missing points are expected to cost, and whether that is more than the plan allows.
+/// Reports the expected cost of the missing points, and whether it exceeds the limit of the plan.
 void report_estimate(const Plan& plan, const std::vector<Task>& tasks, const Potential& potential,
                      const std::filesystem::path& store) {
   std::set<std::string> present;
@@ -79,7 +79,7 @@ void report_estimate(const Plan& plan, const std::vector<Task>& tasks, const Pot
   }
 }
 
-/// Tells before the work what a fit of GRAY will not find in the store, and where it will come from.
+/// Reports, before the work, which data a fit of GRAY will not find in the database, and their alternative source.
 void report_what_a_fit_lacks(const Plan& plan) {
   const bool melts = !plan.coexistences.empty();
   const bool boils =
@@ -105,7 +105,7 @@ void report_what_a_fit_lacks(const Plan& plan) {
             fmt::join(defaults, ", "));
 }
 
-/// Tells what the points have cost.
+/// Reports the cost of the points.
 void report_time(const CampaignSummary& summary, const Plan& plan) {
   const double used = total(summary.processor_time);
   if (used == 0.0) return;
@@ -141,7 +141,7 @@ void report(const CampaignSummary& summary, const std::string& store) {
   }
 }
 
-/// The critical point, once a plan has enough points for it.
+/// Reports the critical point if the plan has enough points for it.
 void report_critical_point(const std::filesystem::path& store) {
   const std::vector<Saturation> points = saturations(read_store(store));
   if (points.size() < 3) return;
@@ -164,8 +164,8 @@ int run_plan(const Options& options) {
   plan.folder = std::filesystem::absolute(plan.folder.empty() ? "." : plan.folder);
   const std::filesystem::path store = std::filesystem::absolute(options.store);
   const EmptyWorkingFolder working_folder;
-  // Errors of the potential, or of states outside its range, are errors of the plan; with a damaged potential LAMMPS
-  // loses the atoms of a crystal that flies apart.
+  // Errors of the potential, or of states outside its range, are errors of the plan; with a damaged potential
+  // LAMMPS loses the atoms of a disintegrating crystal.
   const auto of_plan = [&](const auto& call) {
     try {
       return call();
@@ -177,7 +177,7 @@ int run_plan(const Options& options) {
     }
   };
   Potential potential = of_plan([&] {
-    // The remaining word, least_energy, states none.
+    // The remaining word, least_energy, specifies none.
     return Potential::load(plan.potential, plan.element, plan.folder,
                            value_of<CrystalStructure>(plan.structure), {plan.pair_style, plan.pair_coeff});
   });
@@ -238,7 +238,7 @@ int body(int argc, char** argv) {
   app.add_flag("--retry-failed", options.retry_failed, "Compute points again that failed in an earlier call");
   app.add_flag("--describe", options.describe,
                "Print every key of a plan with unit, range, default and meaning");
-  // Of md_fitting/simulated_crystal: its points are for a material of the model md, and no fit.
+  // Used by md_fitting/simulated_crystal, whose points are for a material of the model md, not for a fit.
   app.add_flag("--of-material", options.of_material, "Say nothing of a fit")->group("");
   app.add_flag("--quiet", options.quiet, "Warnings and errors only");
   app.add_flag("--verbose", options.verbose, "More detail");
@@ -262,8 +262,8 @@ int body(int argc, char** argv) {
   return run_plan(options);
 }
 
-/// Ends all ranks with an error: it need not reach the others, which may wait for this one. Rank 0 meets most errors too,
-/// and prints them; another one only if the first does not end it soon.
+/// Terminates all ranks with an error, since it need not reach the others, which may wait for this one. Rank 0
+/// encounters most errors as well and prints them; another rank prints only if rank 0 does not terminate it soon.
 void end_all_ranks(int rank, const std::exception& error) {
   if (rank != 0) std::this_thread::sleep_for(std::chrono::seconds(2));
   fmt::print(stderr, "{}\n", message_for_user("whipple-md", error));

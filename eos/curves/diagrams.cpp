@@ -14,7 +14,7 @@ namespace whipple::eos::curves {
 namespace {
 
 constexpr int curve_points = 160;
-/// Lowest pressure of the logarithmic diagram.
+/// Lowest pressure (Pa) of the logarithmic diagram.
 constexpr double lowest_pressure = 1e5;
 
 /// Collects curves of states into a figure on two quantities of a state.
@@ -23,7 +23,7 @@ class Diagram {
   Diagram(Figure& figure, const Subject& subject, int colour)
       : figure_(&figure), subject_(&subject), colour_(colour) {}
 
-  /// One curve over a parameter; points where the model has no state are left out.
+  /// Adds one curve over a parameter; points where the model has no state are omitted.
   void add(const std::string& label, LineStyle style, const std::vector<double>& values,
            const std::function<State(double)>& state) {
     FigureCurve curve{label, subject_->name, {}, {}, colour_, style};
@@ -37,7 +37,7 @@ class Diagram {
     if (!curve.x.empty()) figure_->curves.push_back(std::move(curve));
   }
 
-  /// Isentrope from the reference state up to a pressure.
+  /// Adds the isentrope from the reference state up to a pressure.
   void add_isentrope(const std::string& label, LineStyle style, const std::vector<double>& pressures) {
     const EquationOfState& eos = *subject_->eos;
     State last = eos.state(eos.reference_density(), eos.reference_energy());
@@ -47,7 +47,7 @@ class Diagram {
     });
   }
 
-  /// Release from a shocked state, in equilibrium where liquid and vapour are.
+  /// Adds the release from a shocked state, in equilibrium where liquid and vapour coexist.
   void add_release(LineStyle style, const State& shocked, const std::vector<double>& pressures) {
     add("release", style, pressures, [&](double pressure) {
       return release(*subject_->eos, shocked, std::min(pressure, shocked.pressure)).end.state;
@@ -79,7 +79,7 @@ std::vector<double> geometric(double from, double to, int points) {
   return values;
 }
 
-/// Isotherm over pressures, each point from the one before.
+/// Returns the isotherm as a function of pressure; each point starts from the previous one.
 std::function<State(double)> isotherm(const EquationOfState& eos, double T) {
   return [&eos, T, density = std::optional<double>()](double pressure) mutable {
     const State s = state_at_pressure_and_temperature(eos, pressure, T, density);
@@ -100,7 +100,7 @@ void shock_velocities(Figure& figure, const Subject& subject, int colour, double
     try {
       add(curve, hugoniot.at_pressure(p));
     } catch (const StateError&) {
-      break;  // the model ends
+      break;  // the range of the model ends
     }
   }
   figure.curves.push_back(curve);
@@ -164,7 +164,7 @@ void temperatures(Diagram& diagram, const EquationOfState& eos, double greatest,
   diagram.add_isentrope("isentrope", LineStyle::dashdot,
                         spaced(std::max(0.0, hugoniot.initial().pressure), greatest, curve_points));
   for (const double p : releases) {
-    // Denser towards low pressures, where the vapour forms.
+    // Use closer points at low pressures, where the vapour forms.
     std::vector<double> pressures;
     for (const double x : spaced(1, 0, curve_points)) pressures.push_back(p * x * x * x + lowest_pressure);
     diagram.add_release(LineStyle::thin, hugoniot.at_pressure(p).state, pressures);
@@ -185,7 +185,7 @@ void densities(Diagram& diagram, const EquationOfState& eos, double greatest,
   if (dome == nullptr) return;
   const CriticalPoint& critical = dome->critical_point();
   std::vector<double> branch;  // up the liquid, down the vapour: negative pressures
-  // The densities meet at the critical point like square roots: points closer to each other towards it.
+  // The densities merge at the critical point like square roots: use closer points towards it.
   std::vector<double> pressures;
   for (const double x : spaced(1, 0, curve_points))
     pressures.push_back(critical.pressure * std::pow(lowest_pressure / critical.pressure, x * x));

@@ -11,16 +11,16 @@ namespace whipple::eos::curves {
 
 enum class LineStyle { solid, dashed, dotted, dashdot, thin, marks };
 
-/// A line, or separate points.
+/// Holds a line, or separate points.
 struct FigureCurve {
-  std::string label;         ///< what it is: "Hugoniot", or the name of the measurements
-  std::string material;      ///< of which material; measurements have none
+  std::string label;         ///< "Hugoniot", or the name of the measurements
+  std::string material;      ///< name of the material; empty for measurements
   std::vector<double> x, y;  ///< in the units of the axes
-  int colour = 0;            ///< number in the palette; curves of one material share it
+  int colour = 0;            ///< index in the palette; the same for all curves of one material
   LineStyle style = LineStyle::solid;
 };
 
-/// A range about a curve, in the units of the axes.
+/// Holds a range about a curve, in the units of the axes.
 struct FigureBand {
   std::string label;
   std::vector<double> x, lower, upper;
@@ -29,14 +29,14 @@ struct FigureBand {
 
 struct Figure {
   std::string title;
-  Column x, y;  ///< what the axes show
+  Column x, y;  ///< quantities on the axes
   bool logarithmic_x = false, logarithmic_y = false;
   std::vector<FigureCurve> curves;
   std::vector<FigureCurve> points;  ///< measurements
   std::vector<FigureBand> bands;
 };
 
-/// Diagrams of several loci.
+/// Lists the diagrams of several loci.
 enum class DiagramKind {
   shock_velocity,        ///< us-up: principal Hugoniots with their melting range
   pressure_volume,       ///< p-v: Hugoniot, isotherm, cold curve
@@ -46,7 +46,7 @@ enum class DiagramKind {
 
 /// Computes the curves of a diagram.
 /// @param greatest  pressure (Pa) at which the curves end
-/// @param releases  shock pressures (Pa) to release from; empty: a quarter, a half and all of the greatest one
+/// @param releases  shock pressures (Pa) to release from; empty: a quarter, a half and all of `greatest`
 /// @throws InputError if the greatest pressure is not positive
 Figure diagram(DiagramKind kind, const Subjects& subjects, double greatest,
                std::vector<double> releases = {});

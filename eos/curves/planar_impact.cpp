@@ -8,7 +8,7 @@
 namespace whipple::eos::curves {
 namespace {
 
-/// Calls a function; nothing where the model ends before.
+/// Calls a function; returns nothing if the range of the model is exceeded.
 template <class Function>
 auto unless_beyond(const Function& function) -> std::optional<decltype(function())> {
   try {

@@ -7,23 +7,23 @@
 
 namespace whipple::eos::curves {
 
-/// One side of an impact.
+/// Holds one side of an impact.
 struct ImpactSide {
   State shocked;
-  std::optional<State> released;  ///< to zero pressure; none if the model ends before
+  std::optional<State> released;  ///< to zero pressure; none outside the range of the model
 };
 
-/// A planar impact, from the equations of state alone.
+/// Holds a planar impact, computed from the equations of state alone.
 struct PlanarImpact {
   double pressure = 0.0;                        ///< Pa, behind both shocks
   double interface_velocity = 0.0;              ///< m/s
-  std::optional<double> free_surface_velocity;  ///< m/s, of the target; none if the model ends before
+  std::optional<double> free_surface_velocity;  ///< m/s, of the target; none outside the range of the model
   ImpactSide projectile, target;
 };
 
 /// Computes the planar impact of a projectile with a velocity (m/s) on a target at rest, both from their reference
 /// states.
-/// @throws StateError if a model ends before both pressures agree
+/// @throws StateError if the range of a model ends before the pressures are equal
 PlanarImpact planar_impact(const EquationOfState& projectile, const EquationOfState& target, double velocity);
 
 }  // namespace whipple::eos::curves

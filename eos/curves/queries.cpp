@@ -14,7 +14,7 @@ State state_of(const EquationOfState& eos, const StateQuery& q) {
   if (given == 0) return eos.state(eos.reference_density(), eos.reference_energy());
   if (given == 2 && q.density && q.temperature) return eos.state_at_temperature(*q.density, *q.temperature);
   if (given == 2 && q.density && q.energy) {
-    const State state = eos.state(*q.density, *q.energy);  // of the coldest state, if there is less energy
+    const State state = eos.state(*q.density, *q.energy);  // of the coldest state, if the energy is lower
     if (const double least = eos.minimum_energy(*q.density); *q.energy < least) {
       throw StateError(fmt::format(
           "{}: no state with {:.6g} J/kg at {:.6g} kg/m^3: the coldest one, of {} K, has {:.6g} J/kg",

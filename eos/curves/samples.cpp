@@ -10,7 +10,7 @@
 namespace whipple::eos::curves {
 namespace {
 
-/// One quantity of the table: its column, and what it is of a shock.
+/// Describes one quantity of the table: its column, and its evaluation for a shock.
 struct Quantity {
   Column column;
   double (*value)(const ShockState& shock, const State* released);
@@ -85,13 +85,13 @@ SampledHugoniot sampled_hugoniot(const Subjects& samples, const std::vector<doub
         try {
           released = release(eos, shock.state, release_pressure).end.state;
         } catch (const StateError&) {
-          // The model ends on the way: the fractions after release of this sample do not count.
+          // The range of the model is exceeded: the fractions after release of this sample are not counted.
         }
         for (std::size_t k = 0; k < quantities().size(); ++k) {
           rows[i][k].add(quantities()[k].value(shock, released ? &*released : nullptr));
         }
       } catch (const StateError&) {
-        break;  // beyond the sample's range: its higher velocities do not count
+        break;  // beyond the range of the sample: its higher velocities are not counted
       }
     }
     add_thresholds(eos, release_pressure, thresholds);

@@ -10,7 +10,7 @@
 
 namespace whipple::eos::curves {
 
-/// Mean and standard deviation of a number over samples; what is not finite does not count.
+/// Accumulates mean and standard deviation of a number over samples; non-finite values are ignored.
 class Scatter {
  public:
   void add(double value);
@@ -19,14 +19,14 @@ class Scatter {
   }
   [[nodiscard]] int count() const { return count_; }
   [[nodiscard]] double mean() const;       ///< NaN without values
-  [[nodiscard]] double deviation() const;  ///< NaN with less than two values
+  [[nodiscard]] double deviation() const;  ///< NaN with fewer than two values
 
  private:
   int count_ = 0;
   double mean_ = 0.0, squares_ = 0.0;
 };
 
-/// A shock pressure (Pa) at which something begins or is complete.
+/// Holds a shock pressure (Pa) at which a transition begins or is complete.
 struct Threshold {
   std::string text;  ///< "melting behind the shock begins at"
   Scatter pressure;
@@ -36,13 +36,13 @@ struct Threshold {
 struct SampledHugoniot {
   /// Mean and standard deviation over the samples at equal particle velocities: shock velocity, pressure, density,
   /// temperature, melted fraction behind the shock, melted and vaporised fraction after release. At each velocity
-  /// the samples that have a state there count; the last column says how many.
+  /// only samples with a state there are used; the last column holds their number.
   CurveTable table;
   std::vector<Threshold> thresholds;  ///< of melting and vaporisation, behind the shock and after release
 };
 
 /// Computes the Hugoniots of samples of one equation of state.
-/// @param velocities        particle velocities, m/s, rising
+/// @param velocities        particle velocities, m/s, increasing
 /// @param release_pressure  Pa: end of the releases
 /// @throws InputError for fewer than two samples
 SampledHugoniot sampled_hugoniot(const Subjects& samples, const std::vector<double>& velocities,

@@ -33,7 +33,7 @@ CurveTable table_of(const std::string& title, const Subjects& subjects, std::vec
   return table;
 }
 
-/// Puts columns before those of a state.
+/// Inserts columns before those of a state.
 std::vector<Column> before_state(std::vector<Column> columns) {
   columns.insert(columns.end(), state_columns().begin(), state_columns().end());
   return columns;
@@ -48,8 +48,8 @@ CurveRow shock_row(const EquationOfState& eos, const ShockState& s) {
   return row_of(eos, s.state, {s.particle_velocity, s.shock_velocity});
 }
 
-/// Adds the rows of a curve over values. A model that ends on the way ends the curve; one that has no row at all is an
-/// error.
+/// Adds the rows of a curve over values. The curve is truncated where the model is no longer valid; a model without
+/// any row is an error.
 template <class Row>
 void fill(Series& series, const std::vector<double>& values, const Row& row) {
   for (const double value : values) {
@@ -63,7 +63,7 @@ void fill(Series& series, const std::vector<double>& values, const Row& row) {
   }
 }
 
-/// Adds an isentrope at equal ratios of density from its start.
+/// Adds an isentrope at equal ratios of density, beginning at its start.
 void add_isentrope(Series& series, const EquationOfState& eos, const State& start, double last_density,
                    int points) {
   std::vector<double> densities;

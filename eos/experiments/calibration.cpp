@@ -25,7 +25,7 @@ bool over_volume(ExperimentKind kind) {
          kind == ExperimentKind::shock_pressure;
 }
 
-/// rms deviation of points from the quadratic of least squares through them, n - 3.
+/// Returns the rms deviation of points from their least-squares quadratic, with n - 3 degrees of freedom.
 double scatter_about_quadratic(const std::vector<double>& x, const std::vector<double>& y) {
   constexpr std::size_t coefficients = 3;
   if (x.size() <= coefficients) {

@@ -17,7 +17,7 @@ bool is_hugoniot(ExperimentKind kind) {
          kind == ExperimentKind::sound_speed || kind == ExperimentKind::shock_temperature;
 }
 
-/// The model's density that a point of a volume scale means.
+/// Returns the density of the model that corresponds to a point of a volume scale.
 double density_of(VolumeScale scale, double abscissa, double reference) {
   return scale == VolumeScale::density ? abscissa : reference / abscissa;
 }
@@ -53,7 +53,7 @@ std::vector<double> curve(const EquationOfState& eos, const State& initial, cons
       try {
         values.push_back(function(i, points.abscissa[i]));
       } catch (const StateError&) {
-        values.push_back(nan);  // outside the material's range: counted by the caller
+        values.push_back(nan);  // outside the range of the material; counted by the caller
       }
     }
   };

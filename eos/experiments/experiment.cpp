@@ -21,9 +21,9 @@ namespace whipple::eos::experiments {
 namespace {
 
 constexpr double room_temperature = 298.0;  // K
-constexpr double rest_pressure = 2e5;       // Pa; 1 bar is no load here, also where it is rounded
+constexpr double rest_pressure = 2e5;       // Pa; 1 bar, also if rounded, counts as unloaded
 
-/// Whether the file name or a comment holds a word.
+/// Returns whether the file name or a comment contains a word.
 bool says(const MeasuredTable& table, const char* pattern) {
   const std::regex word(pattern, std::regex::icase);
   if (std::regex_search(table.file().stem().string(), word)) return true;
@@ -64,14 +64,14 @@ double isotherm_temperature(const MeasuredTable& table) {
                   table.file().string()));
 }
 
-/// Row at rest, 1 bar and its rounding included; of several the first.
+/// Returns the row at rest, including 1 bar and its rounding; the first if there are several.
 std::optional<std::size_t> rest_row(const std::vector<double>& pressure) {
   const auto found = std::ranges::find_if(pressure, [](double p) { return std::abs(p) <= rest_pressure; });
   if (found == pressure.end()) return std::nullopt;
   return static_cast<std::size_t>(found - pressure.begin());
 }
 
-/// Volumes of the rows.
+/// Holds the volumes of the rows.
 struct Volumes {
   VolumeScale scale = VolumeScale::ratio;
   std::vector<double> values;            ///< V/V0 or densities
@@ -80,7 +80,7 @@ struct Volumes {
   std::optional<std::size_t> reference;  ///< row of V0
 };
 
-/// The column of volumes or densities as it is, with `values` as volumes (ratios; m^3 per atom or per kg).
+/// Holds the column of volumes or densities, with `values` as volumes (ratios; m^3 per atom or per kg).
 struct VolumeColumn {
   Quantity quantity;
   std::vector<double> values, relative_error;
@@ -104,7 +104,7 @@ VolumeColumn volume_column(const MeasuredTable& table) {
                   table.file().string(), table.headings()));
 }
 
-/// V/V0 by the stated initial density, else by the row at rest; without both, densities.
+/// Returns V/V0 from the stated initial density, otherwise from the row at rest; without either, densities.
 Volumes relative_volumes(const MeasuredTable& table, const std::vector<double>& pressure) {
   VolumeColumn column = volume_column(table);
   Volumes volumes{VolumeScale::ratio, std::move(column.values), std::move(column.relative_error), 0.0, {}};
@@ -133,7 +133,7 @@ Volumes relative_volumes(const MeasuredTable& table, const std::vector<double>& 
   return volumes;
 }
 
-/// Volumes of an isotherm: densities and specific volumes are absolute, as the model's are.
+/// Returns the volumes of an isotherm: densities and specific volumes are absolute, as those of the model.
 Volumes isothermal_volumes(const MeasuredTable& table, const std::vector<double>& pressure) {
   VolumeColumn column = volume_column(table);
   if (column.quantity == Quantity::volume_ratio || column.quantity == Quantity::atomic_volume)
@@ -142,7 +142,7 @@ Volumes isothermal_volumes(const MeasuredTable& table, const std::vector<double>
   return {VolumeScale::density, std::move(column.values), std::move(column.relative_error), 0.0, {}};
 }
 
-/// Temperature of V0 of an isotherm's ratios, and how it is known.
+/// Returns the temperature of V0 for the ratios of an isotherm, and records its origin.
 double reference_temperature(const MeasuredTable& table, Experiment& experiment, const Volumes& volumes,
                              const std::vector<double>& pressure, const std::vector<double>& temperatures) {
   if (volumes.reference) return temperatures[*volumes.reference];
@@ -165,7 +165,7 @@ double reference_temperature(const MeasuredTable& table, Experiment& experiment,
   return room_temperature;
 }
 
-/// Why a row is no measurement of a compressed state; empty: it is one.
+/// Returns the reason why a row is not a measurement of a compressed state; empty if it is one.
 std::string_view fault(const Experiment& experiment, double x, double y) {
   if (!std::isfinite(x) || !std::isfinite(y)) return "a value is missing or no number";
   switch (experiment.kind) {
@@ -200,7 +200,7 @@ std::string_view fault(const Experiment& experiment, double x, double y) {
   return "";
 }
 
-/// A measured quantity of every row with its standard deviations; no errors: no such column.
+/// Holds a measured quantity of every row with its standard deviations; without errors if there is no such column.
 struct Measured {
   std::vector<double> values, errors;
 };
@@ -213,8 +213,8 @@ Measured measured(const Volumes& volumes) {
   return of;
 }
 
-/// Takes over the rows that are measurements of a compressed state, by rising abscissa.
-/// @param temperatures  of the rows of an isotherm; the other kinds have none
+/// Copies the rows that are measurements of a compressed state, by increasing abscissa.
+/// @param temperatures  of the rows of an isotherm; empty for the other kinds
 void set_points(Experiment& experiment, const MeasuredTable& table, const Measured& abscissa,
                 const Measured& ordinate, const std::vector<double>& temperatures = {}) {
   std::vector<std::size_t> order;
@@ -252,8 +252,8 @@ void set_points(Experiment& experiment, const MeasuredTable& table, const Measur
   }
 }
 
-/// Whether P and T without a volume are those of a Hugoniot; else of a melting line. The first mention counts: in the
-/// name, the headings, the comments.
+/// Returns whether P and T without a volume are those of a Hugoniot rather than a melting line. The first mention
+/// counts, in the name, the headings, the comments.
 bool is_shock_temperature(const MeasuredTable& table) {
   static const std::regex word("(hugoniot|shock temperature)|melt|solidus|liquidus", std::regex::icase);
   const std::string heading = table.headings();
@@ -272,7 +272,7 @@ bool is_shock_temperature(const MeasuredTable& table) {
                   table.file().string()));
 }
 
-/// An isotherm, or a table of pressure, volume and temperature.
+/// Sets up an isotherm, or a table of pressure, volume and temperature.
 void set_isotherm(Experiment& experiment, const MeasuredTable& table, std::optional<double> temperature) {
   experiment.kind = ExperimentKind::isotherm;
   const Measured pressure = measured(table, Quantity::pressure);
@@ -291,7 +291,7 @@ void set_isotherm(Experiment& experiment, const MeasuredTable& table, std::optio
   if (least == most) experiment.temperature = least;
 }
 
-/// Us = C + S up + S2 up^2/Us + S3 up^3/Us^2 (Steinberg), up and Us in m/s.
+/// Returns Us = C + S up + S2 up^2/Us + S3 up^3/Us^2 (Steinberg), up and Us in m/s.
 double fitted_shock_velocity(const std::array<double, 4>& c, double up) {
   double us = c[0] + c[1] * up;
   if (c[2] == 0.0 && c[3] == 0.0) return us;
@@ -299,7 +299,7 @@ double fitted_shock_velocity(const std::array<double, 4>& c, double up) {
   return us;
 }
 
-/// The range of up that a fit states, "Up 0-4.16" in km/s or "7-108 GPa"; else up to half of C.
+/// Holds the range of up stated by a fit, "Up 0-4.16" in km/s or "7-108 GPa"; otherwise up to half of C.
 struct StatedRange {
   double from, to, unit;
   bool of_pressure;
@@ -313,7 +313,7 @@ StatedRange stated_range(const std::string& text, double c) {
   return {0.0, 0.5 * c, 1.0, false};
 }
 
-/// Every row of a table of fits as a Hugoniot of its own, of points within the range that it states.
+/// Converts every row of a table of fits to a separate Hugoniot, with points within its stated range.
 std::vector<Experiment> shock_fits(const MeasuredTable& table, const Experiment& common) {
   constexpr int candidates = 60;  // up to up = 1.5 C
   const auto texts = [&](const char* heading) {
@@ -430,7 +430,7 @@ std::vector<Experiment> read_experiments(const std::filesystem::path& file,
     set_points(experiment, table, pressure, measured(table, Quantity::temperature));
     return {experiment};
   }
-  // An isentrope's comments may well speak of the Hugoniot.
+  // The comments of an isentrope may mention the Hugoniot.
   const bool along_isentrope = says(table, "isentrop");
   if (!along_isentrope && !says(table, "hugoniot")) {
     set_isotherm(experiment, table, temperature);

@@ -19,9 +19,8 @@
 namespace whipple::eos::experiments {
 namespace {
 
-/// A quantity with the words that name it, the best first, without the signs that `plain` takes off.
-/// Spellings of one letter count only with a unit that fits: D is a shock velocity in km/s and a diameter in
-/// mm.
+/// Holds a quantity with the words that name it, the best first, without the characters removed by `plain`.
+/// Spellings of one letter are valid only with a matching unit: D is a shock velocity in km/s and a diameter in mm.
 struct Spelling {
   Quantity quantity;
   std::string_view si_unit;
@@ -49,14 +48,14 @@ constexpr std::array spellings = {
              {"cb", "cbulk", "bulksoundspeed", "bulksoundvelocity", "soundspeed"}},
 };
 
-/// The line of a quantity above.
+/// Returns the entry of a quantity above.
 const Spelling& spelling_of(Quantity quantity) {
   return *std::ranges::find(spellings, quantity, &Spelling::quantity);
 }
 
-constexpr std::size_t other_scale = 100;  // rank of a pressure scale that is not the revised one
+constexpr std::size_t other_scale = 100;  // rank of a pressure scale other than the revised one
 
-/// "U_p", "u p" and "$u_{p}$" are "up".
+/// Reduces a spelling: "U_p", "u p" and "$u_{p}$" are "up".
 std::string plain(std::string_view text) {
   std::string result;
   for (const char c : text) {
@@ -73,7 +72,7 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(first, text.find_last_not_of(" \t\r") + 1 - first));
 }
 
-/// "A3" and "A^3" are cubes of the angstrom, in volumes of atoms, and not of the ampere.
+/// Normalises a unit: "A3" and "A^3" are cubic angstroms, in atomic volumes, not cubic amperes.
 std::string unit_text(std::string_view text) {
   std::string unit = trimmed(text);
   if (unit == "-") return "";
@@ -92,7 +91,7 @@ bool fits(std::string_view unit, std::string_view si_unit) {
   }
 }
 
-/// Returns whether a cell is a number, and which; empty cells and "nan" are NaN.
+/// Returns whether a cell is a number, and its value; empty cells and "nan" are NaN.
 bool read_number(std::string_view cell, double& value) {
   value = std::numeric_limits<double>::quiet_NaN();
   if (cell.empty() || cell == "-") return true;
@@ -103,7 +102,7 @@ bool read_number(std::string_view cell, double& value) {
 
 constexpr std::string_view percent = "%";
 
-/// A heading without the unit at its end: "D" of "D [mm]" and "D_mm".
+/// Returns a heading without the unit at its end: "D" of "D [mm]" and "D_mm".
 std::string without_unit(const std::string& heading) {
   const std::size_t bracket = heading.find_first_of("[(");
   if (bracket != std::string::npos) return trimmed(heading.substr(0, bracket));
@@ -116,8 +115,8 @@ std::string without_unit(const std::string& heading) {
   return heading;
 }
 
-/// The quantity of which a heading gives the error: "us" of "us_err", "sigma_us" and "dus"; both as `plain` leaves
-/// them. Empty: it is no error.
+/// Returns the quantity to whose error a heading refers: "us" of "us_err", "sigma_us" and "dus", both reduced by
+/// `plain`. Empty if it is not an error.
 std::string_view subject_of_error(std::string_view heading) {
   for (const std::string_view end : {"err", "error", "uncertainty", "unc", "sigma", "std", "sd"}) {
     if (heading.size() > end.size() && heading.ends_with(end))
@@ -139,7 +138,7 @@ char separator_of(const std::string& headings) {
 std::vector<std::string> split(const std::string& line, char separator) {
   std::vector<std::string> cells(1);
   bool inside_quotes = false;
-  int brackets = 0;  // "up (km/s)" is one heading among blanks
+  int brackets = 0;  // "up (km/s)" is one heading in blank-separated text
   for (const char c : line) {
     if (c == '"') {
       inside_quotes = !inside_quotes;
@@ -158,7 +157,7 @@ std::vector<std::string> split(const std::string& line, char separator) {
   return cells;
 }
 
-/// A unit in brackets that stands alone belongs to the heading before it: "up [km/s]" among blanks.
+/// Joins a separate unit in brackets to the preceding heading: "up [km/s]" in blank-separated text.
 void join_units(std::vector<std::string>& headings) {
   for (std::size_t i = headings.size(); i-- > 1;) {
     if (!headings[i].starts_with('[') && !headings[i].starts_with('(')) continue;
@@ -182,7 +181,7 @@ MeasuredTable MeasuredTable::read(const std::filesystem::path& file) {
     };
     if (line.find('\0') != std::string::npos) fail("not a text in UTF-8: it holds a zero byte (UTF-16?)");
     line = trimmed(line);
-    if (line.find_first_not_of(";,") == std::string::npos) continue;  // empty, also as spreadsheets write it
+    if (line.find_first_not_of(";,") == std::string::npos) continue;  // no cells
     if (line.front() == '#' || line.front() == '%') {
       table.comments_.push_back(trimmed(line.substr(line.find_first_of("#%") + 1)));
       continue;
@@ -269,7 +268,7 @@ MeasuredTable::Column MeasuredTable::understand(const std::string& heading, int 
       return column(known, *found, heading,
                     known.si_unit.empty() ? std::optional<std::string>("") : std::nullopt);
   }
-  // "up_km_s": the shortest ending that is a unit, so that P_revised_ruby_GPa is a P_revised_ruby.
+  // "up_km_s": use the shortest ending that is a unit, so that P_revised_ruby_GPa gives P_revised_ruby.
   for (const Spelling& known : spellings) {
     for (std::size_t at = heading.rfind('_'); at != std::string::npos && at > 0;
          at = heading.rfind('_', at - 1)) {
@@ -351,7 +350,7 @@ std::vector<double> MeasuredTable::numbers(std::size_t index) const {
     } else {
       conversion = units::conversion(*column.unit, known.si_unit);
     }
-    if (column.is_error) conversion.offset = 0.0;  // one of 5 degC is of 5 K
+    if (column.is_error) conversion.offset = 0.0;  // an error of 5 degC is 5 K
   }
   std::vector<double> values(rows());
   for (std::size_t row = 0; row < rows(); ++row) {

@@ -22,7 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The file as it can be opened. Copies of a material take the files beside it along: none may lie above.
+/// Returns the path at which a file can be opened. Copies of a material include its companion files, which must
+/// therefore not be in a parent folder.
 fs::path resolved(const fs::path& folder, const fs::path& file) {
   if (file.is_absolute()) return file;
   if (std::ranges::find(file, "..") != file.end()) {
@@ -41,7 +42,7 @@ struct TableConstants {
   }
 };
 
-/// A relative name is that of a companion of the material file.
+/// Returns the companions of the material file: its files with relative names.
 template <class Constants>
 std::vector<fs::path> companions_of(const Constants& constants) {
   const fs::path file = constants.file;

@@ -7,9 +7,9 @@
 
 namespace whipple::eos {
 
-/// Returns the catalogue of equations of state together with the models that live in files, and that of simulated
-/// crystals. The companions of a declared model are the relative names of its files.
-/// @param folder  that relative names of files refer to
+/// Returns the catalogue of equations of state, extended by models stored in files and simulated crystals. The
+/// companions of a declared model are the relative names of its files.
+/// @param folder  base of relative file names
 Catalogue<ModelEntry> all_models(const std::filesystem::path& folder = {});
 
 }  // namespace whipple::eos

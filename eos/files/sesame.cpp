@@ -38,10 +38,10 @@ std::optional<int> integer_in(std::string_view line, std::size_t first, std::siz
   return value;
 }
 
-/// A Fortran number at the begin of a text: the E may be a D, or be missing before the sign of the exponent.
+/// Holds a Fortran number at the beginning of a text: the E may be a D, or be missing before the sign of the exponent.
 struct Real {
   double value = 0;
-  std::size_t end = 0;  ///< characters that it takes with the blanks before it; 0: there is none
+  std::size_t end = 0;  ///< number of characters including preceding blanks; 0: there is none
 };
 
 Real real_at(std::string_view text) {
@@ -74,7 +74,7 @@ std::optional<double> real_of(std::string_view word) {
   return real.value;
 }
 
-constexpr int index_table = 0;  // no table of a material
+constexpr int index_table = 0;  // not a table of a material
 
 struct Header {
   int material = 0, table = 0;
@@ -82,7 +82,7 @@ struct Header {
   int created = 0, changed = 0;
 };
 
-/// The numbers of one table with the lines that they stand in.
+/// Holds the numbers of one table with their line numbers.
 struct Words {
   std::vector<double> values;
   std::size_t first_line = 0;
@@ -96,7 +96,7 @@ class Reader {
     if (!file_) throw InputError(fmt::format("{}: does not exist or cannot be read", path.string()));
   }
 
-  /// The header of the next table; none at the record that ends the file.
+  /// Returns the header of the next table; none at the record that ends the file.
   std::optional<Header> header() {
     do {
       if (!next()) return end_of_file();
@@ -152,7 +152,7 @@ class Reader {
   }
 
   void skip(const Header& header) {
-    if (header.table < 200) {  // the tables 101 to 199 are text
+    if (header.table < 200) {  // tables 101 to 199 are text
       for_each_line(header, [](std::size_t left) { return std::min(comment_width, left); });
     } else {
       for_each_line_of_numbers(header, [](std::size_t) {});
@@ -171,8 +171,8 @@ class Reader {
     return std::nullopt;
   }
 
-  /// A header in the layout of the tables of ANEOS: " INDEX MATID = 7 NWDS = 9", then the words of an index
-  /// of the material, then " RECORD TYPE = 201 NWDS = 5" before each table.
+  /// Reads a header in the layout of ANEOS tables: " INDEX MATID = 7 NWDS = 9", then the words of an index of the
+  /// material, then " RECORD TYPE = 201 NWDS = 5" before each table.
   std::optional<Header> labelled_header() {
     static const std::regex index_line(R"(\s*INDEX\s+MATID\s*=\s*(\d{1,6})\s+NWDS\s*=\s*(\d{1,8})\s*)"),
         record_line(R"(\s*RECORD\s+TYPE\s*=\s*(\d{1,6})\s+NWDS\s*=\s*(\d{1,8})\s*)");
@@ -193,7 +193,7 @@ class Reader {
     return true;
   }
 
-  /// Calls visit(entries left) with each line of a table in `text_`; it returns how many of them it took.
+  /// Calls visit(entries left) with each line of a table in `text_`; it returns the number of entries consumed.
   template <class Visit>
   void for_each_line(const Header& header, Visit&& visit) {
     for (std::size_t left = header.words; left > 0;) {
@@ -205,8 +205,8 @@ class Reader {
     }
   }
 
-  /// Calls visit(number of words) with each line. The first word of a table ends where its column does, and
-  /// as many words fit into a line as columns; what is less than a column at its end are flags.
+  /// Calls visit(number of words) with each line. The first word of a table gives the column width, and a line has
+  /// as many words as columns; a remainder shorter than a column contains flags.
   template <class Visit>
   void for_each_line_of_numbers(const Header& header, Visit&& visit) {
     width_ = 0;
@@ -226,10 +226,10 @@ class Reader {
   std::istringstream file_;
   std::string text_;
   std::size_t line_ = 0, width_ = 0, per_line_ = words_per_line;
-  std::optional<int> index_;  ///< material of the last index line, of files with labelled headers
+  std::optional<int> index_;  ///< material of the last index line, in files with labelled headers
 };
 
-/// Takes a table apart: a count, then columns.
+/// Parses a table: a count, then columns.
 class Parts {
  public:
   Parts(const Reader& reader, const Header& header, const Words& words)
@@ -254,7 +254,7 @@ class Parts {
     return values;
   }
 
-  /// A column that rises strictly from zero or more.
+  /// Returns a column that increases strictly from zero or more.
   std::vector<double> axis(const char* what, std::size_t count, double unit) {
     const std::size_t first = at_;
     const std::vector<double> values = column(count, unit);

@@ -53,7 +53,7 @@ class Writer {
       const std::size_t count = std::min(words_per_line, words_.size() - at);
       std::string line;
       for (std::size_t i = 0; i < count; ++i) line += word(material, number, words_[at + i]);
-      // One flag per word of the line: 1 where there is one.
+      // One flag per word of the line: 1 if it is present.
       line.resize(words_per_line * word_width, ' ');
       text_ += line + std::string(count, '1') + std::string(words_per_line - count, '0') + '\n';
     }

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr const char* format_name = "whipple-eos-table";
 constexpr std::int64_t format_version = 4;
 
-/// The numbers of a table, one attribute each.
+/// Describes the numbers of a table, one attribute each.
 struct Number {
   const char* name;
   double TableData::* member;
@@ -53,10 +53,10 @@ constexpr ErrorNumber error_numbers[] = {
     {"fraction", &TableError::fraction},       {"mean_fraction", &TableError::mean_fraction},
 };
 
-/// The arrays of the file.
+/// Holds the arrays of the file.
 struct Arrays {
   std::vector<double> bounds;         ///< of strips: begin, end, top, slope of the top
-  std::vector<std::uint32_t> layout;  ///< of strips: what `for_each_index` visits
+  std::vector<std::uint32_t> layout;  ///< of strips: the indices visited by `for_each_index`
   std::vector<double> curves;         ///< of intervals: 6 coefficients of 4 curves
   std::vector<double> cells;
   std::vector<std::uint16_t> fractions;
@@ -92,7 +92,7 @@ Arrays arrays_of(const TableData& data) {
   return a;
 }
 
-/// SHA-256 over everything that a result depends on.
+/// Returns the SHA-256 of everything on which a result depends.
 std::string digest_of(const TableData& data, const Arrays& arrays) {
   std::string bytes = fmt::format("{}\n{}\n{}\n", data.origin, data.constants, fmt::join(data.phases, "\n"));
   const auto add = [&](const auto& values) {

@@ -12,12 +12,12 @@
 namespace whipple::eos {
 namespace {
 
-/// Compression beyond which the limit is not looked for, in a model that states none.
+/// Maximum compression of the search for the limit in a model without one.
 constexpr double greatest_compression = 100;
 constexpr double least_expansion = 1e-6;
 constexpr int steps_to_limit = 400;
 
-/// The extremum of the pressure between two densities, by ternary section.
+/// Finds the extremum of the pressure between two densities, by ternary section.
 State turning_point(const EquationOfState& eos, double from, double to, double sign) {
   for (int i = 0; i < 80 && std::abs(to - from) > 1e-10 * to; ++i) {
     const double third = (to - from) / 3;
@@ -38,7 +38,7 @@ ColdCurve cold_curve(const EquationOfState& eos) {
   const double rho0 = eos.reference_density();
   ColdCurve curve;
   State before = cold_state(eos, rho0);
-  // Compression: as far as the pressure rises.
+  // Compression: as far as the pressure increases.
   const double last = std::min(eos.maximum_density(), greatest_compression * rho0) * (1 - 1e-9);
   curve.compression_limit = before;
   double last_density = rho0;
@@ -52,7 +52,7 @@ ColdCurve cold_curve(const EquationOfState& eos) {
     last_density = curve.compression_limit.density;
     curve.compression_limit = s;
   }
-  // Rest, and expansion to the least pressure.
+  // Zero pressure, then expansion to the minimum pressure.
   const auto pressure = [&](double density) { return cold_state(eos, density).pressure; };
   if (before.pressure < 0) {
     curve.at_rest =
@@ -85,7 +85,7 @@ ColdCurve cold_curve(const EquationOfState& eos) {
     curve.cohesive_energy = cold_state(eos, least_expansion * rho0).specific_internal_energy -
                             curve.at_rest.specific_internal_energy;
   } catch (const StateError&) {
-    // The model does not go there: unknown.
+    // Outside the model: unknown.
   }
   return curve;
 }

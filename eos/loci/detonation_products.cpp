@@ -14,11 +14,11 @@
 namespace whipple::eos {
 namespace {
 
-/// Constant-volume explosions have some GPa.
+/// Threshold of the constant-volume explosion pressure; that of explosives is several GPa.
 constexpr double least_explosion = 1e8;  // Pa
 
 ChapmanJouguet wave_of(const EquationOfState& eos) {
-  // Air has a pressure in its reference state, and would expand; it holds nothing to set free.
+  // Air has a pressure in its reference state and would expand, but it has no energy to release.
   if (eos.condensed() ||
       eos.state(eos.reference_density(), eos.reference_energy()).pressure < least_explosion) {
     throw InputError(
@@ -67,7 +67,7 @@ ImpedanceMatch DetonationProducts::contact(const Hugoniot& inert) const {
   if (inert.at_particle_velocity(incident.particle_velocity).state.pressure >= incident.state.pressure) {
     return match_shock(*eos_, incident, inert);
   }
-  // Expansion: gases reach zero pressure nowhere, so the search follows the isentrope down instead of starting there.
+  // Expansion: gases do not reach zero pressure, so the search follows the isentrope down instead of starting there.
   const auto products = [&](double p) { return isentrope_at_pressure(*eos_, incident.state, p); };
   const auto residual = [&](double p) {
     return inert.at_pressure(p).particle_velocity -
@@ -113,7 +113,7 @@ std::vector<CylinderWall> cylinder_test(const DetonationProducts& products, cons
   const double rho0 = products.equation_of_state().reference_density();
   const double D = products.chapman_jouguet().detonation_velocity, v0 = products.chapman_jouguet_volume();
   const double ri2 = square(test.inner_radius), ro2 = square(test.inner_radius + test.wall);
-  // Per length and pi: M + C/2.
+  // Per unit length and pi: M + C/2.
   const double mass = test.wall_density * (ro2 - ri2) + 0.5 * rho0 * ri2;
 
   std::vector<double> volumes;
@@ -122,7 +122,7 @@ std::vector<CylinderWall> cylinder_test(const DetonationProducts& products, cons
   const std::vector<IsentropeState> states = products.expansion(volumes);
   const auto enthalpy = [](const State& s) { return s.specific_internal_energy + s.pressure / s.density; };
   const State& cj = products.chapman_jouguet().state;
-  // In the frame of the wave the products leave it with their sound speed.
+  // In the frame of the wave the products leave the front at their sound speed.
   const double head = 0.5 * square(D - products.chapman_jouguet().particle_velocity) + enthalpy(cj);
   std::vector<double> section, turned;  // A/A0, 1 - cos(theta)
   for (const IsentropeState& s : states) {

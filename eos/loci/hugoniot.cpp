@@ -16,10 +16,10 @@ namespace {
 
 constexpr int scan_points = 96;
 constexpr int root_digits = 52;
-/// Shocks weaker than this part of the sound speed are none.
+/// Particle velocity, relative to the sound speed, below which there is no shock.
 constexpr double least_strength = 1e-6;
 
-/// First root of f(eta) on 0 < eta <= greatest compression, coming from eta = 0, where f < 0.
+/// Returns the first root of f(eta) on 0 < eta <= greatest compression, starting from eta = 0, where f < 0.
 double first_compression(const EquationOfState& eos, double initial_density,
                          const std::function<double(double)>& f, const char* what) {
   const double greatest = (1 - initial_density / eos.maximum_density()) * (1 - 1e-9);
@@ -78,7 +78,7 @@ ShockState Hugoniot::shock(double density, double energy) const {
 ShockState Hugoniot::at_rest() const {
   ShockState s;
   s.state = initial_;
-  // A weak shock in porous material closes the voids at no pressure and at no speed.
+  // A weak shock in porous material closes the voids at zero pressure and zero velocity.
   s.shock_velocity = std::isnan(initial_.sound_speed) ? 0.0 : initial_.sound_speed;
   return s;
 }
@@ -88,7 +88,7 @@ ShockState Hugoniot::at_particle_velocity(double up) const {
     throw StateError(fmt::format("Hugoniot: the particle velocity must not be negative, not {} m/s", up));
   const double V0 = 1 / initial_.density;
   if (up < least_strength * std::sqrt(stiffness_ * V0)) return at_rest();
-  // Momentum p - p0 = rho0 up^2/eta and energy e - e0 = up^2/2 + p0 V0 eta  (L1)
+  // Momentum p - p0 = rho0 up^2/eta and energy e - e0 = up^2/2 + p0 V0 eta  (L1).
   const auto energy = [&](double eta) {
     return initial_.specific_internal_energy + 0.5 * up * up + initial_.pressure * V0 * eta;
   };
@@ -132,9 +132,9 @@ ShockState Hugoniot::at_density(double density) const {
   const auto residual = [&](double e) {
     return e - e0 - 0.5 * (eos_->state(density, e).pressure + initial_.pressure) * change;
   };
-  // At e0 the residual is negative if the material is compressed there (the cold pressure does work), and rises
-  // with e until Gamma rho change/2 = 1, the greatest compression of any shock. Expanded, closed-up porous
-  // material is in tension at e0: the residual begins positive and falls.
+  // At e0 the residual is negative if the material is compressed there (the cold pressure does work), and increases
+  // with e until Gamma rho change/2 = 1, the greatest compression of any shock. Expanded, closed-up porous material
+  // is in tension at e0: the residual is initially positive and decreases.
   const double sign = residual(e0) < 0 ? 1 : -1;
   const double scale = stiffness_ / initial_.density;
   double before = e0, step = 1e-6 * scale;

@@ -5,33 +5,33 @@
 
 namespace whipple::eos {
 
-/// State behind a steady shock.
+/// Holds the state behind a steady shock.
 struct ShockState {
   State state;
-  double shock_velocity = 0;     ///< m/s, against the material ahead
-  double particle_velocity = 0;  ///< m/s, against the material ahead
+  double shock_velocity = 0;     ///< m/s, relative to the material ahead
+  double particle_velocity = 0;  ///< m/s, relative to the material ahead
 };
 
-/// Shock Hugoniot from an initial state at rest: mass, momentum and energy jump conditions (L1)
+/// Computes the shock Hugoniot from an initial state at rest, with the mass, momentum and energy jump conditions (L1)
 ///   rho0 Us = rho (Us - up),  p - p0 = rho0 Us up,  e - e0 = (p + p0)(V0 - V)/2.
 class Hugoniot {
  public:
-  /// Principal Hugoniot: from the reference density and temperature.
+  /// Constructs the principal Hugoniot, from the reference density and temperature.
   explicit Hugoniot(const EquationOfState& eos);
-  /// From any other state: preheated material, or the second shock through a shocked state (reshock).
+  /// Constructs the Hugoniot from any other state: preheated material, or the second shock in shocked material
+  /// (reshock).
   Hugoniot(const EquationOfState& eos, double density, double specific_internal_energy);
 
-  /// Porous material of a density below the reference density: grains in the reference state with voids
-  /// between, which resist with no pressure until they are closed (p, e and T ahead are those of the grains).
-  /// @throws StateError if the density is not below the reference density, or not positive
+  /// Returns the Hugoniot of porous material of a density below the reference density: grains in the reference
+  /// state with voids, which have no resistance until they are closed (p, e and T ahead are those of the grains).
   static Hugoniot porous(const EquationOfState& eos, double density);
 
   [[nodiscard]] ShockState at_particle_velocity(double particle_velocity) const;
   [[nodiscard]] ShockState at_pressure(double pressure) const;
-  /// The weakest shock that compresses to a density. The Hugoniot of very porous material, and that of a gas,
-  /// reaches a density not at all or twice.
+  /// Returns the weakest shock that compresses to a density. The Hugoniot of very porous material, and that of a
+  /// gas, may have no state or two states at a density.
   [[nodiscard]] ShockState at_density(double density) const;
-  /// The state ahead of the shock. That of porous material has no sound speed (NaN).
+  /// Returns the state ahead of the shock. For porous material it has no sound speed (NaN).
   [[nodiscard]] const State& initial() const { return initial_; }
   [[nodiscard]] const EquationOfState& equation_of_state() const { return *eos_; }
 
@@ -42,11 +42,11 @@ class Hugoniot {
 
   const EquationOfState* eos_;
   State initial_;
-  double stiffness_;  ///< rho0 c0^2 of the material (of the grains) ahead: the scale of pressures
+  double stiffness_;  ///< rho0 c0^2 of the material (of the grains) ahead: the pressure scale
 };
 
-/// The shock that goes back through shocked material when it meets a rigid wall: brings it to rest again. All
-/// velocities against the material that the first shock has passed.
+/// Returns the shock reflected from a rigid wall into shocked material, which brings it to rest. All velocities are
+/// relative to the material behind the first shock.
 ShockState reflected_at_wall(const EquationOfState& eos, const ShockState& shocked);
 
 }  // namespace whipple::eos

@@ -16,9 +16,9 @@ ImpedanceMatch match_impact(const Hugoniot& impactor, const Hugoniot& target, do
   if (!(velocity > 0)) {
     throw StateError(fmt::format("impact: the velocity must be positive, not {:.6g} m/s", velocity));
   }
-  // p_target(u) = p_impactor(v - u)  (L5): rises with u, negative at u = 0, positive at u = v. The
-  // stronger of the two shocks lies in the softer material; only the half of the range in which the root
-  // lies is asked of both, since a model may end before `velocity`.
+  // p_target(u) = p_impactor(v - u)  (L5): increases with u, negative at u = 0, positive at u = v. The stronger of
+  // the two shocks is in the softer material; both models are evaluated only in the half of the range that contains
+  // the root, since a model may end before `velocity`.
   const auto residual = [&](double u) {
     return target.at_particle_velocity(u).state.pressure -
            impactor.at_particle_velocity(velocity - u).state.pressure;
@@ -26,7 +26,7 @@ ImpedanceMatch match_impact(const Hugoniot& impactor, const Hugoniot& target, do
   const double half = 0.5 * velocity, at_half = residual(half);
   double u = half;
   if (at_half != 0) {
-    // From the half outwards, by steps that stop at the first change of sign.
+    // Search outwards from the half, in steps that stop at the first change of sign.
     const double direction = at_half > 0 ? -1 : 1;
     constexpr int steps = 16;
     double before = half;
@@ -46,11 +46,11 @@ ImpedanceMatch match_impact(const Hugoniot& impactor, const Hugoniot& target, do
 ImpedanceMatch match_shock(const EquationOfState& left, const ShockState& incident, const Hugoniot& right) {
   const double p1 = incident.state.pressure, u1 = incident.particle_velocity;
   const ShockState same = right.at_particle_velocity(u1);
-  if (std::abs(same.state.pressure - p1) <= 1e-10 * p1) {  // equal impedances: nothing goes back
+  if (std::abs(same.state.pressure - p1) <= 1e-10 * p1) {  // equal impedances: no reflection
     return {p1, u1, incident.state, same.state, same.shock_velocity, State::unknown};
   }
   if (same.state.pressure >= p1) {
-    // Reshock: p_right(u) = p_reshock(u1 - u)  (L6)
+    // Reshock: p_right(u) = p_reshock(u1 - u)  (L6).
     const Hugoniot reshock(left, incident.state.density, incident.state.specific_internal_energy);
     const auto residual = [&](double u) {
       return right.at_particle_velocity(u).state.pressure -
@@ -60,8 +60,8 @@ ImpedanceMatch match_shock(const EquationOfState& left, const ShockState& incide
     const ShockState r = right.at_particle_velocity(u), l = reshock.at_particle_velocity(u1 - u);
     return {r.state.pressure, u, l.state, r.state, r.shock_velocity, l.shock_velocity};
   }
-  // Release: u = u1 - u_r(p), with the Riemann velocity u_r < 0 of the isentrope, on the right Hugoniot at p
-  // (L6). At p1 the right material would move faster, at the pressure ahead slower.
+  // Release: u = u1 - u_r(p), with the Riemann velocity u_r < 0 of the isentrope, on the right Hugoniot at p (L6).
+  // At p1 the right material would move faster, at the initial pressure slower.
   const auto released = [&](double p) { return isentrope_at_pressure(left, incident.state, p); };
   const auto residual = [&](double p) {
     return right.at_pressure(p).particle_velocity - (u1 - released(p).riemann_velocity);

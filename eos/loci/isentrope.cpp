@@ -19,7 +19,7 @@ namespace {
 
 namespace odeint = boost::numeric::odeint;
 
-/// Along w = ln V: de/dw = -p V, du/dw = -c  (L2).
+/// Holds e and u along w = ln V: de/dw = -p V, du/dw = -c  (L2).
 using IsentropeVector = std::array<double, 2>;
 
 class IsentropeIntegrator {
@@ -36,7 +36,7 @@ class IsentropeIntegrator {
   [[nodiscard]] double log_volume() const { return log_volume_; }
   [[nodiscard]] const IsentropeVector& vector() const { return y_; }
 
-  /// One step of at most `limit` (signed) with error control; returns the step made.
+  /// Makes one step of at most `limit` (signed) with error control; returns the step made.
   double advance(double limit) {
     const auto system = [this](const IsentropeVector& y, IsentropeVector& d, double w) { slope(y, d, w); };
     constexpr double greatest = 0.01;
@@ -46,8 +46,7 @@ class IsentropeIntegrator {
     const double scale = std::abs(y_[0]) + 1.0;
     auto stepper =
         odeint::make_controlled(1e-12 * scale, 1e-10, odeint::runge_kutta_dopri5<IsentropeVector>());
-    // At a kink (edge of a phase) the error estimate can refuse for long: a step of 1e-9 is accepted as it
-    // is.
+    // At a kink (edge of a phase) the error control may reject many steps: a step of 1e-9 is accepted.
     while (stepper.try_step(system, y_, log_volume_, h) != odeint::success) {
       if (std::abs(h) < 1e-9) {
         y_ = single_step(h);
@@ -58,7 +57,7 @@ class IsentropeIntegrator {
     step_ = std::max(std::abs(h), 1e-8);
     return log_volume_ - before;
   }
-  /// Result of one step h from the present point, which stays.
+  /// Returns the result of one step h from the current point, which is not changed.
   [[nodiscard]] IsentropeVector single_step(double h) const {
     const auto system = [this](const IsentropeVector& y, IsentropeVector& d, double w) { slope(y, d, w); };
     IsentropeVector y = y_;
@@ -94,7 +93,7 @@ std::vector<IsentropeState> isentrope(const EquationOfState& eos, const State& s
 }
 
 IsentropeState isentrope_at_pressure(const EquationOfState& eos, const State& start, double pressure) {
-  // Within the round-off of the pressure at this stiffness.
+  // Equal within the round-off of the pressure at this stiffness.
   const double stiffness = start.density * start.sound_speed * start.sound_speed;
   if (std::abs(pressure - start.pressure) <= 1e-12 * (std::abs(pressure) + stiffness)) return {start, 0.0};
   const double direction = pressure < start.pressure ? 1.0 : -1.0;

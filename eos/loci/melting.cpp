@@ -14,8 +14,8 @@ std::optional<MeltingPoint> melting_point(const EquationOfState& eos, double pre
                                           double highest_temperature) {
   double density = eos.reference_density();
   const auto at = [&](double T) { return state_at_pressure_and_temperature(eos, pressure, T, density); };
-  // The first temperature of a rising sequence with the fraction beyond the edge, and the last one before
-  // it. Rising, since a hot metal may have no condensed state at the pressure: it melts before.
+  // Find the first temperature of an increasing sequence with the fraction beyond the edge, and the last one before
+  // it. The sequence increases, since a hot metal may have no condensed state at the pressure: it melts before.
   State solid = at(std::max(eos.least_temperature(), 1e-3));
   if (solid.melted_fraction > 0) return std::nullopt;
   State melting, liquid;  // first with any melt, first without solid

@@ -7,16 +7,16 @@
 
 namespace whipple::eos {
 
-/// Melting at one pressure: the temperatures between which the melted fraction of the condensed state goes
-/// from 0 to 1. Equal if the model melts at a point.
+/// Holds the melting range at one pressure: the temperatures between which the melted fraction of the condensed
+/// state increases from 0 to 1. They are equal if the model melts at a single temperature.
 struct MeltingPoint {
   State solidus;   ///< the last solid
   State liquidus;  ///< the first liquid
 };
 
-/// Solidus and liquidus at a pressure, by bisection of the temperature on the condensed branch
+/// Computes solidus and liquidus at a pressure by bisection of the temperature on the condensed branch
 /// (eos/inversions.hpp) to 1e-9 relative.
-/// @param highest_temperature  where the search ends, K
+/// @param highest_temperature  end of the search, K
 /// @returns nothing if the model's state is not solid at its least temperature, or does not melt below the
 /// highest one or before the condensed branch ends
 /// @throws StateError if there is no condensed state at the pressure

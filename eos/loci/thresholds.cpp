@@ -14,14 +14,13 @@ constexpr double first_pressure = 1e9;
 constexpr double growth = 1.25;
 constexpr double tolerance = 1e-9;
 
-/// The shocks on the principal Hugoniot between which a property begins to hold; the property, once it
-/// holds, holds for stronger shocks.
+/// Finds the weakest shock on the principal Hugoniot with a property that also holds for all stronger shocks.
 class ShockScan {
  public:
   explicit ShockScan(const EquationOfState& eos, double highest_pressure)
       : hugoniot_(eos), highest_(highest_pressure) {}
 
-  /// The weakest shock with the property; nothing if material at rest has it, or no shock within the range.
+  /// Returns the weakest shock with the property; nothing if material at rest has it, or no shock within the range.
   [[nodiscard]] std::optional<ShockState> weakest(const std::function<bool(const State&)>& holds) const {
     double lower = std::max(hugoniot_.initial().pressure, 0.0);
     double upper = std::min(std::max(first_pressure, 2 * lower), highest_);
@@ -38,7 +37,7 @@ class ShockScan {
       }
       return hugoniot_.at_pressure(0.5 * (lower + upper));
     } catch (const StateError&) {
-      return std::nullopt;  // the model ends before, or has a gap on the way
+      return std::nullopt;  // the range of the model ends before, or has a gap
     }
   }
 

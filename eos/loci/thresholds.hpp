@@ -7,17 +7,17 @@
 
 namespace whipple::eos {
 
-/// Onset and completion of melting on the principal Hugoniot.
+/// Holds onset and completion of melting on the principal Hugoniot.
 struct ShockMelting {
   ShockState onset;
   ShockState completion;
 };
-/// Nothing if the model is not solid at rest, never melts below the pressure or within its range, or has a gap on the
-/// way.
+/// Finds onset and completion of shock melting; nothing if the model is not solid at rest, never melts below the
+/// pressure or within its range, or has a gap before that.
 std::optional<ShockMelting> shock_melting(const EquationOfState& eos, double highest_pressure = 2e12);
 
-/// The weakest shocks after which release to a pressure melts or vaporises (equilibrium of liquid and vapour,
-/// `release`). Nothing where the model does not go so far, or is there at rest already.
+/// Holds the weakest shocks after which release to a pressure melts or vaporises (liquid-vapour equilibrium,
+/// `release`). Nothing if the range of the model is too small, or if the phase exists already at rest.
 struct ReleaseThresholds {
   std::optional<ShockState> incipient_melting;
   std::optional<ShockState> complete_melting;

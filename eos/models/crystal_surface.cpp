@@ -13,16 +13,16 @@ namespace {
 
 constexpr double gas_constant = 8.31446261815324;  // J/(mol K), exact in the SI of 2019
 
-/// The slope of a cubic through values and slopes at the ends of an interval h errs by up to 0.0962 h^3/24
-/// times the fourth derivative, its value in the middle by h^4/384 times it: by the ratio of both, with a
-/// factor 3 since the fourth derivative is not constant, the error of the pressure follows from that of the
-/// energy in the middle. (The slope itself is exact there to this order and says nothing.)
+/// Ratio that converts the mid-interval error of the energy to the error of the pressure. The slope of a cubic
+/// through values and slopes at the ends of an interval h has an error of up to 0.0962 h^3/24 times the fourth
+/// derivative, its value in the middle h^4/384 times it; the factor 3 allows for a variable fourth derivative. (The
+/// slope is exact in the middle to this order and gives no estimate.)
 constexpr double slope_by_value = 3.0 * 0.0962 * 384.0 / 24.0;
-/// Fractions of the errors of an interval that its halves keep: third order of the width, and second for gamma, whose
-/// second derivative is not constant either.
+/// Fractions of the errors of an interval that remain in its halves: third order in the width, and second for
+/// gamma, with a margin for a variable second derivative.
 constexpr double cubic_share = 1.0 / 8.0, line_share = 1.5 / 4.0;
 
-/// One name for one volume, whichever interval it belongs to.
+/// Rounds a volume ratio, so that equal volumes of different intervals compare equal.
 double rounded(double ratio) { return std::round(ratio * 1e9) / 1e9; }
 
 }  // namespace
@@ -68,7 +68,7 @@ CrystalSurface::Node CrystalSurface::node_of(const SimulatedIsochore& isochore) 
     const double t = state.temperature;
     const double pressure = node.cold_pressure + heat_capacity_ * node.gruneisen * t / node.volume;
     const double energy = node.cold_energy + t * (heat_capacity_ + 0.5 * anharmonic_ * t);
-    // At a given energy: an error of E is one of T, and that of P = rho gamma E.
+    // At given energy, an error of E is one of T, and hence an error of P = rho gamma E.
     node.misfit =
         std::fmax(node.misfit, std::abs(state.pressure - pressure) +
                                    std::abs(node.gruneisen * (state.energy - energy) / node.volume));

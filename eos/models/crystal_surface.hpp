@@ -12,20 +12,20 @@
 
 namespace whipple::eos {
 
-/// Free energy of a crystal between simulated isochores (docs/theory/equations_of_state.md, "Simulated
-/// crystals"):
+/// Represents the free energy of a crystal between simulated isochores (docs/theory/equations_of_state.md,
+/// "Simulated crystals"):
 ///   F = phi(V) + c T [psi(V) - ln(T/T0)] - g T^2/2,    V psi' = -gamma(V),    c = 3 R/M.
-/// phi is a cubic through energy and pressure of the static crystal at both ends of an interval of volumes,
-/// gamma a straight line between theirs. Intervals are worked out when they are first asked for, and only
-/// those; each depends on its own volumes alone, so that the surface is the same whoever asks first.
+/// phi is a cubic through energy and pressure of the static crystal at both ends of an interval of volumes, gamma
+/// is linear between its values at the ends. Intervals are computed on first use; each depends on its volumes
+/// alone, so that the surface does not depend on the order of evaluation.
 class CrystalSurface {
  public:
   struct Settings {
     double least_ratio = 0.0, greatest_ratio = 0.0;  ///< range of V over that of the static crystal
-    double spacing = 0.0;                            ///< width of the intervals before any division
-    double greatest_temperature = 0.0;               ///< K: the error is estimated up to there
-    double tolerance = 0.0;  ///< Pa: estimated error of the pressure that is not exceeded
-    int divisions = 0;       ///< largest number of halvings of an interval
+    double spacing = 0.0;                            ///< width of the intervals before subdivision
+    double greatest_temperature = 0.0;               ///< K: upper end of the error estimate
+    double tolerance = 0.0;                          ///< Pa: upper limit of the estimated pressure error
+    int divisions = 0;                               ///< largest number of halvings of an interval
   };
   /// Holds the functions of volume at one volume (per mass, SI).
   struct Point {
@@ -33,7 +33,7 @@ class CrystalSurface {
     double first = 0.0, second = 0.0;               ///< phi', phi''
     double gruneisen = 0.0, gruneisen_slope = 0.0;  ///< gamma, d gamma/dV
   };
-  /// One interval between two simulated isochores.
+  /// Holds one interval between two simulated isochores.
   struct Leaf {
     double begin = 0.0, end = 0.0;                                   ///< m^3/kg
     double energy = 0.0, slope = 0.0, quadratic = 0.0, cubic = 0.0;  ///< phi in powers of (V - begin)
@@ -46,9 +46,9 @@ class CrystalSurface {
     }
   };
   struct Cell {
-    std::vector<Leaf> leaves;  ///< by rising volume
-    double error = 0.0;        ///< Pa, the largest estimate of the leaves
-    std::string fault;         ///< why there is no surface here; empty: there is
+    std::vector<Leaf> leaves;  ///< by increasing volume
+    double error = 0.0;        ///< Pa, the largest estimate over the leaves
+    std::string fault;         ///< reason why there is no surface here; empty: there is
     [[nodiscard]] const Leaf& leaf(double volume) const {
       std::size_t i = 0;
       while (i + 1 < leaves.size() && volume > leaves[i].end) ++i;
@@ -56,13 +56,12 @@ class CrystalSurface {
     }
   };
 
-  /// Asks for the isochore of the static crystal's volume, which gives g.
+  /// Requests the isochore at the volume of the static crystal, which determines g.
   /// @throws StateError if there is none
   CrystalSurface(std::unique_ptr<IsochoreSource> source, const Settings& settings);
   ~CrystalSurface();
 
-  /// The cell of a volume, worked out if this is the first call for it; null outside of the range. Safe from
-  /// several threads.
+  /// Returns the cell of a volume, computed on the first call; null outside the range. Thread-safe.
   [[nodiscard]] const Cell* cell(double volume) const;
 
   [[nodiscard]] double least_volume() const { return settings_.least_ratio * static_volume_; }
@@ -73,7 +72,7 @@ class CrystalSurface {
  private:
   struct Node {
     double volume = 0.0, cold_energy = 0.0, cold_pressure = 0.0, gruneisen = 0.0;
-    double misfit = 0.0;  ///< Pa: what the law leaves of the simulated states
+    double misfit = 0.0;  ///< Pa: deviation of the law from the simulated states
   };
   void fetch(const std::vector<double>& ratios) const;
   [[nodiscard]] Node node_of(const SimulatedIsochore& isochore) const;
@@ -84,7 +83,7 @@ class CrystalSurface {
   std::unique_ptr<IsochoreSource> source_;
   Settings settings_;
   double static_volume_, heat_capacity_, anharmonic_ = 0.0;
-  // Lazily filled; the entries of `cells_` are published once and stay.
+  // Lazily filled; published entries of `cells_` never change.
   mutable std::mutex mutex_;
   mutable std::map<double, Node> nodes_;
   mutable std::vector<std::atomic<const Cell*>> cells_;

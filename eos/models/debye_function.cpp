@@ -16,7 +16,7 @@ constexpr int intervals = 1600;
 
 double integrand(double t) { return t == 0 ? 0.0 : t * t * t / std::expm1(t); }
 
-/// D, D', D'' by the Bernoulli series D = 1 - 3y/8 + 3 sum B_2k y^2k/((2k+3) (2k)!), for y < 0.5.
+/// Returns D, D', D'' from the Bernoulli series D = 1 - 3y/8 + 3 sum B_2k y^2k/((2k+3) (2k)!), for y < 0.5.
 HermiteTable::Node series(double y) {
   // B_2k/(2k)!
   constexpr double coefficients[] = {1.0 / 12,         -1.0 / 720,     1.0 / 30240,
@@ -47,7 +47,7 @@ HermiteTable tabulate() {
       nodes.push_back(series(y));
       continue;
     }
-    // y D' = 3 b - 3 D with b = y/(e^y - 1), and once more by y.
+    // y D' = 3 b - 3 D with b = y/(e^y - 1), differentiated once more with respect to y.
     const double value = 3 * integral / (y * y * y), exponential = std::expm1(y), b = y / exponential;
     const double b_slope = (1 - b * (exponential + 1)) / exponential;
     const double slope = 3 * (b - value) / y;

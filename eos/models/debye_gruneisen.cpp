@@ -55,30 +55,30 @@ ParameterTable<DebyeGruneisenConstants> DebyeGruneisen::parameters() {
   };
 }
 
-/// Quantities that depend on the volume alone.
+/// Holds quantities that depend on the volume alone.
 struct DebyeGruneisen::Isochore {
   double volume = 0;                          ///< m^3/kg
   double log_ratio = 0;                       ///< ln(V/V0)
   double debye_temperature = 0;               ///< K
   double gruneisen = 0, gruneisen_slope = 0;  ///< gamma, dgamma/dlnV
-  double electronic = 0;                      ///< g_e (V/V0)^gamma_e per mass, J/(kg K^2)
-  // Of F_0(V) - F_th(V, T0): what is added to the thermal part of a state.
+  double electronic = 0;                      ///< g_e (V/V0)^gamma_e per unit mass, J/(kg K^2)
+  // From F_0(V) - F_th(V, T0), added to the thermal part of a state.
   double energy = 0;    ///< J/kg
   double pressure = 0;  ///< P V, J/kg
   double modulus = 0;   ///< K_T V, J/kg
 };
 
-/// Functions of y = theta/T that the lattice needs, each evaluated once.
+/// Holds functions of y = theta/T for the lattice, each evaluated once.
 struct DebyeGruneisen::Vibration {
   explicit Vibration(double y) : ratio(y), debye(debye_function(y)), filling(-std::expm1(-y)) {}
   double ratio;    ///< y
   double debye;    ///< D(y)
   double filling;  ///< 1 - e^-y
-  /// C_D/(3 R) = 4 D - 3 y/(e^y - 1)
+  /// Returns C_D/(3 R) = 4 D - 3 y/(e^y - 1).
   [[nodiscard]] double heat_capacity() const { return 4 * debye - 3 * ratio * (1 - filling) / filling; }
 };
 
-/// Thermal part of a state (D4 to D6), J/kg and J/(kg K).
+/// Holds the thermal part of a state (D4 to D6), J/kg and J/(kg K).
 struct DebyeGruneisen::Thermal {
   double temperature = 0;
   double energy = 0, heat_capacity = 0;
@@ -87,7 +87,7 @@ struct DebyeGruneisen::Thermal {
   double modulus = 0;                  ///< -V^2 (dP/dV)_T
 };
 
-/// One point.
+/// Holds one point.
 struct DebyeGruneisen::Point {
   double density = 0, energy = 0, temperature = 0, pressure = 0;
   double squared_sound_speed = 0, heat_capacity = 0, gruneisen = 0, bulk_modulus = 0;
@@ -107,7 +107,7 @@ DebyeGruneisen::DebyeGruneisen(const Constants& constants)
                                  power_law_ ? "gruneisen_slope" : "gruneisen_exponent",
                                  word_of(constants.gruneisen_law)));
   }
-  // The energy of (V0, T0) is F_0(V0) + T0 S(V0, T0).
+  // The energy at (V0, T0) is F_0(V0) + T0 S(V0, T0).
   const double T0 = constants.reference_temperature;
   const Isochore reference = lattice(constants.reference_density);
   reference_free_energy_ = -T0 * entropy(reference, T0, Vibration(reference.debye_temperature / T0));
@@ -219,8 +219,8 @@ double DebyeGruneisen::entropy(const Isochore& c, double T, const Vibration& v) 
 }
 
 DebyeGruneisen::Thermal DebyeGruneisen::thermal_at_energy(const Isochore& c, double thermal_energy) const {
-  // The thermal energy is convex in T (its heat capacity rises): from the right of the root Newton's method
-  // falls monotonically, from the left it passes the root once. D = 1 - 3y/8 + y^2/20 gives the start.
+  // The thermal energy is convex in T (its heat capacity increases): from the right of the root Newton's method
+  // converges monotonically, from the left it overshoots once. D = 1 - 3y/8 + y^2/20 gives the initial value.
   const double R3 = 3 * gas_constant_, w = thermal_energy + 0.375 * R3 * c.debye_temperature;
   const double right = 2 * w / (R3 + std::sqrt(R3 * R3 + 2 * c.electronic * w));
   double T = std::max(0.5 * right, right - c.debye_temperature * c.debye_temperature / (20 * right));
@@ -261,7 +261,7 @@ DebyeGruneisen::Point DebyeGruneisen::point(double density, double energy) const
   if (!p.broken.empty()) return p;
   const Isochore c = isochore(density);
   const double thermal_energy = energy - c.energy;
-  // D <= 1 bounds the energy of the least temperature from above without its evaluation.
+  // D <= 1 gives an upper bound of the energy at the lowest temperature without evaluating it.
   if (thermal_energy < (3 * gas_constant_ + c.electronic) * least_temperature) {
     const Thermal coldest = thermal(c, least_temperature);
     p.cold = thermal_energy < coldest.energy;

@@ -11,13 +11,13 @@
 
 namespace whipple::eos {
 
-/// Form of the isotherm of the reference temperature.
+/// Specifies the form of the isotherm at the reference temperature.
 enum class IsothermForm : std::uint8_t { vinet, birch_murnaghan };
 constexpr std::array<Word<IsothermForm>, 2> words(IsothermForm) {
   return {{{IsothermForm::vinet, "vinet"}, {IsothermForm::birch_murnaghan, "birch_murnaghan"}}};
 }
 
-/// Grueneisen parameter of the lattice over volume.
+/// Specifies the Grueneisen parameter of the lattice as a function of volume.
 enum class LatticeGruneisenLaw : std::uint8_t {
   power,   ///< gamma0 (V/V0)^q
   linear,  ///< gamma0 - a (1 - V/V0)
@@ -43,18 +43,17 @@ struct DebyeGruneisenConstants {
   double melting_temperature = std::numeric_limits<double>::infinity();  ///< T_m0 on the isochore V0, K
 };
 
-/// Solid with a measured isotherm, Debye's lattice vibrations and free electrons
+/// Models a solid with a measured isotherm, Debye's lattice vibrations and free electrons
 /// (docs/theory/equations_of_state.md, "Debye-Grueneisen solid"), from one Helmholtz energy
 ///   F(V, T) = F_0(V) + F_th(V, T) - F_th(V, T0),
-/// where -dF_0/dV is the isotherm of T0 (Vinet or third-order Birch-Murnaghan): K0 and K0' are those of
-/// static compression at T0, not of the cold curve. No liquid: above Lindemann's melting temperature the
-/// melted fraction is 1 and the energies remain those of the solid.
+/// where -dF_0/dV is the isotherm at T0 (Vinet or third-order Birch-Murnaghan): K0 and K0' are those of static
+/// compression at T0, not of the cold curve. There is no liquid: above Lindemann's melting temperature the melted
+/// fraction is 1 and the energies remain those of the solid.
 ///
-/// Policies, all named and none silent:
-///  - energy below that of `least_temperature` on its isochore: T is held there, the point is counted, E is
-///    kept;
-///  - c^2 < `least_sound_speed_ratio`^2 K0 V0 (expanded beyond the spinodal): c is held there;
-///  - density outside of [`minimum_density()`, `maximum_density()`]: results are NaN, the point is counted.
+/// Explicit policies at the limits:
+///  - energy below that of `least_temperature` on its isochore: T is limited to it, the point is counted, E is kept;
+///  - c^2 < `least_sound_speed_ratio`^2 K0 V0 (expanded beyond the spinodal): c is limited to that value;
+///  - density outside [`minimum_density()`, `maximum_density()`]: results are NaN, the point is counted.
 class DebyeGruneisen {
  public:
   using Constants = DebyeGruneisenConstants;
@@ -76,8 +75,8 @@ class DebyeGruneisen {
   [[nodiscard]] double maximum_density() const { return maximum_density_; }
   [[nodiscard]] double minimum_density() const { return minimum_density_; }
 
-  /// Energy of the coldest state at a density.
-  /// @throws StateError outside of the densities of the model
+  /// Returns the energy of the coldest state at a density.
+  /// @throws StateError outside the density range of the model
   [[nodiscard]] double minimum_energy(double density) const {
     return state_at_temperature(density, least_temperature).specific_internal_energy;
   }
@@ -86,7 +85,7 @@ class DebyeGruneisen {
   [[nodiscard]] State state(double density, double specific_internal_energy) const;
   [[nodiscard]] State state_at_temperature(double density, double temperature) const;
 
-  /// Lindemann: T_m0 (V/V0)^(2/3) (theta/theta0)^2 (K); infinite without `melting_temperature`.
+  /// Returns Lindemann's T_m0 (V/V0)^(2/3) (theta/theta0)^2 (K); infinite without `melting_temperature`.
   [[nodiscard]] double melting_temperature(double density) const;
   [[nodiscard]] double debye_temperature(double density) const;
 

@@ -16,7 +16,7 @@
 namespace whipple::eos {
 namespace {
 
-/// Results of one point or of four, as a batch requires them.
+/// Holds the results for one point or four, as a batch requires them.
 template <class Number>
 struct Evaluated {
   Number V{}, E{}, T{}, P{};
@@ -31,8 +31,8 @@ struct Evaluated {
 struct Gray::Point : Evaluated<double> {
   Phase phase = Phase::solid;
   bool tangent = false;     ///< melting on the equilibrium curve
-  bool cold = false;        ///< T was held at the least temperature
-  std::string_view broken;  ///< bound that the state broke; empty: none
+  bool cold = false;        ///< T was limited to the lowest temperature
+  std::string_view broken;  ///< bound violated by the state; empty: none
 };
 
 struct Gray::FourPoints : Evaluated<Lanes> {
@@ -48,7 +48,7 @@ Gray::Gray(const Constants& constants)
       least_squared_sound_speed_(std::pow(least_sound_speed_ratio * constants.hugoniot_intercept, 2)) {
   if (constants.melting == MeltingTransition::equilibrium) {
     melting_curve_.emplace(surface_);
-    // At the limit of the solid the liquid in equilibrium with it is the densest one that the curve knows.
+    // At the limit of the solid, the liquid in equilibrium with it is the densest on the curve.
     least_volume_ = melting_curve_->hottest().liquid_volume;
   }
   const double T = surface_.vapour_branch_temperature();
@@ -73,7 +73,7 @@ double Gray::fluid_melted_fraction(double T) const {
 
 namespace {
 
-/// State on one branch, with T known.
+/// Computes a state on one branch, with T known.
 template <class Point, class Number>
 void fill_from_branch(Point& p, const BasicGrayBranch<Number>& branch) {
   p.P = branch.pressure(p.T);
@@ -82,8 +82,8 @@ void fill_from_branch(Point& p, const BasicGrayBranch<Number>& branch) {
   p.gruneisen = p.V * branch.pressure_by_temperature(p.T) / p.heat_capacity;
 }
 
-/// State in the melting band at the liquid fraction nu: P, and c^2 = V^2 [P (dP/dE)_V - (dP/dV)_E]  (G28)
-/// from the closed forms of (G31).
+/// Computes a state in the melting band at the liquid fraction nu: P, and c^2 = V^2 [P (dP/dE)_V - (dP/dV)_E]
+/// (G28) from the closed forms of (G31).
 template <class Point, class Number>
 void fill_from_band(Point& p, const BasicGrayBand<Number>& band, const BasicGrayBandSlopes<Number>& d,
                     Number nu) {
@@ -101,7 +101,7 @@ void fill_from_band(Point& p, const BasicGrayBand<Number>& band, const BasicGray
 
 namespace {
 
-/// State of solid and liquid in equilibrium: (dP/dV)_T = 0, hence c^2 = V^2 T P'^2/C_v.
+/// Computes a state of solid and liquid in equilibrium: (dP/dV)_T = 0, hence c^2 = V^2 T P'^2/C_v.
 template <class Point>
 void fill_from_tangent(Point& p, const GrayMeltingCurve& curve) {
   const GrayMeltingCurve::Mixture m = curve.mixture(p.V, p.T);
@@ -129,7 +129,7 @@ Gray::Edges Gray::melting_edges(const GrayIsochore& iso, const Above& above) con
       edges.E1 = iso.solid.energy(edges.T1);
       return edges;
     }
-    // Beyond the solid of the last tie line: that is the lower edge, below it melting is isochoric.
+    // Beyond the solid on the last tie line, which is the lower edge; below it melting is isochoric.
     edges.T1 = curve.coldest().temperature;
     edges.E1 = curve.mixture(iso.V, edges.T1).energy;
     if (above(edges)) return edges;
@@ -169,8 +169,8 @@ Gray::Point Gray::equilibrium_point(double V, double E) const {
   return p;
 }
 
-/// Four states at once, every branch that one of them needs for all of them. A single point takes the same
-/// way, so that it agrees with a batch bitwise. Points out of range are computed at the reference state.
+/// Evaluates four states at once, computing every branch needed by one of them for all. A single point uses the
+/// same code, so that it agrees bitwise with a batch. Points out of range are computed at the reference state.
 Gray::FourPoints Gray::four_points(Lanes V, Lanes E) const {
   const GrayConstants& c = constants();
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -191,7 +191,7 @@ Gray::FourPoints Gray::four_points(Lanes V, Lanes E) const {
   if (bits(thin) != all_lanes) {
     iso = surface_.isochore(select(thin, broadcast(join_volume), V));
     branch = iso.solid;
-    // No band begins below half the melting temperature (G32): most solid points need no more than this.
+    // No band begins below half the melting temperature (G32): most solid points require only this branch.
     warm = (E > branch.energy(0.5 * iso.melting_temperature)) & ~thin;
     if (any(warm) && !melting_curve_) {
       band = surface_.band(iso);
@@ -215,7 +215,7 @@ Gray::FourPoints Gray::four_points(Lanes V, Lanes E) const {
   const LanesMask cold = E < branch.energy(broadcast(least_temperature));
   p.T = select(cold, broadcast(least_temperature), branch.temperature(E));
   p.cold = bits(cold & valid);
-  // NaN: above the energy at which the heat capacity vanishes.
+  // NaN occurs above the energy at which the heat capacity vanishes.
   p.broken |= ~bits(p.T == p.T) & all_lanes;
   fill_from_branch(p, branch);
   p.melted_fraction = select(liquid, broadcast(1.0), broadcast(0.0));
@@ -232,7 +232,7 @@ Gray::FourPoints Gray::four_points(Lanes V, Lanes E) const {
     p.gruneisen = select(melting, mixed.gruneisen, p.gruneisen);
     p.heat_capacity = select(melting, mixed.heat_capacity, p.heat_capacity);
   }
-  // What is left to single points: molten fraction of the vapour, equilibrium melting.
+  // Remaining single-point evaluations: molten fraction of the vapour, equilibrium melting.
   const unsigned thin_bits = bits(thin), melting_bits = bits(melting), liquid_bits = bits(liquid);
   const unsigned hot_bits = bits(hot | hot_vapour), warm_bits = melting_curve_ ? bits(warm) : 0;
   if ((thin_bits | melting_bits | liquid_bits | warm_bits) == 0) return p;  // all solid
@@ -408,7 +408,7 @@ State Gray::full_state(const Point& p) const {
           s.isothermal_bulk_modulus = 0.0;
           break;
         }
-        // The isochore's mean of 1/T between the edges, scaled so that S meets both phases (G33).
+        // Mean of 1/T between the edges on the isochore, scaled so that S is continuous with both phases (G33).
         const GrayBand band = surface_.band(iso);
         const double S1 = surface_.solid_entropy(iso, band.T1);
         const double S2 = surface_.solid_entropy(iso, band.T2) +
@@ -416,7 +416,7 @@ State Gray::full_state(const Point& p) const {
         const double share =
             band.T2 > band.T1 ? std::log(p.T / band.T1) / std::log(band.T2 / band.T1) : p.melted_fraction;
         s.specific_entropy = S1 + share * (S2 - S1);
-        // K_T = rho c^2 - Gamma^2 C_v T rho; not defined where T is a function of V alone.
+        // K_T = rho c^2 - Gamma^2 C_v T rho; undefined where T is a function of V alone.
         if (band.T2 > band.T1) {
           s.isothermal_bulk_modulus =
               (p.squared_sound_speed - p.gruneisen * p.gruneisen * p.heat_capacity * p.T) / p.V;

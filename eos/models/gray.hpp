@@ -13,14 +13,13 @@
 
 namespace whipple::eos {
 
-/// GRAY: three-phase equation of state of metals (solid, melting band, liquid, hot liquid, vapour) from one
-/// Helmholtz free energy; docs/theory/gray.md. Whoever needs the phases' surfaces only (a fit) uses
-/// GrayFreeEnergy.
+/// Implements GRAY, a three-phase equation of state of metals (solid, melting band, liquid, hot liquid, vapour)
+/// from one Helmholtz free energy; docs/theory/gray.md. Code that needs only the surfaces of the phases (a fit)
+/// uses GrayFreeEnergy.
 ///
-/// Policies, all named and none silent:
-///  - energy below that of `least_temperature` on its isochore: T is held there, the point is counted, E is
-///  kept;
-///  - c^2 < `least_sound_speed_ratio`^2 C^2 (inside the van der Waals loop, where c^2 < 0): c is held there;
+/// Explicit policies at the limits:
+///  - energy below that of `least_temperature` on its isochore: T is limited to it, the point is counted, E is kept;
+///  - c^2 < `least_sound_speed_ratio`^2 C^2 (in the van der Waals loop, where c^2 < 0): c is limited to that value;
 ///  - equilibrium melting is followed into tension until the liquid reaches V_J; isochores beyond the solid
 ///  of that last tie line, with less energy than on it, melt isochorically (docs/theory/gray.md, section 3);
 ///  - density above `maximum_density()` or an energy beyond the model: results are NaN, the point is counted.
@@ -43,7 +42,7 @@ class Gray {
   [[nodiscard]] const Constants& constants() const { return surface_.constants(); }
   [[nodiscard]] const GrayFreeEnergy& free_energy() const { return surface_; }
   [[nodiscard]] const VapourDome& dome() const { return dome_; }
-  /// Solid and liquid in equilibrium; none unless melting = "equilibrium".
+  /// Returns the equilibrium of solid and liquid; none unless melting = "equilibrium".
   [[nodiscard]] const std::optional<GrayMeltingCurve>& melting_curve() const { return melting_curve_; }
 
   [[nodiscard]] double reference_density() const { return 1.0 / constants().reference_specific_volume; }
@@ -51,13 +50,13 @@ class Gray {
   [[nodiscard]] double reference_energy() const { return constants().reference_energy; }
   [[nodiscard]] double maximum_density() const { return 1.0 / least_volume_; }
 
-  /// The density of the solid of the last tie line, where equilibrium melting ends.
+  /// Returns the density of the solid on the last tie line, where equilibrium melting ends.
   [[nodiscard]] std::vector<double> kinks() const {
     if (!melting_curve_) return {};
     return {1.0 / melting_curve_->coldest().solid_volume};
   }
 
-  /// Energy of the coldest state at a density.
+  /// Returns the energy of the coldest state at a density.
   /// @throws StateError above the compression limit
   [[nodiscard]] double minimum_energy(double density) const {
     return state_at_temperature(density, least_temperature).specific_internal_energy;
@@ -67,7 +66,7 @@ class Gray {
   [[nodiscard]] State state(double density, double specific_internal_energy) const;
   [[nodiscard]] State state_at_temperature(double density, double temperature) const;
 
-  // The same at (V, T) in m^3/kg and K, in the phase that is stable there.
+  // The same at (V, T) in m^3/kg and K, in the stable phase.
   /// @throws StateError out of range
   [[nodiscard]] double pressure(double V, double T) const {
     return state_at_temperature(1.0 / V, T).pressure;
@@ -79,21 +78,21 @@ class Gray {
   [[nodiscard]] double gamma(double V) const { return surface_.gamma(V); }
 
  private:
-  /// Isochoric melting: of stretched metal, beside equilibrium melting. A phase of its own, as its states do
-  /// not meet those of the melting curve.
+  /// Lists the phases. Isochoric melting occurs in stretched metal in addition to equilibrium melting; it is a
+  /// separate phase, because its states do not join those of the melting curve.
   enum class Phase { solid, melting, isochoric_melting, liquid, hot_liquid, vapour, hot_vapour };
   struct Point;
   struct FourPoints;
-  /// Edges of the melting region on one isochore.
+  /// Holds the edges of the melting region on one isochore.
   struct Edges : GrayBand {
     bool tangent = false;  ///< equilibrium of two volumes between them, not (G31) or (G26); P1, P2 not set
   };
-  /// @param above  whether the point lies above the edges' lower one, (T1, E1)
+  /// @param above  whether the point is above the lower edge, (T1, E1)
   template <class Above>
   [[nodiscard]] Edges melting_edges(const GrayIsochore& isochore, const Above& above) const;
   [[nodiscard]] FourPoints four_points(Lanes V, Lanes E) const;
   [[nodiscard]] Point point(double V, double E) const;
-  /// With a melting curve, at half the melting temperature and above, V <= V_J.
+  /// Evaluates a point with a melting curve, at half the melting temperature and above, V <= V_J.
   [[nodiscard]] Point equilibrium_point(double V, double E) const;
   [[nodiscard]] Point point_at_temperature(double V, double T) const;
   [[nodiscard]] State full_state(const Point& point) const;

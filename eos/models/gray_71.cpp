@@ -16,7 +16,7 @@ namespace {
 
 constexpr double pole_margin = 0.03;
 constexpr double greatest_compression = 0.9;
-/// Step of the central differences along V, relative: error 1e-10 of the slopes.
+/// Relative step of the central differences along V: error 1e-10 of the slopes.
 constexpr double difference = 1e-5;
 
 }  // namespace
@@ -32,7 +32,7 @@ ParameterTable<GrayConstants> Gray71::parameters() {
   return table;
 }
 
-/// One point on a known phase.
+/// Holds one point in a known phase.
 struct Gray71::Point {
   double V = 0, E = 0, T = 0, P = 0;
   double squared_sound_speed = 0, gruneisen = 0, heat_capacity = 0, isothermal_bulk_modulus = 0;
@@ -227,7 +227,7 @@ State Gray71::full_state(const Point& p) const {
   static constexpr std::array<std::string_view, 5> names = {"solid", "melting", "liquid", "hot liquid",
                                                             "vapour"};
   const double least = std::pow(least_sound_speed_ratio * constants_.hugoniot_intercept, 2);
-  State s;  // without entropy: none follows from these forms
+  State s;  // without entropy, which these forms do not define
   s.density = 1 / p.V;
   s.specific_internal_energy = p.E;
   s.temperature = p.T;

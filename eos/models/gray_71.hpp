@@ -8,10 +8,10 @@
 
 namespace whipple::eos {
 
-/// GRAY in the closed forms of its public implementation (docs/theory/gray.md, section 8): cold energy and
-/// melting temperature as truncated series, constant electronic heat coefficient, isochoric melting, vapour
-/// joined to the hot liquid. For comparison with codes that use these; the forms contradict each other
-/// thermodynamically (no entropy follows from them) and jump at V_J: calculations use Gray.
+/// Implements GRAY in the closed forms of its public implementation (docs/theory/gray.md, section 8): cold energy
+/// and melting temperature as truncated series, constant electronic heat coefficient, isochoric melting, vapour
+/// joined to the hot liquid. For comparison with codes that use these forms, which are thermodynamically
+/// inconsistent (they have no entropy) and discontinuous at V_J; use Gray for calculations.
 class Gray71 {
  public:
   using Constants = GrayConstants;
@@ -21,7 +21,7 @@ class Gray71 {
   static constexpr double relative_cost = 3.5;
   static constexpr double least_temperature = 1.0;         ///< K
   static constexpr double least_sound_speed_ratio = 0.01;  ///< of the Hugoniot intercept
-  /// Those of gray, less the choices that these forms do not have.
+  /// Returns the parameters of gray, except the choices that do not exist in these forms.
   static ParameterTable<Constants> parameters();
 
   /// @throws InputError naming the constants that contradict each other
@@ -44,11 +44,11 @@ class Gray71 {
  private:
   enum class Phase { solid, melting, liquid, hot_liquid, vapour };
   struct Point;
-  /// E and P of one phase on an isochore, quadratic in T; the slopes q are not set.
+  /// Returns E and P of one phase on an isochore, quadratic in T; the slopes q are not set.
   [[nodiscard]] GrayBranch branch(Phase phase, double V) const;
   [[nodiscard]] double melting_temperature(double V) const;
   [[nodiscard]] double lindemann_exponent(double V) const;
-  /// Pressure of the mixture of equal volumes at (V, E).
+  /// Returns the pressure of the mixture of equal volumes at (V, E).
   [[nodiscard]] double melting_pressure(double V, double E) const;
   [[nodiscard]] Point point(double V, double E) const;
   void complete(Point& point) const;

@@ -9,7 +9,7 @@
 
 namespace whipple::eos {
 
-/// Melting transition of GRAY.
+/// Specifies the melting transition of GRAY.
 enum class MeltingTransition : std::uint8_t {
   band,         ///< over a band of temperatures on an isochore, in closed form (G31)
   isochoric,    ///< at one temperature on an isochore (G26)
@@ -21,7 +21,7 @@ constexpr std::array<Word<MeltingTransition>, 3> words(MeltingTransition) {
            {MeltingTransition::equilibrium, "equilibrium"}}};
 }
 
-/// Condition that determines the attraction a_y of GRAY's vapour.
+/// Specifies the condition that determines the attraction a_y of GRAY's vapour.
 enum class VapourCondition : std::uint8_t {
   attraction,  ///< a_y as given
   critical,    ///< the complete model has its critical point at `critical_temperature`
@@ -33,12 +33,12 @@ constexpr std::array<Word<VapourCondition>, 3> words(VapourCondition) {
            {VapourCondition::boiling, "boiling"}}};
 }
 
-/// Constants of the GRAY equation of state (docs/theory/gray.md, section 1), SI, molar quantities per mole of
-/// atoms. Sources of the form: Royce, UCRL-51121 (1971); Grover, J. Chem. Phys. 55, 3435 (1971); Young and
-/// Alder, Phys. Rev. A 3, 364 (1971). Metals' constants: Steinberg, UCRL-MA-106439 (1996).
+/// Holds the constants of the GRAY equation of state (docs/theory/gray.md, section 1), SI, molar quantities per
+/// mole of atoms. Sources of the form: Royce, UCRL-51121 (1971); Grover, J. Chem. Phys. 55, 3435 (1971); Young and
+/// Alder, Phys. Rev. A 3, 364 (1971). Constants of metals: Steinberg, UCRL-MA-106439 (1996).
 struct GrayConstants {
-  /// Gas constant of the published GRAY constants, J/(mol K). It is kept (instead of the present 8.314463)
-  /// because melting entropy and heat-capacity slopes of the liquid were given with it.
+  /// Gas constant of the published GRAY constants, J/(mol K). It is kept (instead of 8.314463) because melting
+  /// entropy and heat-capacity slopes of the liquid were published with it.
   static constexpr double gas_constant = 8.314;
   static constexpr double same_as_solid = std::numeric_limits<double>::quiet_NaN();
   static constexpr double not_given = std::numeric_limits<double>::infinity();
@@ -76,11 +76,11 @@ struct GrayConstants {
   double reference_energy = 0.0;         ///< E_0H = E(V0, T0), J/kg
 };
 
-/// Names, units, ranges and meanings of the constants.
+/// Returns names, units, ranges and meanings of the constants.
 ParameterTable<GrayConstants> gray_parameters();
 
-/// Replaces the "same as the solid" defaults by their values. (The attraction of the vapour presets needs
-/// the whole surface: GrayFreeEnergy.)
+/// Replaces the "same as the solid" defaults by their values. (The attraction of the vapour presets requires the
+/// whole surface: GrayFreeEnergy.)
 /// @throws InputError if the constants contradict each other (both names in the message)
 GrayConstants resolved(GrayConstants constants);
 

@@ -15,7 +15,7 @@ namespace whipple::eos {
 namespace {
 
 constexpr int table_intervals = 512;
-/// Nearest approach to the pole y = 0 of the shock curve if the cold pressure has not turned over before.
+/// Minimum distance to the pole y = 0 of the shock curve if the cold pressure does not turn over before.
 constexpr double pole_margin = 0.03;
 constexpr double greatest_compression = 0.9;     ///< x; tenfold compression
 constexpr double checked_temperature = 30000.0;  ///< K: the heat capacity must be positive up to here
@@ -80,7 +80,7 @@ void GrayFreeEnergy::tabulate_cold_curve() {
     return lattice_factor(x) * (cold_energy_at_reference_ + sum);
   };
 
-  // Compression limit (G29): the first x at which the cold pressure stops rising.
+  // Compression limit (G29): the first x at which the cold pressure stops increasing.
   const double last = shock_curve_.limit(pole_margin, greatest_compression);
   constexpr int steps = 500;
   double limit = last, sum = 0, previous_slope = cold_from_energy(0.0, energy(0, 0)).p1;
@@ -206,10 +206,9 @@ double GrayFreeEnergy::liquid_entropy_excess(double tau) const {
   return melting_entropy_ - liquid_slope_ * tau_g * (1 + std::log(tau / tau_g));
 }
 
-// Width of the melting band, (G31) with the bound of (G32): delta = T_m s(k), s = (1 + k^4)^(-1/4) for k > 0,
-// 1 for k <= 0, where 1/k = delta_T/T_m of (G31). Near and beyond the solid's spinodal K_T -> 0 and (G31)
-// alone would reach below T = 0; where (G31) is meant to be used, k > 5, the bound changes it by less than
-// 0.04 %.
+// Width of the melting band, (G31) with the bound of (G32): delta = T_m s(k), s = (1 + k^4)^(-1/4) for k > 0, 1 for
+// k <= 0, where 1/k = delta_T/T_m of (G31). Near and beyond the spinodal of the solid K_T -> 0, and (G31) alone
+// would extend below T = 0; for k > 5, the intended range of (G31), the bound changes it by less than 0.04 %.
 namespace {
 template <class Number>
 Number band_shape(Number k) {
@@ -279,7 +278,7 @@ BasicGrayBandSlopes<Number> GrayFreeEnergy::band_slopes(const BasicGrayIsochore<
   return d;
 }
 
-// The two kinds of number.
+// Instantiations for both number types.
 template GrayIsochore GrayFreeEnergy::isochore(double) const;
 template BasicGrayIsochore<Lanes> GrayFreeEnergy::isochore(Lanes) const;
 template GrayBranch GrayFreeEnergy::liquid_branch(const GrayIsochore&) const;
@@ -336,7 +335,7 @@ void GrayFreeEnergy::check_heat_capacity() const {
   for (int i = 0; i <= samples; ++i) {
     const double V = least_volume_ + (join_volume_ - least_volume_) * i / samples;
     const GrayIsochore iso = isochore(V);
-    // Heat capacities are linear in T: the ends of each branch decide.
+    // Heat capacities are linear in T: it is sufficient to check the ends of each branch.
     const double hot = constants_.hot_liquid_ratio * iso.melting_temperature;
     const double solid_end = std::min(1.5 * iso.melting_temperature, checked_temperature);
     const double liquid_end = std::min(hot, checked_temperature);
@@ -349,9 +348,9 @@ void GrayFreeEnergy::check_heat_capacity() const {
         refuse("hot liquid", V, T, cv);
     }
   }
-  // Vapour: the term T D'' F_E of (G25) lowers the heat capacity below T_G(V_J), most at large volumes.
-  // With little electronic heat it may vanish there; a state of (V, E) then passes to the hot branch with a
-  // jump in T (the complete model warns). Below T_G/2 that is refused.
+  // Vapour: the term T D'' F_E of (G25) lowers the heat capacity below T_G(V_J), most at large volumes. With a
+  // small electronic heat coefficient it may vanish there; a state of (V, E) then changes to the hot branch with a
+  // jump in T (the complete model warns). Below T_G/2 this is rejected.
   for (const double ratio : {1.0, 1.5, 2.0, 4.0, 10.0, 1e3, 1e6}) {
     const double V = ratio * join_volume_;
     const double cool_end = std::min(0.5 * join_hot_temperature_, checked_temperature);

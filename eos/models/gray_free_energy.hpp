@@ -9,12 +9,12 @@
 #include "eos/vapour_dome.hpp"
 #include "src/core/base/vector_math.hpp"
 
-/// Helmholtz free energy of GRAY in closed form, phase by phase (docs/theory/gray.md, sections 2 to 4). All
-/// arguments and results SI; V is the specific volume in m^3/kg, T in K. Cheap to construct (a quarter
-/// of a millisecond with a given attraction), so that a fit may build one per trial set of constants.
+/// Provides the Helmholtz free energy of GRAY in closed form, phase by phase (docs/theory/gray.md, sections 2 to 4).
+/// All arguments and results are SI; V is the specific volume in m^3/kg, T is in K. Construction is cheap (a quarter of
+/// a millisecond with a given attraction), so that a fit may construct one object per trial set of constants.
 namespace whipple::eos {
 
-/// One branch of the free energy on the isochore V: in every phase of GRAY energy and pressure are quadratic
+/// Holds one branch of the free energy on the isochore V: in every phase of GRAY energy and pressure are quadratic
 /// in T,
 ///   E = e0 + e1 T + e2 T^2,  P = p0 + p1 T + p2 T^2,  (dP/dV)_T = q0 + q1 T + q2 T^2.
 /// @tparam Number  double, or Lanes for four points at once
@@ -27,22 +27,22 @@ struct BasicGrayBranch {
   [[nodiscard]] Number energy(Number T) const { return e0 + T * (e1 + T * e2); }
   [[nodiscard]] Number heat_capacity(Number T) const { return e1 + 2 * e2 * T; }
   [[nodiscard]] Number pressure(Number T) const { return p0 + T * (p1 + T * p2); }
-  /// (dP/dT)_V
+  /// Returns (dP/dT)_V.
   [[nodiscard]] Number pressure_by_temperature(Number T) const { return p1 + 2 * p2 * T; }
-  /// (dP/dV)_T
+  /// Returns (dP/dV)_T.
   [[nodiscard]] Number pressure_by_volume(Number T) const { return q0 + T * (q1 + T * q2); }
-  /// (dE/dV)_T = T (dP/dT)_V - P
+  /// Returns (dE/dV)_T = T (dP/dT)_V - P.
   [[nodiscard]] Number energy_by_volume(Number T) const {
     return T * pressure_by_temperature(T) - pressure(T);
   }
-  /// Root of energy(T) = E with positive heat capacity, without cancellation for e2 -> 0. NaN if E is above
-  /// the energy at which the heat capacity vanishes (possible for negative e2 only).
+  /// Returns the root of energy(T) = E with positive heat capacity, without cancellation for e2 -> 0. NaN if E is
+  /// above the energy at which the heat capacity vanishes (possible for negative e2 only).
   [[nodiscard]] Number temperature(Number E) const {
     using std::sqrt;
     using whipple::sqrt;
     return 2 * (E - e0) / (e1 + sqrt(e1 * e1 + 4 * e2 * (E - e0)));
   }
-  /// c^2 = V^2 [T (dP/dT)_V^2/C_v - (dP/dV)_T]  (G28)
+  /// Returns c^2 = V^2 [T (dP/dT)_V^2/C_v - (dP/dV)_T]  (G28).
   [[nodiscard]] Number squared_sound_speed(Number V, Number T) const {
     const Number slope = pressure_by_temperature(T);
     return V * V * (T * slope * slope / heat_capacity(T) - pressure_by_volume(T));
@@ -50,7 +50,7 @@ struct BasicGrayBranch {
 };
 using GrayBranch = BasicGrayBranch<double>;
 
-/// Point by point a where the mask holds, else b.
+/// Selects lane by lane a where the mask holds, otherwise b.
 inline BasicGrayBranch<Lanes> select_branch(LanesMask mask, const BasicGrayBranch<Lanes>& a,
                                             const BasicGrayBranch<Lanes>& b) {
   return {select(mask, a.e0, b.e0), select(mask, a.e1, b.e1), select(mask, a.e2, b.e2),
@@ -58,15 +58,14 @@ inline BasicGrayBranch<Lanes> select_branch(LanesMask mask, const BasicGrayBranc
           select(mask, a.q0, b.q0), select(mask, a.q1, b.q1), select(mask, a.q2, b.q2)};
 }
 
-/// Vapour at V > V_J, joined to a liquid whose branch at V_J is given (G20 to G25): hard spheres and
-/// attraction relative to V_J, and F_E(V) D(T) with D = P_l(V_J, T) - P_HS(V_J, T) + a_y/V_J^2 = d0 + d1 T +
-/// d2 T^2.
+/// Returns the vapour at V > V_J, joined to a liquid whose branch at V_J is given (G20 to G25): hard spheres and
+/// attraction relative to V_J, and F_E(V) D(T) with D = P_l(V_J, T) - P_HS(V_J, T) + a_y/V_J^2 = d0 + d1 T + d2 T^2.
 /// @param constants  with a finite attraction
 template <class Number>
 BasicGrayBranch<Number> gray_vapour_branch(const GrayConstants& constants, const GrayBranch& liquid_at_join,
                                            Number V);
 
-/// Common quantities of the condensed phases on the isochore V <= V_J.
+/// Holds common quantities of the condensed phases on the isochore V <= V_J.
 template <class Number>
 struct BasicGrayIsochore {
   Number V{};
@@ -80,8 +79,8 @@ struct BasicGrayIsochore {
 };
 using GrayIsochore = BasicGrayIsochore<double>;
 
-/// Edges of the melting band on an isochore (G31), or both at T_m for isochoric melting (G26).
-/// Equilibrium melting is not a matter of one isochore: GrayMeltingCurve.
+/// Holds the edges of the melting band on an isochore (G31), or both at T_m for isochoric melting (G26).
+/// Equilibrium melting is not defined on a single isochore: GrayMeltingCurve.
 template <class Number>
 struct BasicGrayBand {
   Number T1{}, T2{};  ///< solid below T1, liquid above T2, K
@@ -90,14 +89,14 @@ struct BasicGrayBand {
 };
 using GrayBand = BasicGrayBand<double>;
 
-/// Derivatives of the edges along V.
+/// Holds the derivatives of the edges along V.
 template <class Number>
 struct BasicGrayBandSlopes {
   Number T1{}, T2{}, E1{}, E2{}, P1{}, P2{};
 };
 using GrayBandSlopes = BasicGrayBandSlopes<double>;
 
-/// Quantities at (V, T) on one branch.
+/// Holds quantities at (V, T) on one branch.
 struct GrayPoint {
   double pressure = 0;                 ///< Pa
   double energy = 0;                   ///< J/kg
@@ -111,18 +110,18 @@ struct GrayPoint {
 
 class GrayFreeEnergy {
  public:
-  /// @throws InputError if the constants contradict each other, the heat capacity would not stay positive, or
-  /// no attraction gives the wanted critical or boiling temperature
+  /// @throws InputError if the constants contradict each other, the heat capacity would not remain positive, or no
+  /// attraction gives the requested critical or boiling temperature
   explicit GrayFreeEnergy(const GrayConstants& constants);
 
-  /// Constants with the defaults resolved and the attraction of the vapour solved.
+  /// Returns the constants with the defaults resolved and the attraction of the vapour solved.
   [[nodiscard]] const GrayConstants& constants() const { return constants_; }
-  /// Least specific volume: the cold pressure turns over there, or the shock curve nears its pole (G29).
+  /// Returns the smallest specific volume, where the cold pressure turns over or the shock curve nears its pole (G29).
   [[nodiscard]] double least_volume() const { return least_volume_; }
-  /// V_J: condensed phases at and below, vapour above.
+  /// Returns V_J: condensed phases at and below, vapour above.
   [[nodiscard]] double join_volume() const { return join_volume_; }
   [[nodiscard]] double covolume() const { return covolume_; }
-  /// R/M, J/(kg K)
+  /// Returns R/M, J/(kg K).
   [[nodiscard]] double specific_gas_constant() const { return gas_; }
 
   // Functions of V, for least_volume() <= V <= join_volume().
@@ -130,25 +129,25 @@ class GrayFreeEnergy {
   [[nodiscard]] double gamma(double V) const;                ///< (G2)
   [[nodiscard]] double melting_temperature(double V) const;  ///< (G11)
 
-  // Whole states on one phase's surface, stable there or not.
+  // Full states on the surface of one phase, stable or not.
   [[nodiscard]] GrayPoint solid(double V, double T) const;   ///< V <= V_J
   [[nodiscard]] GrayPoint liquid(double V, double T) const;  ///< V <= V_J; Grover's and the hot liquid
   [[nodiscard]] GrayPoint vapour(double V, double T) const;  ///< V >= V_J
-  /// liquid() or vapour(), whichever V belongs to: the one surface whose loop holds the liquid-vapour dome.
+  /// Returns liquid() or vapour(), depending on V: the surface whose loop contains the liquid-vapour dome.
   [[nodiscard]] GrayPoint fluid(double V, double T) const {
     return V > join_volume_ ? vapour(V, T) : liquid(V, T);
   }
 
-  /// The fluid surface as the search for its dome sees it. The object refers to this one.
+  /// Returns the fluid surface for the search of its dome. The result refers to this object.
   [[nodiscard]] VapourDome::Search dome_search() const;
 
   // Building blocks of the evaluation.
   template <class Number>
   [[nodiscard]] BasicGrayIsochore<Number> isochore(Number V) const;
-  /// T_m <= T <= T_G  (G16, G18)
+  /// Returns the branch for T_m <= T <= T_G  (G16, G18).
   template <class Number>
   [[nodiscard]] BasicGrayBranch<Number> liquid_branch(const BasicGrayIsochore<Number>& isochore) const;
-  /// T > T_G  (G17, G18)
+  /// Returns the branch for T > T_G  (G17, G18).
   template <class Number>
   [[nodiscard]] BasicGrayBranch<Number> hot_liquid_branch(const BasicGrayIsochore<Number>& isochore) const;
   template <class Number>
@@ -156,25 +155,25 @@ class GrayFreeEnergy {
   template <class Number>
   [[nodiscard]] BasicGrayBandSlopes<Number> band_slopes(const BasicGrayIsochore<Number>& isochore,
                                                         const BasicGrayBand<Number>& band) const;
-  /// Branch of the vapour at V >= V_J: below (hot = false) or above T_G(V_J)  (G25)
+  /// Returns the branch of the vapour at V >= V_J: below (hot = false) or above T_G(V_J)  (G25).
   template <class Number>
   [[nodiscard]] BasicGrayBranch<Number> vapour_branch(Number V, bool hot) const {
     return gray_vapour_branch(constants_, hot ? join_hot_ : join_cool_, V);
   }
-  /// Branch of fluid() at (V, T).
+  /// Returns the branch of fluid() at (V, T).
   [[nodiscard]] GrayBranch fluid_branch(double V, double T) const;
-  /// T_G(V_J): the vapour changes branch there at every volume.
+  /// Returns T_G(V_J), at which the vapour changes branch at every volume.
   [[nodiscard]] double vapour_branch_temperature() const { return join_hot_temperature_; }
-  /// Melting band at V_J.
+  /// Returns the melting band at V_J.
   [[nodiscard]] const GrayBand& join_band() const { return join_band_; }
 
   [[nodiscard]] double solid_entropy(const GrayIsochore& isochore, double T) const;
-  /// Entropy of the liquid over that of the solid at equal V and T.
+  /// Returns the entropy of the liquid minus that of the solid at equal V and T.
   [[nodiscard]] double liquid_entropy_excess(double reduced_temperature) const;
   [[nodiscard]] double vapour_entropy(double V, double T) const;
 
  private:
-  /// Cold curve and its derivatives along x = 1 - V/V0.
+  /// Holds the cold curve and its derivatives along x = 1 - V/V0.
   template <class Number>
   struct Cold {
     Number e, p, p1, p2;  ///< E_c - E_0H, P_c, dP_c/dx, d^2P_c/dx^2
@@ -193,7 +192,7 @@ class GrayFreeEnergy {
   [[nodiscard]] double join_difference_slope(double T) const;  ///< dD/dT of (G25)
 
   GrayConstants constants_;
-  // Per mass.
+  // Per unit mass.
   double gas_ = 0, lattice_ = 0, heat_coefficient_ = 0, melting_entropy_ = 0, liquid_slope_ = 0;
   ShockCurve shock_curve_;
   double cold_offset_ = 0, cold_energy_at_reference_ = 0;  ///< P_CC (G6), E_00 (G4)

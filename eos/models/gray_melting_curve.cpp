@@ -16,13 +16,13 @@ namespace whipple::eos {
 namespace {
 
 constexpr int intervals = 512;
-/// Least extent of a curve relative to the melting temperature.
+/// Minimum extent of a curve relative to the melting temperature.
 constexpr double least_reach = 1.05;
-/// Most change of the slope dP/dT within an interval, relative to it. Where solid and liquid approach the same
-/// volume the slope grows without bound, and a table across that end would hold any pressure.
+/// Maximum relative change of the slope dP/dT within an interval. Where the volumes of solid and liquid approach
+/// each other the slope is unbounded, and a table across that end would contain arbitrary pressures.
 constexpr double most_bending = 1.0;
 
-/// Common tangent at one temperature, with its derivatives along the curve.
+/// Holds the common tangent at one temperature, with its derivatives along the curve.
 struct Node {
   double T = 0, Vs = 0, Vl = 0, P = 0, g = 0;
   double Vs1 = 0, Vl1 = 0;  // dV/dT
@@ -30,7 +30,7 @@ struct Node {
   double g1 = 0, g2 = 0;
 };
 
-/// Newton's method for P_s = P_l and G_s = G_l from a near guess; nothing if it leaves the stable branches.
+/// Solves P_s = P_l and G_s = G_l by Newton's method from a close guess; nothing if it leaves the stable branches.
 std::optional<Node> tangent(const GrayFreeEnergy& f, double T, double Vs, double Vl) {
   for (int i = 0; i < 40; ++i) {
     const GrayPoint s = f.solid(Vs, T), l = f.liquid(Vl, T);
@@ -60,14 +60,14 @@ std::optional<Node> tangent(const GrayFreeEnergy& f, double T, double Vs, double
   return std::nullopt;
 }
 
-/// Along the curve from a node to a temperature near it.
+/// Follows the curve from a node to a nearby temperature.
 std::optional<Node> follow(const GrayFreeEnergy& f, const Node& from, double T) {
   return tangent(f, T, from.Vs + from.Vs1 * (T - from.T), from.Vl + from.Vl1 * (T - from.T));
 }
 
-/// From a node by steps of a factor in T to where `past` holds; the last point before it, to 1e-12 in T.
+/// Marches from a node by steps of a factor in T until `past` holds; returns the last point before it, to 1e-12 in T.
 Node march(const GrayFreeEnergy& f, Node at, double factor, const std::function<bool(const Node&)>& past) {
-  constexpr int most_steps = 10000;  // 2 % each: no curve of material is so long
+  constexpr int most_steps = 10000;  // 2 % each: longer than the curve of any material
   for (int i = 0; i < most_steps && std::abs(factor - 1) > 1e-12; ++i) {
     const std::optional<Node> next = follow(f, at, at.T * factor);
     if (next && !past(*next)) {
@@ -79,12 +79,12 @@ Node march(const GrayFreeEnergy& f, Node at, double factor, const std::function<
   return at;
 }
 
-/// Curvatures from exact slopes on a uniform grid, by differences of fourth order.
+/// Computes curvatures from exact slopes on a uniform grid, by fourth-order differences.
 void add_curvatures(std::vector<HermiteTable::Node>& nodes, double step) {
   const std::size_t n = nodes.size();
   const auto slope = [&](std::size_t i) { return nodes[i].slope; };
   for (std::size_t i = 0; i < n; ++i) {
-    // Centre of the five-point stencil, and the point's place in it.
+    // Centre of the five-point stencil, and the position of the point in it.
     const std::size_t centre = std::clamp<std::size_t>(i, 2, n - 3);
     static constexpr double weights[5][5] = {{-25, 48, -36, 16, -3},
                                              {-3, -10, 18, -6, 1},
@@ -97,7 +97,7 @@ void add_curvatures(std::vector<HermiteTable::Node>& nodes, double step) {
   }
 }
 
-/// Inverse T(V) of a falling volume table V(T) at uniform volumes.
+/// Inverts a decreasing volume table V(T) to T(V) at uniform volumes.
 HermiteTable inverse(const HermiteTable& volume, double T_low, double T_high, double V_low, double V_high) {
   const double step = (V_high - V_low) / intervals;
   std::vector<HermiteTable::Node> nodes;
@@ -105,7 +105,7 @@ HermiteTable inverse(const HermiteTable& volume, double T_low, double T_high, do
     const double V = V_low + i * step;
     double low = T_low, high = T_high, T = i == 0 ? T_high : nodes.back().value;
     HermiteTable::Node v;
-    for (int k = 0; k < 100; ++k) {  // Newton within a shrinking bracket
+    for (int k = 0; k < 100; ++k) {  // Newton's method within a shrinking bracket
       v = volume.at(T);
       (v.value > V ? low : high) = T;
       double next = T - (v.value - V) / v.slope;
@@ -125,7 +125,7 @@ HermiteTable inverse(const HermiteTable& volume, double T_low, double T_high, do
 GrayMeltingCurve::GrayMeltingCurve(const GrayFreeEnergy& f) {
   const GrayConstants& c = f.constants();
   const double T0 = c.melting_temperature, V0 = c.reference_specific_volume;
-  // Solid and liquid lie on both sides of the isochore on which their free energies are equal.
+  // Solid and liquid are on opposite sides of the isochore on which their free energies are equal.
   std::optional<Node> start;
   for (const double width : {0.02, 0.04, 0.08, 0.01}) {
     if ((start = tangent(f, T0, V0 * (1 - width), V0 * (1 + width)))) break;
@@ -141,7 +141,7 @@ GrayMeltingCurve::GrayMeltingCurve(const GrayFreeEnergy& f) {
     const double step = (n.T - first.T) / intervals;
     return n.Vs < f.least_volume() || !(std::abs(n.P2) * step < most_bending * std::abs(n.P1));
   });
-  // Where the common tangent is lost before the solid's compression limit, the curve ends.
+  // The curve ends where the common tangent is lost before the compression limit of the solid.
   std::vector<Node> curve;
   for (;;) {
     curve.assign(1, first);
@@ -204,7 +204,7 @@ double GrayMeltingCurve::liquid_fraction(double V, double T) const {
 }
 
 double GrayMeltingCurve::temperature(double V, double E, const GrayBand& edges) const {
-  // The energy is nearly linear in T between the edges, and rises (C_v > 0): Newton's method, kept between.
+  // The energy is nearly linear in T between the edges, and increases (C_v > 0): Newton's method, kept within them.
   const double T1 = edges.T1, T2 = edges.T2, E1 = edges.E1, E2 = edges.E2;
   double T = std::clamp(T1 + (T2 - T1) * (E - E1) / (E2 - E1), T1, T2);
   for (int i = 0; i < 20; ++i) {

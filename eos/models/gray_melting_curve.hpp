@@ -6,21 +6,21 @@
 
 namespace whipple::eos {
 
-/// Solid and liquid of GRAY in equilibrium: common tangent of their free energies on a grid of temperatures
-/// (G27), docs/theory/gray.md, section 3. From where the liquid reaches V_J, far in tension, to where the
-/// solid reaches the compression limit. SI per mass.
+/// Tabulates solid and liquid of GRAY in equilibrium: the common tangent of their free energies on a grid of
+/// temperatures (G27), docs/theory/gray.md, section 3. It extends from the state where the liquid reaches V_J, far
+/// in tension, to that where the solid reaches the compression limit. SI per unit mass.
 ///
-/// The pressure P(T) and the Gibbs energy g(T) of the coexisting phases make the free energy of every
-/// mixture, F(V, T) = g - P V, and all of its properties by differentiation: the mixture is thermodynamically
-/// exact, whatever the error of the interpolation.
+/// The pressure P(T) and the Gibbs energy g(T) of the coexisting phases give the free energy of every mixture,
+/// F(V, T) = g - P V, and all its properties by differentiation: the mixture is thermodynamically consistent, whatever
+/// the interpolation error.
 class GrayMeltingCurve {
  public:
-  /// One phase or both of the tangent.
+  /// Holds the coexisting phases on the tangent.
   struct Tangent {
     double temperature = 0, pressure = 0;
     double solid_volume = 0, liquid_volume = 0;
   };
-  /// The mixture at (V, T).
+  /// Holds the mixture at (V, T).
   struct Mixture {
     double pressure = 0, energy = 0, entropy = 0;
     double heat_capacity = 0;            ///< at constant volume
@@ -34,18 +34,18 @@ class GrayMeltingCurve {
   [[nodiscard]] const Tangent& hottest() const { return hottest_; }
   /// @param temperature  from coldest() to hottest()
   [[nodiscard]] Tangent at_temperature(double temperature) const;
-  /// @throws StateError out of the curve
+  /// @throws StateError outside the curve
   [[nodiscard]] Tangent at_pressure(double pressure) const;
 
-  /// Temperature at which the solid of volume V begins to melt: V from the hottest liquid's volume to
-  /// coldest().solid_volume.
+  /// Returns the temperature at which the solid of volume V begins to melt: V from the volume of the hottest liquid
+  /// to coldest().solid_volume.
   [[nodiscard]] double solidus(double V) const { return solidus_(V); }
-  /// Temperature at which the last solid melts on the isochore V, up to coldest().liquid_volume.
+  /// Returns the temperature at which the last solid melts on the isochore V, up to coldest().liquid_volume.
   [[nodiscard]] double liquidus(double V) const { return liquidus_(V); }
   [[nodiscard]] Mixture mixture(double V, double T) const;
-  /// Mass fraction of liquid (lever rule).
+  /// Returns the mass fraction of liquid (lever rule).
   [[nodiscard]] double liquid_fraction(double V, double T) const;
-  /// Temperature of the mixture with energy E.
+  /// Returns the temperature of the mixture with energy E.
   /// @param edges  of the isochore: temperatures and energies
   [[nodiscard]] double temperature(double V, double E, const GrayBand& edges) const;
 

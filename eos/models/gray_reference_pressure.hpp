@@ -6,9 +6,9 @@
 
 namespace whipple::eos {
 
-/// (P1a V0/C^2)(x) of (G5) and its first two derivatives: x/y^2 of the shock curve times 1 - n/(2 (1 - x)),
-/// n = gamma x = gamma0 x - a x^2. S2 and S3 are fits of compression; in tension, where they may turn the
-/// pressure around at some per cent of strain, S1 alone continues the curve (two derivatives are continuous).
+/// Returns (P1a V0/C^2)(x) of (G5) and its first two derivatives: x/y^2 of the shock curve times 1 - n/(2 (1 - x)),
+/// n = gamma x = gamma0 x - a x^2. S2 and S3 are fitted in compression; in tension, where they may reverse the
+/// pressure at a few per cent of strain, S1 alone continues the curve (two derivatives are continuous).
 template <class Number>
 ShockCurve::Derivatives<Number> gray_reference_pressure(Number x, const ShockCurve& curve, double gamma0,
                                                         double a) {

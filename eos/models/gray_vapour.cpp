@@ -8,22 +8,22 @@
 namespace whipple::eos {
 namespace {
 
-/// Compressibility of hard spheres, Carnahan and Starling, J. Chem. Phys. 51, 635 (1969).
+/// Returns the compressibility of hard spheres, Carnahan and Starling, J. Chem. Phys. 51, 635 (1969).
 template <class Number>
 Number compressibility(Number z) {
   const Number y = 1 - z;
   return (1 + z * (1 + z * (1 - z))) / (y * y * y);
 }
-/// dZ/dz
+/// Returns dZ/dz.
 template <class Number>
 Number compressibility_slope(Number z) {
   const Number y = 1 - z;
   return (1 + z * (2 - 3 * z)) / (y * y * y) + 3 * (1 + z * (1 + z * (1 - z))) / (y * y * y * y);
 }
-/// Integral of (Z - 1)/z from 0 to z: excess free energy of hard spheres over R T.
+/// Returns the integral of (Z - 1)/z from 0 to z: excess free energy of hard spheres over R T.
 double excess_free_energy(double z) { return z * (4 - 3 * z) / ((1 - z) * (1 - z)); }
 
-/// Join function F_P (G21), its derivative dF_P/dV and its integral F_E (G23).
+/// Holds the join function F_P (G21), its derivative dF_P/dV and its integral F_E (G23).
 template <class Number>
 struct Join {
   Number pressure, pressure_by_volume, energy;

@@ -12,22 +12,22 @@
 
 namespace whipple::eos {
 
-/// rho Gamma = rho0 (constant + linear mu + quadratic mu^2) in compression, mu = rho/rho0 - 1.
+/// Holds rho Gamma = rho0 (constant + linear mu + quadratic mu^2) in compression, mu = rho/rho0 - 1.
 struct GruneisenLaw {
   double constant = 0, linear = 0, quadratic = 0;
 };
 
-/// The reference state of a condensed model.
+/// Holds the reference state of a condensed model.
 struct CondensedReference {
   double density, temperature, energy, heat_capacity;
 };
 
-/// The pressure at e = 0 and its derivative by mu.
+/// Holds the pressure at e = 0 and its derivative with respect to mu.
 struct ReferencePressure {
   double value, slope;
 };
 
-/// Four densities of a GruneisenSolid: p = A + B e, c^2 = C + D e.
+/// Holds four densities of a GruneisenSolid: p = A + B e, c^2 = C + D e.
 struct TabulatedIsochore {
   Lanes density, cold_energy, A, B, C, D;
 
@@ -37,19 +37,18 @@ struct TabulatedIsochore {
   }
 };
 
-/// A solid with a reference pressure of its own in compression and a linear one in expansion
+/// Models a solid with a given reference pressure in compression and a linear one in expansion
 /// (docs/theory/equations_of_state.md, section 2.2):
 ///   compression: A(rho) of `Reference`, rho Gamma by the law;
 ///   expansion:   A = p0 + K mu, Gamma = its value at rho0.
-/// A batch reads A, C, D of c^2 = C + D e, and e_c from one table; material thinner than that is computed from
-/// closed forms.
+/// A batch reads A, C, D of c^2 = C + D e, and e_c from one table; less dense material is computed from closed forms.
 /// @tparam Reference  ReferencePressure operator()(double mu) const, mu = rho/rho0 - 1
 template <class Reference>
 class GruneisenSolid {
  public:
   /// @param pressure, bulk_modulus  p0 and K of the expansion: those of A at rho0
-  /// @param greatest_x              where the reference pressure ends at the latest
-  /// @throws InputError if cold material softens at no compression to speak of
+  /// @param greatest_x              upper limit of the range of the reference pressure
+  /// @throws InputError if cold material softens at negligible compression
   GruneisenSolid(std::string_view name, const Reference& reference, const GruneisenLaw& law,
                  const CondensedReference& state, double pressure, double bulk_modulus, double greatest_x)
       : reference_(reference), law_(law), state_(state) {
@@ -70,10 +69,10 @@ class GruneisenSolid {
 
   [[nodiscard]] double maximum_density() const { return maximum_density_; }
 
-  /// Least density of the table.
+  /// Returns the smallest density of the table.
   [[nodiscard]] double least_usual_density() const { return least_density_; }
   using Places = FourfoldTable::Places;
-  /// Places of densities within the table, and what is there.
+  /// Finds the positions of densities within the table; `usual_isochore` returns the values there.
   void find(Lanes rho, Places& places) const { table_.find(rho, places); }
   [[nodiscard]] TabulatedIsochore usual_isochore(Lanes rho, const Places& places) const {
     const auto [A, C, D, cold_energy] = table_(places);
@@ -98,7 +97,7 @@ class GruneisenSolid {
     return result;
   }
 
-  /// ln(T_s/T0)
+  /// Returns ln(T_s/T0).
   [[nodiscard]] double log_isentrope_temperature(double rho) const {
     const double rho0 = state_.density, logarithm = std::log(rho / rho0);
     if (rho <= rho0) return law_.constant * logarithm;
@@ -110,7 +109,7 @@ class GruneisenSolid {
  private:
   static constexpr double least_tabulated = 0.375;  ///< of rho0
 
-  /// A, C and D of compression.
+  /// Returns A, C and D in compression.
   [[nodiscard]] std::array<double, 3> compressed(double rho) const {
     const double rho0 = state_.density, mu = (rho - rho0) / rho0;
     const ReferencePressure A = reference_(mu);
@@ -130,8 +129,8 @@ class GruneisenSolid {
     return {rho, cold_energy, A, G * rho, A1_ * inverse_density_ + A * work, broadcast(G * (1 + G))};
   }
 
-  /// e_c = e_s - c_v T_s on the isentrope through the reference state: de_s/dx = (A + B e_s)/rho0 with the
-  /// integrating factor T_s/T0  (E3). The model ends where the coldest material softens, c^2 = 0.
+  /// Tabulates e_c = e_s - c_v T_s on the isentrope through the reference state: de_s/dx = (A + B e_s)/rho0 with
+  /// the integrating factor T_s/T0  (E3). The model ends where the coldest material softens, c^2 = 0.
   void tabulate(std::string_view name, double greatest_x) {
     const double rho0 = state_.density, heat = state_.heat_capacity;
     const auto require_compression = [&](const char* what, double end) {  // of the volume
@@ -145,7 +144,7 @@ class GruneisenSolid {
     const auto mu = [](double x) { return x / (1 - x); };
     const auto factor = [&](double x) { return std::exp(log_isentrope_temperature(rho0 / (1 - x))); };
     const auto integrand = [&](double x) { return reference_(mu(x)).value / (rho0 * factor(x)); };
-    // The integral from 0 to the ends of fine intervals; between them one quadrature more.
+    // Integrate from 0 to the ends of fine intervals, with a further quadrature between them.
     using Gauss = boost::math::quadrature::gauss<double, 10>;
     constexpr int intervals = 2048;
     const double step = greatest_x / intervals;
@@ -183,7 +182,7 @@ class GruneisenSolid {
   GruneisenLaw law_;
   CondensedReference state_;
   double A0_ = 0, A1_ = 0;                                  ///< A = A0 + A1 rho/rho0 in expansion
-  Lanes B0_{}, expanded_slope_{}, linear_{}, quadratic_{};  ///< of B over rho - rho0
+  Lanes B0_{}, expanded_slope_{}, linear_{}, quadratic_{};  ///< of B as functions of rho - rho0
   double inverse_density_ = 0;                              ///< 1/rho0
   double power_ = 0, inverse_volume_ = 0, constant_ = 0;    ///< (E4)
   double maximum_density_ = 0, least_density_ = 0;

@@ -13,7 +13,7 @@
 namespace whipple::eos {
 namespace {
 
-constexpr double greatest_grain_compression = 1.0;  ///< m; the fits end far below it
+constexpr double greatest_grain_compression = 1.0;  ///< m; the fits end far below
 
 }  // namespace
 
@@ -45,7 +45,7 @@ HolmquistJohnsonCook::HolmquistJohnsonCook(const Constants& k)
     throw InputError(fmt::format("{}: lock_pressure ({:.6g} Pa) must be above crush_pressure ({:.6g} Pa)",
                                  name, k.lock_pressure, k.crush_pressure));
   }
-  // Where the curve of the grains ends: its slope K1 + 2 K2 m + 3 K3 m^2 falls to zero, or the bound.
+  // End of the curve of the grains: its slope K1 + 2 K2 m + 3 K3 m^2 vanishes, or the bound is reached.
   double limit = greatest_grain_compression;
   const double square = k.K2 * k.K2 - 3 * k.K1 * k.K3;
   if (square >= 0) {
@@ -69,7 +69,7 @@ HolmquistJohnsonCook::HolmquistJohnsonCook(const Constants& k)
     throw InputError(fmt::format("{}: lock_compression must lie above crush_compression", name));
   }
   locked_modulus_ = k.lock_pressure / (locked_compression_ - k.lock_compression);
-  // The compression at rest must grow along the line of crushing; its slope is least at one of the ends.
+  // The compression at rest must increase along the crushing line; its slope is smallest at one of the ends.
   const double a = k.crush_pressure, b = k.lock_pressure - a, c = intact_modulus_, d = locked_modulus_ - c;
   const double softer = std::min(c, c + d);
   if (!(locked_compression_ - k.crush_compression > (b * c - a * d) / (softer * softer)) ||
@@ -89,7 +89,7 @@ HolmquistJohnsonCook::Path HolmquistJohnsonCook::path(double crushed) const {  /
   return {mu, pressure, modulus, mu - pressure / modulus};
 }
 
-/// Root of rest(F) = mu_p, a quadratic in F.
+/// Solves rest(F) = mu_p, a quadratic in F.
 double HolmquistJohnsonCook::crushed_share(double distension) const {
   const Constants& k = constants_;
   const double rest = (1 + k.lock_compression) / distension - 1;

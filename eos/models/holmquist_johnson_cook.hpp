@@ -20,15 +20,14 @@ struct HolmquistJohnsonCookConstants {
   double reference_temperature = 300.0;  ///< K
 };
 
-/// Pressure of concrete after Holmquist, Johnson and Cook (14th Int. Symp. Ballistics, 1993), mu = rho/rho0 -
-/// 1 (docs/theory/concrete_and_ceramics.md, section 1): linear up to the crush pressure; then the pores are
-/// crushed permanently along a straight line up to the lock pressure; then the curve of the material without
-/// pores, K1 m + K2 m^2 + K3 m^3, m = (mu - mu_lock)/(1 + mu_lock). Half-crushed material unloads along a
-/// straight line whose slope is interpolated between that of the intact and that of the locked material. The
-/// past is the distension, the density of the grains over that of the unloaded material: 1 + mu_lock at the
-/// start, 1 when all pores are closed. The pressure does not depend on the energy; T = T0 + (e - e_r)/c_v,
-/// where e_r is the energy that unloading would return: crushing heats. States without a past are on the
-/// virgin path.
+/// Models the pressure of concrete after Holmquist, Johnson and Cook (14th Int. Symp. Ballistics, 1993), mu =
+/// rho/rho0 - 1 (docs/theory/concrete_and_ceramics.md, section 1): linear up to the crush pressure; then the pores
+/// are crushed permanently along a straight line up to the lock pressure; then the curve of the pore-free material,
+/// K1 m + K2 m^2 + K3 m^3, m = (mu - mu_lock)/(1 + mu_lock). Partly crushed material unloads along a straight line
+/// whose slope is interpolated between that of the intact and that of the locked material. The history variable is
+/// the distension, the density of the grains over that of the unloaded material: initially 1 + mu_lock, 1 when all
+/// pores are closed. The pressure does not depend on the energy; T = T0 + (e - e_r)/c_v, where e_r is the
+/// recoverable energy of unloading: crushing heats. States without history are on the virgin path.
 class HolmquistJohnsonCook {
  public:
   using Constants = HolmquistJohnsonCookConstants;
@@ -55,13 +54,13 @@ class HolmquistJohnsonCook {
   [[nodiscard]] double initial_distension() const { return distension_; }
   [[nodiscard]] std::unique_ptr<EquationOfState> unloading(const State& from) const;
 
-  /// mu at which the line of crushing ends on the curve of the material without pores.
+  /// Returns mu at which the crushing line meets the curve of the pore-free material.
   [[nodiscard]] double locked_compression() const { return locked_compression_; }
 
  private:
-  /// The line on which material unloads that was crushed as far as the fraction F of the line of crushing.
+  /// Describes the unloading line of material crushed to the fraction F of the crushing line.
   struct Path {
-    double greatest_compression;  ///< mu where it leaves the line of crushing
+    double greatest_compression;  ///< mu where it leaves the crushing line
     double greatest_pressure;     ///< Pa, there
     double modulus;               ///< dp/dmu, Pa
     double rest;                  ///< mu at p = 0
@@ -73,7 +72,7 @@ class HolmquistJohnsonCook {
   };
   [[nodiscard]] Path path(double crushed) const;
   [[nodiscard]] double crushed_share(double distension) const;
-  /// Crushes the pores if the compression asks for it.
+  /// Evaluates the response, and crushes the pores if the compression requires it.
   [[nodiscard]] Response respond(double density, double& distension) const;
   [[nodiscard]] std::string_view broken_bound(double density, double energy) const;
 
@@ -82,8 +81,8 @@ class HolmquistJohnsonCook {
   double locked_compression_ = 0;
   double intact_modulus_, locked_modulus_ = 0;  ///< dp/dmu of the first and the last unloading line, Pa
   double maximum_density_ = 0;
-  double distension_;      ///< at the start
-  bool crushable_ = true;  ///< false: `distension_` is held
+  double distension_;      ///< initial value
+  bool crushable_ = true;  ///< false: `distension_` is constant
 };
 
 }  // namespace whipple::eos

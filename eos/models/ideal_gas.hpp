@@ -14,14 +14,14 @@ struct IdealGasConstants {
   double reference_temperature = 300.0;  ///< K
 };
 
-/// Ideal gas of constant heat capacity (docs/theory/equations_of_state.md, section 2.4): p = (gamma - 1) rho
-/// e, e = c_v T, s = c_v ln(T/T0) - (gamma - 1) c_v ln(rho/rho0).
+/// Models an ideal gas of constant heat capacity (docs/theory/equations_of_state.md, section 2.4): p = (gamma - 1)
+/// rho e, e = c_v T, s = c_v ln(T/T0) - (gamma - 1) c_v ln(rho/rho0).
 class IdealGasCurve {
  public:
   using Constants = IdealGasConstants;
   static constexpr std::string_view name = "ideal_gas";
   static constexpr std::string_view summary = "ideal gas of constant heat capacity";
-  static constexpr double greatest_compression = 1000;  ///< rho/rho0: a gas no more
+  static constexpr double greatest_compression = 1000;  ///< rho/rho0: no longer a gas beyond
   static ParameterTable<Constants> parameters();
 
   explicit IdealGasCurve(const Constants& constants) : constants_(constants) {}
@@ -42,7 +42,7 @@ class IdealGasCurve {
     const double G = constants_.heat_capacity_ratio - 1;
     return {G / rho, Lanes{}, Lanes{}, Lanes{}, G * rho, broadcast(G)};
   }
-  /// ln(T_s/T0)
+  /// Returns ln(T_s/T0).
   [[nodiscard]] double log_isentrope_temperature(double rho) const;
 
  private:

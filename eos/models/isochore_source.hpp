@@ -6,8 +6,8 @@
 
 namespace whipple::eos {
 
-/// Means over a simulated crystal at one volume: P and E of the static crystal, and at some temperatures. SI,
-/// per mass; errors are standard errors.
+/// Holds means over a simulated crystal at one volume: P and E of the static crystal, and at several temperatures.
+/// SI, per unit mass; errors are standard errors.
 struct SimulatedIsochore {
   struct State {
     double temperature = 0.0;
@@ -19,16 +19,17 @@ struct SimulatedIsochore {
   std::vector<State> states;
 };
 
-/// Anything that knows isochores of a crystal: molecular dynamics, or in tests a formula. The same volumes
-/// bring the same bits, in whatever order they are asked for.
+/// Provides isochores of a crystal: molecular dynamics, or a formula in tests. Equal volumes give bitwise equal
+/// results, regardless of the order of the requests.
 class IsochoreSource {
  public:
   virtual ~IsochoreSource() = default;
-  /// Volume of the static crystal at zero pressure, m^3/kg: that of ratio 1.
+  /// Returns the volume of the static crystal at zero pressure, m^3/kg, which is that of ratio 1.
   [[nodiscard]] virtual double static_volume() const = 0;
   [[nodiscard]] virtual double molar_mass() const = 0;
+  /// Returns isochores at given volumes.
   /// @param volume_ratios  V over that of the static crystal
-  /// @throws StateError naming the state that is not a crystal's or cannot be had
+  /// @throws StateError naming a state that is not crystalline or cannot be computed
   virtual std::vector<SimulatedIsochore> isochores(std::span<const double> volume_ratios) = 0;
 };
 

@@ -16,7 +16,7 @@ template class ConstantHeatCapacity<JwlCurve>;
 
 namespace {
 
-// Published sets give D to four digits, the pressure to three; a set that misses more is not self-consistent.
+// Published sets give D to four digits, the pressure to three; a set with larger deviations is not self-consistent.
 constexpr double velocity_tolerance = 0.005;
 constexpr double pressure_tolerance = 0.02;
 

@@ -20,10 +20,10 @@ struct JwlConstants {
   double chapman_jouguet_pressure = 0;  ///< p_CJ, Pa; 0: not given
 };
 
-/// Detonation products of Jones, Wilkins and Lee (Lee, Hornig and Kury, UCRL-50422, 1968;
+/// Models detonation products after Jones, Wilkins and Lee (Lee, Hornig and Kury, UCRL-50422, 1968;
 /// docs/theory/equations_of_state.md, section 2.5), v = rho0/rho:
 ///   p = A [1 - omega/(R1 v)] exp(-R1 v) + B [1 - omega/(R2 v)] exp(-R2 v) + omega rho e.
-/// The reference state is the explosive with the energy that it sets free, E0/rho0, as products.
+/// The reference state is the explosive with its heat of reaction, E0/rho0, as products.
 class JwlCurve {
  public:
   using Constants = JwlConstants;
@@ -31,7 +31,7 @@ class JwlCurve {
   static constexpr std::string_view summary = "Jones-Wilkins-Lee detonation products";
   static ParameterTable<Constants> parameters();
 
-  /// Warns where a detonation velocity or pressure is given that the constants do not yield.
+  /// Warns if a given detonation velocity or pressure disagrees with the constants.
   /// @throws InputError if E0 is less than the cold energy at rho0, or the products cannot detonate
   explicit JwlCurve(const Constants& constants);
 
@@ -44,7 +44,7 @@ class JwlCurve {
   [[nodiscard]] double reference_sound_speed() const { return reference_sound_speed_; }
   [[nodiscard]] double heat_capacity() const { return constants_.heat_capacity; }
   [[nodiscard]] bool condensed() const { return false; }
-  /// v = 1/R1: denser, the first exponential is no longer steep.
+  /// Returns the density of v = 1/R1, beyond which the first exponential is no longer steep.
   [[nodiscard]] double maximum_density() const {
     return constants_.exponent_1 * constants_.reference_density;
   }
@@ -54,13 +54,13 @@ class JwlCurve {
     const Constants& k = constants_;
     const Lanes V = 1.0 / rho, v = k.reference_density * V;
     const Lanes p1 = k.pressure_1 * exp(-k.exponent_1 * v), p2 = k.pressure_2 * exp(-k.exponent_2 * v);
-    // The cold curve e_c = [A/R1 exp(-R1 v) + B/R2 exp(-R2 v)]/rho0 and its p = rho^2 de_c/drho.
+    // Cold curve e_c = [A/R1 exp(-R1 v) + B/R2 exp(-R2 v)]/rho0 and its p = rho^2 de_c/drho.
     const Lanes energy =
         (1 / (k.exponent_1 * k.reference_density)) * p1 + (1 / (k.exponent_2 * k.reference_density)) * p2;
     const Lanes slope = v * V * (k.exponent_1 * p1 + k.exponent_2 * p2);
     return LinearIsochore::on_curve(rho, V, k.gruneisen, p1 + p2, slope, energy, energy);
   }
-  /// ln(T_s/T0)
+  /// Returns ln(T_s/T0).
   [[nodiscard]] double log_isentrope_temperature(double rho) const;
 
  private:

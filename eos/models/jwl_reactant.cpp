@@ -14,7 +14,7 @@ template class ConstantHeatCapacity<JwlReactantCurve>;
 
 namespace {
 
-// Two large numbers and a small one add up to the pressure at rest: a digit that is wrong moves T0 by
+// The pressure at rest is the sum of two large terms that nearly cancel and a small one: one wrong digit shifts T0 by
 // thousands of kelvins.
 constexpr double coldest_rest = 200.0, hottest_rest = 400.0;  // K
 

@@ -17,11 +17,11 @@ struct JwlReactantConstants {
   double heat_capacity = 0;      ///< c_v, J/(kg K)
 };
 
-/// Unreacted explosive by the formula of Jones, Wilkins and Lee, as the rate laws of ignition and growth take
-/// it (Lee and Tarver, Phys. Fluids 23 (1980) 2362; docs/theory/equations_of_state.md, section 2.5), v =
+/// Models the unreacted explosive by the formula of Jones, Wilkins and Lee, as used with the rate laws of ignition
+/// and growth (Lee and Tarver, Phys. Fluids 23 (1980) 2362; docs/theory/equations_of_state.md, section 2.5), v =
 /// rho0/rho:
 ///   p = A exp(-R1 v) + B exp(-R2 v) + omega c_v rho T,  e = e_c(rho) + c_v T - [e_c(rho0) + c_v T0],
-/// with the cold curve e_c of the products (JwlCurve). At rest e = 0 and p = 0, which gives T0.
+/// with the cold curve e_c of the products (JwlCurve). At rest e = 0 and p = 0, which determines T0.
 class JwlReactantCurve {
  public:
   using Constants = JwlReactantConstants;
@@ -30,8 +30,7 @@ class JwlReactantCurve {
       "unreacted explosive by the formula of Jones, Wilkins and Lee; no phases";
   static ParameterTable<Constants> parameters();
 
-  /// @throws InputError if the explosive at rest has no pressure of zero near room temperature, or no sound
-  /// speed
+  /// @throws InputError if the explosive has no zero-pressure state near room temperature, or no sound speed
   explicit JwlReactantCurve(const Constants& constants);
 
   [[nodiscard]] const Constants& constants() const { return constants_; }
@@ -41,7 +40,7 @@ class JwlReactantCurve {
   [[nodiscard]] double reference_sound_speed() const { return reference_sound_speed_; }
   [[nodiscard]] double heat_capacity() const { return constants_.heat_capacity; }
   [[nodiscard]] bool condensed() const { return true; }
-  /// v = 1/R1: denser, the first exponential is no longer steep.
+  /// Returns the density of v = 1/R1, beyond which the first exponential is no longer steep.
   [[nodiscard]] double maximum_density() const {
     return constants_.exponent_1 * constants_.reference_density;
   }
@@ -56,7 +55,7 @@ class JwlReactantCurve {
     const Lanes slope = v * V * (k.exponent_1 * p1 + k.exponent_2 * p2);
     return LinearIsochore::on_curve(rho, V, k.gruneisen, p1 + p2, slope, energy, energy);
   }
-  /// ln(T_s/T0)
+  /// Returns ln(T_s/T0).
   [[nodiscard]] double log_isentrope_temperature(double rho) const;
 
  private:

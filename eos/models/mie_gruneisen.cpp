@@ -8,7 +8,7 @@
 namespace whipple::eos {
 namespace {
 
-constexpr double pole_margin = 0.05;  ///< least denominator of p_H
+constexpr double pole_margin = 0.05;  ///< minimum denominator of p_H
 
 }  // namespace
 

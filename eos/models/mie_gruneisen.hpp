@@ -11,7 +11,7 @@
 
 namespace whipple::eos {
 
-/// Grueneisen parameter in compression.
+/// Specifies the Grueneisen parameter in compression.
 enum class CompressedGruneisenLaw : std::uint8_t {
   constant_product,  ///< rho Gamma = rho0 Gamma0
   constant,          ///< Gamma = Gamma0
@@ -36,7 +36,7 @@ struct MieGruneisenConstants {
   double reference_temperature = 300.0;  ///< K
 };
 
-/// Mie-Grueneisen equation of state on a shock Hugoniot (docs/theory/equations_of_state.md, section 2.2):
+/// Models a Mie-Grueneisen equation of state on a shock Hugoniot (docs/theory/equations_of_state.md, section 2.2):
 ///   p = A(rho) + rho Gamma e, A = p_H (1 - rho Gamma x/(2 rho0)) in compression, x = 1 - rho0/rho;
 ///   A = c0^2 (rho - rho0), Gamma = Gamma0 in expansion.
 /// Hugoniot and the linear law of Gamma: Steinberg, UCRL-MA-106439 (1996). No phases.
@@ -72,7 +72,7 @@ class MieGruneisenCurve {
   }
 
  private:
-  /// A of compression, (M1) and (M2).
+  /// Evaluates A in compression, (M1) and (M2).
   struct Hugoniot {
     ShockCurve curve;
     GruneisenLaw gamma;
@@ -81,7 +81,7 @@ class MieGruneisenCurve {
     ReferencePressure operator()(double mu) const {
       const double r = 1 + mu, x = mu / r;
       const auto p = curve.pressure(x);
-      // 1 - rho Gamma x/(2 rho0), its derivative by mu; dx/dmu = 1/r^2
+      // 1 - rho Gamma x/(2 rho0) and its derivative with respect to mu; dx/dmu = 1/r^2
       const double by_density = gamma.constant + gamma.linear * mu;
       const double thermal = 1 - 0.5 * by_density * x;
       const double thermal_slope = -0.5 * (gamma.linear * x + by_density / (r * r));

@@ -17,9 +17,8 @@ struct MurnaghanConstants {
   double reference_temperature = 300.0;  ///< K
 };
 
-/// Murnaghan's equation as the isentrope through the reference state (Proc. Natl. Acad. Sci. 30 (1944) 244;
-/// docs/theory/equations_of_state.md, section 2.3): p_s = K0/K0' [(rho/rho0)^K0' - 1], p = p_s + rho Gamma (e
-/// - e_s).
+/// Models Murnaghan's equation as the isentrope through the reference state (Proc. Natl. Acad. Sci. 30 (1944) 244;
+/// docs/theory/equations_of_state.md, section 2.3): p_s = K0/K0' [(rho/rho0)^K0' - 1], p = p_s + rho Gamma (e - e_s).
 class MurnaghanCurve : public PowerIsentropeCurve<MurnaghanConstants> {
  public:
   static constexpr std::string_view name = "murnaghan";

@@ -38,7 +38,7 @@ GruneisenSolid<PolynomialCurve::Polynomial> PolynomialCurve::solid(const Constan
 }
 
 PolynomialCurve::PolynomialCurve(const Constants& k)
-    // c^2 of the reference state on the side of expansion.
+    // c^2 of the reference state on the expansion side.
     : constants_(k),
       reference_sound_speed_(
           std::sqrt((k.C1 + k.C4 * k.C0) / k.reference_density + k.C4 * (1 + k.C4) * k.reference_energy)),

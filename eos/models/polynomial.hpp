@@ -11,17 +11,17 @@ namespace whipple::eos {
 struct PolynomialConstants {
   double reference_density = 0;           ///< rho0, kg/m^3
   double C0 = 0, C1 = 0, C2 = 0, C3 = 0;  ///< Pa
-  double C4 = 0, C5 = 0, C6 = 0;          ///< thermal, without dimension
+  double C4 = 0, C5 = 0, C6 = 0;          ///< thermal, dimensionless
   double reference_energy = 0;            ///< J/kg, at rho0 and T0
   double heat_capacity = 0;               ///< c_v, J/(kg K)
   double reference_temperature = 300.0;   ///< K
 };
 
-/// Linear polynomial equation of state of hydrocodes (docs/theory/equations_of_state.md, section 2.2):
+/// Models the linear polynomial equation of state of hydrocodes (docs/theory/equations_of_state.md, section 2.2):
 ///   compression: p = C0 + C1 mu + C2 mu^2 + C3 mu^3 + (C4 + C5 mu + C6 mu^2) rho0 e, mu = rho/rho0 - 1;
 ///   expansion:   p = C0 + C1 mu + C4 rho e.
-/// In expansion C2, C3 do not act and Gamma stays C4, as in Mie-Grueneisen. A gas is C4 = C5 = gamma - 1, all
-/// others zero.
+/// In expansion C2 and C3 are not used and Gamma remains C4, as in Mie-Grueneisen. A gas has C4 = C5 = gamma - 1
+/// and all other coefficients zero.
 class PolynomialCurve {
  public:
   using Constants = PolynomialConstants;

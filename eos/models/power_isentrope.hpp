@@ -7,7 +7,7 @@
 
 namespace whipple::eos {
 
-/// Reference isentrope p_s = K/n [(rho/rho0)^n - 1] with a constant Grueneisen parameter
+/// Describes a reference isentrope p_s = K/n [(rho/rho0)^n - 1] with a constant Grueneisen parameter
 /// (docs/theory/equations_of_state.md, section 2.3); e_s = 0 at rho0.
 struct PowerIsentrope {
   double density, temperature;  ///< rho0, T0
@@ -30,7 +30,7 @@ struct PowerIsentrope {
   [[nodiscard]] double maximum_density() const { return greatest_compression_ratio * density; }
 };
 
-/// Common part of the models on such an isentrope.
+/// Provides the common part of the models on such an isentrope.
 template <class ConstantsOfModel>
 class PowerIsentropeCurve {
  public:

@@ -33,7 +33,7 @@ CrystalSurface::Settings settings_of(const SimulatedConstants& c) {
           static_cast<int>(c.divisions)};
 }
 
-/// Returns the maker of sources that simulate crystals in this process; empty until one is registered.
+/// Returns the registered maker of sources that simulate crystals in this process; empty if none is registered.
 IsochoreSourceMaker& registered() {
   static IsochoreSourceMaker maker;
   return maker;
@@ -81,7 +81,7 @@ SimulatedCrystal::SimulatedCrystal(const SimulatedConstants& constants,
     : constants_(constants),
       surface_(std::move(source), settings_of(constants)),
       greatest_temperature_(settings_of(constants).greatest_temperature) {
-  // Zero pressure at the reference temperature: Newton in V from the static crystal's volume.
+  // Zero pressure at the reference temperature: Newton's method in V from the volume of the static crystal.
   double density = 1.0 / (surface_.greatest_volume() / constants_.greatest_volume_ratio);
   constexpr int most_steps = 50;
   for (int step = 0;; ++step) {
@@ -106,7 +106,7 @@ const CrystalSurface::Cell& SimulatedCrystal::cell(double density) const {
   return *cell;
 }
 
-/// e - phi = c T + g T^2/2
+/// Solves e - phi = c T + g T^2/2.
 double SimulatedCrystal::temperature_of(double thermal_energy) const {
   const double c = surface_.heat_capacity();
   const double g = surface_.anharmonic_coefficient();

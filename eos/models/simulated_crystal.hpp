@@ -13,7 +13,7 @@
 
 namespace whipple::eos {
 
-/// Constants of the model "md": which crystal, which states may be simulated, and how well.
+/// Holds the constants of the model "md": the crystal, the states that may be simulated, and the accuracy.
 struct SimulatedConstants {
   std::string element, potential, store;
   std::vector<double> temperature;
@@ -26,7 +26,7 @@ struct SimulatedConstants {
   static ParameterTable<SimulatedConstants> parameters();
 };
 
-/// A crystal whose states are simulated when a run asks for them, and kept
+/// Models a crystal whose states are simulated when a run needs them, and stored
 /// (docs/theory/equations_of_state.md, "Simulated crystals"). For small studies: solids only.
 class SimulatedCrystal final : public EquationOfState {
  public:
@@ -47,7 +47,7 @@ class SimulatedCrystal final : public EquationOfState {
   [[nodiscard]] State state(double density, double specific_internal_energy) const override;
   [[nodiscard]] State state_at_temperature(double density, double temperature) const override;
   [[nodiscard]] std::string constants() const override;
-  /// Estimated error of the pressure at a density, Pa.
+  /// Returns the estimated error of the pressure at a density, Pa.
   [[nodiscard]] double pressure_error(double density) const { return cell(density).error; }
 
  private:
@@ -65,11 +65,11 @@ class SimulatedCrystal final : public EquationOfState {
   double reference_density_ = 0.0, energy_zero_ = 0.0;
 };
 
-/// Makes the source of a crystal's isochores from the constants of its model.
-/// @throws InputError if the potential or the store cannot be used
+/// Creates the source of a crystal's isochores from the constants of its model.
+/// @throws InputError if the potential or the database cannot be used
 using IsochoreSourceMaker = std::function<std::unique_ptr<IsochoreSource>(const SimulatedConstants&)>;
 
-/// Registers what simulates crystals, for the whole process. A program that can simulate calls it once, before it
+/// Registers the simulator of crystals for the whole process. A program that can simulate calls it once, before it
 /// reads materials.
 void set_isochore_source(IsochoreSourceMaker maker);
 

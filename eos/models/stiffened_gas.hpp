@@ -16,10 +16,10 @@ struct StiffenedGasConstants {
   double reference_temperature = 300.0;  ///< K
 };
 
-/// Stiffened gas (docs/theory/equations_of_state.md, section 2.4): p = (gamma - 1) rho (e - q) - gamma p_inf,
-/// c^2 = gamma (p + p_inf)/rho. The energy's zero q is such that e = 0 at (rho0, p0). Harlow and Amsden,
-/// LA-4700 (1971); Le Metayer, Massoni and Saurel, Int. J. Therm. Sci. 43 (2004) 265. It carries tension, down
-/// to -p_inf: cavitation is a failure criterion of the material.
+/// Models a stiffened gas (docs/theory/equations_of_state.md, section 2.4): p = (gamma - 1) rho (e - q) - gamma
+/// p_inf, c^2 = gamma (p + p_inf)/rho. The zero q of the energy is such that e = 0 at (rho0, p0). Harlow and
+/// Amsden, LA-4700 (1971); Le Metayer, Massoni and Saurel, Int. J. Therm. Sci. 43 (2004) 265. It carries tension
+/// down to -p_inf: cavitation is a failure criterion of the material.
 class StiffenedGasCurve {
  public:
   using Constants = StiffenedGasConstants;
@@ -54,7 +54,7 @@ class StiffenedGasCurve {
             B,
             broadcast(G)};
   }
-  /// ln(T_s/T0)
+  /// Returns ln(T_s/T0).
   [[nodiscard]] double log_isentrope_temperature(double rho) const;
 
  private:

@@ -17,10 +17,9 @@ struct TaitConstants {
   double reference_temperature = 300.0;  ///< K
 };
 
-/// Tait's equation in the form of Cole, Underwater Explosions (1948), as the isentrope of a liquid
-/// (docs/theory/equations_of_state.md, section 2.3): p_s = rho0 c0^2/n [(rho/rho0)^n - 1], p = p_s + rho
-/// Gamma (e - e_s). It carries tension, down to -rho0 c0^2/n: cavitation is a failure criterion of the
-/// material.
+/// Models Tait's equation in the form of Cole, Underwater Explosions (1948), as the isentrope of a liquid
+/// (docs/theory/equations_of_state.md, section 2.3): p_s = rho0 c0^2/n [(rho/rho0)^n - 1], p = p_s + rho Gamma (e -
+/// e_s). It carries tension down to -rho0 c0^2/n: cavitation is a failure criterion of the material.
 class TaitCurve : public PowerIsentropeCurve<TaitConstants> {
  public:
   static constexpr std::string_view name = "tait";

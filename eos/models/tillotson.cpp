@@ -65,7 +65,7 @@ std::string_view TillotsonCurve::phase(double rho, double energy) const {
 
 void TillotsonCurve::tabulate_isentrope() {
   // de_s/dx = p/rho0, d ln T_s/dx = (dp/de)/rho0 along the isentrope of the reference state  (T4): classical
-  // Runge-Kutta of fourth order on fine steps, one more step to points between.
+  // fourth-order Runge-Kutta method with small steps, and one more step to intermediate points.
   struct Point {
     double energy, log_temperature;
   };

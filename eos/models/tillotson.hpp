@@ -23,9 +23,9 @@ struct TillotsonConstants {
   double reference_temperature = 300.0;      ///< K
 };
 
-/// Tillotson's equation of state (GA-3216, 1962; Melosh, Impact Cratering, 1989, appendix II;
-/// docs/theory/equations_of_state.md, section 2.6): condensed, vapour and a linear mixture of their pressures
-/// between. It gives p(rho, e) alone: the temperature is an estimate, c_v above the isentrope of the
+/// Models Tillotson's equation of state (GA-3216, 1962; Melosh, Impact Cratering, 1989, appendix II;
+/// docs/theory/equations_of_state.md, section 2.6): condensed, vapour and between them a linear mixture of their
+/// pressures. It gives p(rho, e) only: the temperature is an estimate, based on c_v above the isentrope of the
 /// reference state, and there is no entropy.
 class TillotsonCurve {
  public:
@@ -38,14 +38,14 @@ class TillotsonCurve {
   /// @throws InputError naming the constants that contradict each other
   explicit TillotsonCurve(const Constants& constants);
 
-  /// Four densities.
+  /// Holds four densities.
   struct Isochore {
     const Constants* k;
     Lanes density, specific_volume, cold_energy, mu;
     LanesMask expanded;
 
     [[nodiscard]] Response response(Lanes energy) const;
-    /// (e - E_iv)/(E_cv - E_iv) between 0 and 1 in expansion: the weight of the vapour's pressure.
+    /// Returns (e - E_iv)/(E_cv - E_iv) between 0 and 1 in expansion: the weight of the vapour pressure.
     [[nodiscard]] Lanes vaporised_fraction(Lanes energy) const;
   };
 
@@ -63,7 +63,7 @@ class TillotsonCurve {
 
   [[nodiscard]] Isochore isochore(Lanes rho) const;
   [[nodiscard]] double log_isentrope_temperature(double) const { return State::unknown; }
-  /// de_c/drho
+  /// Returns de_c/drho.
   [[nodiscard]] double cold_energy_slope(double rho) const;
 
  private:
@@ -103,7 +103,7 @@ inline Response TillotsonCurve::Isochore::response(Lanes energy) const {
       damp * (b_by_density * energy + modulus_slope * c.bulk_modulus * elastic_damp -
               q_slope * (2 * c.expansion_alpha * q * inner + c.expansion_beta * elastic));
   const Lanes by_energy = density * (c.thermal_a + b * w * damp);
-  // (T3), the mixture; complete vaporisation is its end.
+  // (T3), the mixture, up to complete vaporisation.
   const double latent = c.complete_vaporisation_energy - c.incipient_vaporisation_energy;
   const Lanes share = minimum((energy - c.incipient_vaporisation_energy) * (1 / latent), broadcast(1.0));
   const Lanes share_slope = energy < c.complete_vaporisation_energy ? broadcast(1 / latent) : Lanes{};

@@ -5,9 +5,9 @@
 
 namespace whipple::eos {
 
-/// Material whose strength model holds fragments apart (bulking): p = p_s(alpha rho, e)/alpha with the
-/// distension alpha of the batch, which stays as it is; without one, the material itself. Put around the
-/// equation of state of such a material by `make_material` (docs/theory/concrete_and_ceramics.md, section 4).
+/// Models material with fragments held apart by its strength model (bulking): p = p_s(alpha rho, e)/alpha with the
+/// distension alpha of the batch, which is unchanged; without one, the material itself. Wrapped around the equation
+/// of state of such a material by `make_material` (docs/theory/concrete_and_ceramics.md, section 4).
 class Distended final : public Modified {
  public:
   using Modified::Modified;

@@ -11,11 +11,10 @@ struct FloorConstants {
   double pressure = 0;  ///< Pa
 };
 
-/// Least pressure of a fluid that cannot carry tension: p = max(p_b, pressure), the energy is kept. Below the
+/// Limits the pressure of a fluid that cannot carry tension: p = max(p_b, pressure), the energy is kept. Below the
 /// floor the fluid is a mixture of material and void: no stiffness (K_T = 0, Gamma = 0), and the sound speed is
-/// `sound_speed_ratio` of that of the reference state. The points there are counted
-/// (`RangeReport::at_pressure_floor`); the work p dV of the floor is no thermodynamic work of the model
-/// inside.
+/// `sound_speed_ratio` times that of the reference state. The points there are counted
+/// (`RangeReport::at_pressure_floor`); the work p dV of the floor is not thermodynamic work of the modified model.
 class Floor final : public Modified {
  public:
   using Constants = FloorConstants;

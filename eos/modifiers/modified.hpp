@@ -12,12 +12,12 @@
 #include "src/core/base/error.hpp"
 #include "src/core/base/parameter_table.hpp"
 
-/// Modifiers: equations of state around another one (docs/theory/equations_of_state.md, "Modifiers").
+/// Defines modifiers, which wrap equations of state (docs/theory/equations_of_state.md, "Modifiers").
 namespace whipple::eos {
 
-/// Passes everything on; a modifier overrides what it changes. `model` and the first lines of `constants`
-/// stay those of the model inside, followed by a table of each modifier: together the `[eos]` of a material
-/// file.
+/// Forwards all functions to the modified model; a modifier overrides some of them. `model` and the first lines of
+/// `constants` remain those of the modified model, followed by a table for each modifier: together they form the
+/// `[eos]` of a material file.
 class Modified : public EquationOfState {
  public:
   explicit Modified(std::shared_ptr<const EquationOfState> base) : base_(std::move(base)) {}
@@ -62,12 +62,12 @@ class Modified : public EquationOfState {
   std::shared_ptr<const EquationOfState> base_;
 };
 
-/// Scratch of a modifier that gives other densities or energies to the model inside: on the stack, since
-/// batches do not allocate.
+/// Size of the scratch arrays of a modifier that passes different densities or energies to the modified model: on
+/// the stack, since batches do not allocate.
 inline constexpr std::size_t modifier_chunk = 256;
 using ModifierScratch = std::array<double, modifier_chunk>;
 
-/// Entries [first, first + size) of a batch.
+/// Returns the entries [first, first + size) of a batch.
 inline Batch part_of(const Batch& batch, std::size_t first, std::size_t size) {
   const auto part = [&](auto span) { return span.empty() ? span : span.subspan(first, size); };
   return {part(batch.density),
@@ -80,7 +80,7 @@ inline Batch part_of(const Batch& batch, std::size_t first, std::size_t size) {
           part(batch.distension)};
 }
 
-/// Calls f(part of the batch) for chunks that fit the scratch and adds up the reports, indices of the batch.
+/// Calls f(part of the batch) for chunks that fit the scratch arrays and merges the reports, with indices of the batch.
 template <class Function>
 RangeReport in_chunks(const Batch& batch, Function&& f) {
   RangeReport report;

@@ -9,10 +9,10 @@
 namespace whipple::eos {
 namespace {
 
-constexpr double open_at_the_end = 1e-6;  ///< of alpha0 - 1, where the exponential curve ends
+constexpr double open_at_the_end = 1e-6;  ///< of alpha0 - 1, end of the exponential curve
 constexpr int greatest_iterations = 100;
 
-/// State of material with pores from that of its matrix.
+/// Returns the state of porous material from that of its matrix.
 State with_pores(State s, double distension) {
   s.density /= distension;
   s.pressure /= distension;
@@ -22,7 +22,7 @@ State with_pores(State s, double distension) {
   return s;
 }
 
-/// Pores of constant fraction: what crushed material expands on (A1).
+/// Models pores of constant fraction, for the expansion of crushed material (A1).
 class FixedDistension final : public Modified {
  public:
   FixedDistension(std::shared_ptr<const EquationOfState> base, double distension)
@@ -139,9 +139,9 @@ double PAlpha::crush_pressure(double distension) const {
   return k.elastic_pressure - std::log(open * (1 - open_at_the_end) + open_at_the_end) / k.compaction_rate;
 }
 
-/// Distension after loading: the one before if the pressure stays below the crush curve, otherwise the
+/// Returns the distension after loading: unchanged if the pressure stays below the crush curve, otherwise the
 /// solution of p = p_s(alpha(p) rho)/alpha(p) by bracketed regula falsi (Illinois) in p (A4).
-/// @param matrix_pressure  of the density of the matrix; NaN beyond the model
+/// @param matrix_pressure  as a function of the density of the matrix; NaN beyond the model
 template <class MatrixPressure>
 double PAlpha::crushed(double density, double distension, const MatrixPressure& matrix_pressure) const {
   if (distension <= 1) return 1.0;
@@ -150,7 +150,7 @@ double PAlpha::crushed(double density, double distension, const MatrixPressure& 
   if (trial <= low) return distension;
   const double closed = matrix_pressure(density);
   if (!(closed < closing_pressure_)) return 1.0;
-  // Beyond the compression limit of the matrix the pressure is as good as infinite.
+  // Beyond the compression limit of the matrix the pressure is treated as infinite.
   double high = closing_pressure_, at_high = high - closed;
   double at_low = std::isnan(trial) ? -at_high : low - trial;
   int side = 0;
@@ -183,7 +183,7 @@ RangeReport PAlpha::evaluate(const Batch& batch) const {
       distension[i] = part.distension.empty() ? constants_.distension : part.distension[i];
       density[i] = part.density[i] * distension[i];
     }
-    // All points as if they kept their pores; those that are crushed in this step once more, one by one.
+    // Evaluate all points at constant distension, then re-evaluate one by one those that are crushed in this step.
     Batch matrix = part;
     matrix.density = {density.data(), size};
     matrix.distension = {};

@@ -9,7 +9,7 @@
 
 namespace whipple::eos {
 
-/// Crush curve alpha(p) above p_e.
+/// Specifies the crush curve alpha(p) above p_e.
 enum class CompactionCurve : std::uint8_t { quadratic, power, exponential };
 constexpr std::array<Word<CompactionCurve>, 3> words(CompactionCurve) {
   return {{{CompactionCurve::quadratic, "quadratic"},
@@ -26,17 +26,17 @@ struct PAlphaConstants {
   double compaction_rate = 0;      ///< 1/Pa (exponential)
 };
 
-/// Porous material after Herrmann, J. Appl. Phys. 40, 2490 (1969), with the pressure of the matrix divided by
-/// the distension (Carroll and Holt, J. Appl. Phys. 43, 759, 1972): alpha = V/V_s,
+/// Models porous material after Herrmann, J. Appl. Phys. 40, 2490 (1969), with the pressure of the matrix divided
+/// by the distension (Carroll and Holt, J. Appl. Phys. 43, 759, 1972): alpha = V/V_s,
 ///   p(rho, e, alpha) = p_s(alpha rho, e)/alpha.
-/// The distension stays while p is below the crush curve and follows it in further loading, permanently:
+/// The distension is constant while p is below the crush curve and follows it in further loading, permanently:
 ///   quadratic:    alpha = 1 + (alpha0 - 1) [(p_s - p)/(p_s - p_e)]^2,  p_e < p < p_s;
 ///   power:        the same with an exponent n for 2 (Borrvall and Riedel, 8th European LS-DYNA Conf., 2011);
 ///   exponential:  alpha = 1 + (alpha0 - 1) exp[-rate (p - p_e)] (Boade, J. Appl. Phys. 39, 5693, 1968), ended
 ///                 at 1e-6 (alpha0 - 1).
-/// The energy is that of the matrix (pores have none). States without a past are on the virgin path: loaded
-/// once, from alpha0. Sound speed, Gamma, K_T and heat capacities are those of unloading (constant alpha);
-/// loading that crushes is slower. No vapour dome: it belongs to the matrix.
+/// The energy is that of the matrix (pores have none). States without history are on the virgin path: loaded once,
+/// from alpha0. Sound speed, Gamma, K_T and heat capacities are those of unloading (constant alpha); loading with
+/// crushing is slower. There is no vapour dome, which would be that of the matrix.
 class PAlpha final : public Modified {
  public:
   using Constants = PAlphaConstants;
@@ -45,7 +45,7 @@ class PAlpha final : public Modified {
       "porous material that is crushed permanently (Herrmann's P-alpha model)";
   static ParameterTable<Constants> parameters();
 
-  /// @throws InputError for constants that contradict each other, or a base that has pores already
+  /// @throws InputError for constants that contradict each other, or a base that already has pores
   PAlpha(std::shared_ptr<const EquationOfState> base, const Constants& constants);
 
   [[nodiscard]] double reference_density() const override {
@@ -54,7 +54,7 @@ class PAlpha final : public Modified {
   [[nodiscard]] double minimum_energy(double density) const override {
     return state_at_temperature(density, least_temperature()).specific_internal_energy;
   }
-  /// The root on the crush curve.
+  /// Adds the cost of finding the root on the crush curve.
   [[nodiscard]] double relative_cost() const override { return base().relative_cost() + 11.0; }
   [[nodiscard]] double initial_distension() const override { return constants_.distension; }
   [[nodiscard]] const VapourDome* vapour_dome() const override { return nullptr; }
@@ -71,7 +71,7 @@ class PAlpha final : public Modified {
     }
   }
 
-  /// The crush curve and its inverse (Pa).
+  /// Evaluates the crush curve; the next function is its inverse (Pa).
   [[nodiscard]] double distension_at(double pressure) const;
   [[nodiscard]] double crush_pressure(double distension) const;
   /// Returns the pressure at which the pores are closed (Pa).
@@ -85,7 +85,7 @@ class PAlpha final : public Modified {
   [[nodiscard]] State virgin(double density, const MatrixState& matrix_state) const;
 
   Constants constants_;
-  double exponent_ = 0;  ///< of the curves of a power; 0: exponential
+  double exponent_ = 0;  ///< of the power-law curves; 0: exponential
   double closing_pressure_ = 0;
 };
 

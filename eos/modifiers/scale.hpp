@@ -10,12 +10,12 @@
 namespace whipple::eos {
 
 struct ScaleConstants {
-  double density = 1;  ///< density over that of the model inside, at equal volume per atom
+  double density = 1;  ///< density over that of the modified model, at equal volume per atom
 };
 
-/// Material with the same energy and entropy per volume at another density (isotopes, dilute alloys of another
-/// atomic mass): with f = density, p(rho, e) = p_b(rho/f, f e), s = s_b/f, c^2 = c_b^2/f; thermodynamically
-/// consistent, since V, e and s all scale with 1/f.
+/// Models material with the same energy and entropy per volume at another density (isotopes, dilute alloys of
+/// different atomic mass): with f = density, p(rho, e) = p_b(rho/f, f e), s = s_b/f, c^2 = c_b^2/f;
+/// thermodynamically consistent, since V, e and s all scale with 1/f.
 class Scale final : public Modified {
  public:
   using Constants = ScaleConstants;

@@ -11,8 +11,8 @@ struct ShiftConstants {
   double energy = 0;  ///< J/kg
 };
 
-/// Another origin of the energy: p(rho, e) = p_b(rho, e - energy). Tables and databases choose theirs; the
-/// difference matters where material changes its equation of state.
+/// Shifts the origin of the energy: p(rho, e) = p_b(rho, e - energy). Tables and databases use different origins;
+/// the difference is significant where material changes its equation of state.
 class Shift final : public Modified {
  public:
   using Constants = ShiftConstants;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A batch of states of a table. Points pass through the stages block by block: four at once where their
-// data lie side by side, one by one where each reads a place of its own. No stage waits for a single point's
-// chain of look-ups.
+// Evaluates a batch of states of a table. Points pass through the stages block by block: four at once where their data
+// are contiguous, one by one where each reads a different location. No stage depends on the chain of look-ups of a
+// single point.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,13 +23,13 @@ using Integers = std::array<std::int32_t, block_size>;
 
 void store(std::int32_t* to, __m128i x) { _mm_store_si128(reinterpret_cast<__m128i*>(to), x); }
 
-/// Index of the piece, of n equal ones, that holds a position from 0 to n; NaN lies in the first.
+/// Returns the index of the interval, of n equal ones, that contains a position from 0 to n; NaN gives the first.
 Lanes piece_of(Lanes position, Lanes n) {
   const Lanes within = minimum(maximum(position, Lanes{}), n - 1.0);
   return Lanes(_mm256_round_pd(__m256d(within), _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC));
 }
 
-/// Edges of the regions at the density of a point: curve 0 is e_0, the uppermost edge the top of the table.
+/// Holds the edges of the regions at the density of a point: curve 0 is e_0, the uppermost edge the top of the table.
 struct Edges {
   alignas(32) std::array<double, 12> value, slope, half_curvature;
 };
@@ -44,7 +44,7 @@ class Block {
     for (Edges& e : edges_) e.value = e.slope = e.half_curvature = {};
   }
 
-  /// Evaluates `count` points that begin at `first` of their batch, in arrays that hold `padded` numbers.
+  /// Evaluates `count` points starting at `first` of their batch, in arrays padded to `padded` numbers.
   void evaluate(const double* density, const double* energy, std::size_t first, std::size_t count,
                 std::size_t padded, double* pressure, double* temperature, double* sound_speed,
                 RangeReport& report) {
@@ -60,12 +60,12 @@ class Block {
       const table::Thermal<Lanes> result = table::thermal<Lanes>(load(density + i), slopes(i));
       whipple::store(pressure + i, result.pressure);
       whipple::store(temperature + i, result.temperature);
-      // The floor comes first: a NaN in the second operand stays.
+      // The floor is the first operand: a NaN in the second operand is preserved.
       whipple::store(sound_speed + i, sqrt(maximum(broadcast(least_squared_), result.squared_sound_speed)));
     }
   }
 
-  /// Melted and vaporised fractions of the points evaluated last, in lanes 0 and 1.
+  /// Returns the melted and vaporised fractions of the points evaluated last, in lanes 0 and 1.
   void fractions(std::size_t padded, Lanes* result) const {
     alignas(16) std::array<std::int32_t, 4> corner, row;
     alignas(32) std::array<double, 4> u, v;
@@ -81,7 +81,7 @@ class Block {
       whipple::store(u.data(), x - ix);
       whipple::store(v.data(), minimum(maximum(y - iy, Lanes{}), broadcast(1.0)));
       for (std::size_t j = 0; j < 4; ++j) {
-        // Both fractions of two neighbours along y lie side by side.
+        // Both fractions of two neighbours along y are contiguous.
         const auto pair = [&](std::int32_t at) {
           const void* from = &data_.fractions[static_cast<std::size_t>(at)];
           const __m128i values = _mm_cvtepu16_epi32(_mm_loadl_epi64(static_cast<const __m128i*>(from)));
@@ -125,7 +125,7 @@ class Block {
     edges.half_curvature[slab->region_count] = 0;
   }
 
-  /// Gathers one number of the four points from i on.
+  /// Gathers one number of the four points starting at i.
   template <class Number>
   Lanes gathered(std::size_t i, Number&& number) const {
     return Lanes{number(i), number(i + 1), number(i + 2), number(i + 3)};
@@ -135,7 +135,7 @@ class Block {
                     RangeReport& report) {
     const double coldest = data_.thermal_energy;
     Lanes thermal = load(energy + i) - gathered(i, [&](std::size_t j) { return edges_[j].value[0]; });
-    // One test for the usual points; NaN fails it.
+    // One test for the usual points, which fails for NaN.
     if (bits((load(&x_[i]) == load(&inside_[i])) & (thermal >= coldest)) != all_lanes) {
       for (std::size_t j = i; j < i + 4; ++j) {
         double& e = thermal[j - i];
@@ -149,7 +149,7 @@ class Block {
     whipple::store(&inverse_thermal_[i], 1.0 / thermal);
   }
 
-  /// Number of the region of a point, from the bottom.
+  /// Returns the number of the region of a point, counted from the bottom.
   std::size_t region_of(std::size_t i, std::size_t first, std::size_t count, RangeReport& report) {
     const Edges& edges = edges_[i];
     const std::uint32_t n = slabs_[i]->region_count;
@@ -163,7 +163,7 @@ class Block {
     const auto k = static_cast<std::size_t>(__builtin_popcount(passed & ((1u << n) - 1)));
     if (k < n) return k;
     if (i < count) broken(report, first + i, table::energy_bound);
-    inverse_thermal_[i] = State::unknown;  // spreads to all results
+    inverse_thermal_[i] = State::unknown;  // propagates to all results
     z_[i] = edges.value[n];
     return n - 1;
   }
@@ -177,7 +177,7 @@ class Block {
     const auto edge = [&](auto quantity, std::size_t upper) {
       return gathered(i, [&](std::size_t j) { return (edges_[j].*quantity)[k[j - i] + upper]; });
     };
-    // The lowest edge is the bottom; in its place stands e_0.
+    // The lowest edge is the bottom; e_0 is stored in its place.
     const LanesMask lowest = gathered(0, [&](std::size_t j) { return static_cast<double>(k[j]); }) == 0.0;
     const Lanes low = select(lowest, broadcast(bottom_), edge(&Edges::value, 0));
     const Lanes slope = select(lowest, Lanes{}, edge(&Edges::slope, 0));
@@ -206,7 +206,7 @@ class Block {
     store(&cells_[i], _mm256_cvttpd_epi32(__m256d(first_cell + ix * ny + iy)));
   }
 
-  /// Derivatives of the entropy by ln rho and e.
+  /// Returns the derivatives of the entropy with respect to ln rho and e.
   [[nodiscard]] table::Slopes<Lanes> slopes(std::size_t i) const {
     const table::Polynomial<Lanes> s = table::along_y(&sums_[i], load(&local_y_[i]));
     const Lanes by_x = load(&cells_per_x_[i]), by_y = load(&cells_per_y_[i]);
@@ -243,7 +243,7 @@ RangeReport Table::evaluate(const Batch& batch) const {
   Block block(data_, layout_);
   const bool with_fractions = !batch.melted_fraction.empty() || !batch.vaporised_fraction.empty();
   std::array<Lanes, block_size> fractions;
-  Numbers density, energy, pressure, temperature, sound_speed;  // of a last block that is not full
+  Numbers density, energy, pressure, temperature, sound_speed;  // for a last block that is not full
   for (std::size_t first = 0; first < batch.density.size(); first += block_size) {
     const std::size_t count = std::min(block_size, batch.density.size() - first);
     const std::size_t padded = (count + 3) / 4 * 4;

@@ -18,14 +18,14 @@ constexpr int scan_energy = 256;
 constexpr std::size_t greatest_segments = 64;
 constexpr std::size_t greatest_strips = 256;
 constexpr std::size_t consistency_states = 4096;
-/// Limits the contradiction in p on the scale of TableError: GRAY's melting band has 0.1.
+/// Limit of the inconsistency in p on the scale of TableError: GRAY's melting band has 0.1.
 constexpr double greatest_contradiction = 0.5;
-constexpr double default_thinness = 1e-5;  ///< least density over the reference density
-/// Greatest density over the compression limit, where the bulk modulus of the cold solid vanishes and the
-/// melting band of GRAY, whose width goes with 1/K_T, contradicts itself most.
+constexpr double default_thinness = 1e-5;  ///< minimum density over the reference density
+/// Maximum density over the compression limit, where the bulk modulus of the cold solid vanishes and the melting
+/// band of GRAY, whose width is proportional to 1/K_T, is least consistent.
 constexpr double default_density_share = 0.99;
 
-/// Densities between which every isochore crosses the same phases; sampled from `first` to `last`.
+/// Holds a range of densities in which every isochore crosses the same phases; sampled from `first` to `last`.
 struct Segment {
   double first, last;
 };
@@ -34,7 +34,7 @@ class Scan {
  public:
   Scan(const table::Sampler& sampler) : sampler_(sampler) {}
 
-  /// Ends of the segments between two values of ln rho.
+  /// Finds the ends of the segments between two values of ln rho.
   void split(double a, const std::vector<std::string_view>& phases_a, double b,
              const std::vector<std::string_view>& phases_b, std::vector<Segment>& segments) const {
     if (phases_a == phases_b) return;
@@ -136,7 +136,7 @@ TableData tabulate(const EquationOfState& eos, const TableRequest& request, cons
     segments.insert(at + 1, rest);
   }
 
-  // Strips: halved until each reaches the error.
+  // Halve the strips until each reaches the required error.
   std::vector<table::StripTask> tasks;
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const Segment& s = segments[i];
@@ -178,8 +178,7 @@ TableData tabulate(const EquationOfState& eos, const TableRequest& request, cons
   }
   std::ranges::sort(fitted, {}, [](const table::FittedStrip& f) { return f.strip.begin; });
   for (table::FittedStrip& f : fitted) table::append(data, f);
-  // The entropy alone was sampled: it must be that of the pressure, as far as the model's own contradictions
-  // go.
+  // Only the entropy was sampled: it must be consistent with the pressure, as far as the model is.
   for (const auto& [phase, found] : verify(Table(data), eos, consistency_states)) {
     if (found.pressure > greatest_contradiction) {
       throw InputError(
@@ -205,7 +204,7 @@ std::map<std::string, TableError> verify(const Table& table, const EquationOfSta
   for_each(chunks, [&](std::size_t k) {
     const std::size_t n = std::min(chunk, states - k * chunk);
     std::vector<double> rho(n), e(n), p(n), T(n), c(n), melted(n), vaporised(n);
-    // splitmix64 (Steele et al., OOPSLA 2014), seeded by the chunk: the same states on any number of threads.
+    // splitmix64 (Steele et al., OOPSLA 2014), seeded by the chunk: the same states for any number of threads.
     std::uint64_t seed = 0x9e3779b97f4a7c15ULL * (k * chunk * 2 + 1);
     const auto uniform = [&] {
       std::uint64_t v = seed += 0x9e3779b97f4a7c15ULL;
@@ -225,7 +224,7 @@ std::map<std::string, TableError> verify(const Table& table, const EquationOfSta
       TableError& error = partial[k][std::string(s.phase)];
       ++error.states;
       const auto raise = [](double& greatest, double value) {
-        if (!(value <= greatest)) greatest = value;  // NaN counts
+        if (!(value <= greatest)) greatest = value;  // also true for NaN
       };
       const double dT = std::abs(T[i] / s.temperature - 1);
       const double dp = std::abs(p[i] - s.pressure) /

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t width = HermiteFit::least_intervals + 1;
 
-/// Weights of the first and second derivative at `at` over the nodes 0, 1, ..., width - 1: B. Fornberg,
+/// Returns the weights of the first and second derivative at `at` over the nodes 0, 1, ..., width - 1: B. Fornberg,
 /// Math. Comp. 51, 699 (1988).
 std::array<std::array<double, width>, 3> difference_weights(double at) {
   std::array<std::array<double, width>, 3> c{};

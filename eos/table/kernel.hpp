@@ -13,10 +13,10 @@
 #include "eos/table/table.hpp"
 #include "src/core/base/vector_math.hpp"
 
-/// The innermost functions of a table, shared by its evaluation and by its construction.
+/// Provides the innermost functions of a table, shared by its evaluation and its construction.
 namespace whipple::eos::table {
 
-/// A quintic polynomial, its first and half of its second derivative; coefficient(i) belongs to t^i.
+/// Evaluates a quintic polynomial, its first and half of its second derivative; coefficient(i) is that of t^i.
 template <class Number, class Coefficient>
 inline void horner(const Coefficient& coefficient, Number t, Number& value, Number& slope,
                    Number& half_curvature) {
@@ -29,7 +29,7 @@ inline void horner(const Coefficient& coefficient, Number t, Number& value, Numb
   value = v1 * t + coefficient(0);
 }
 
-/// The piece, of n equal ones, that holds a position from 0 to 1, and where in it.
+/// Identifies which of n equal intervals contains a position from 0 to 1, and the local coordinate in it.
 struct Piece {
   std::uint32_t index;
   double local;
@@ -44,16 +44,18 @@ inline Piece piece(double position, std::uint32_t n) {
 constexpr std::string_view density_bound = "density outside the table";
 constexpr std::string_view energy_bound = "specific internal energy above the table";
 
-/// Numbers of the curves of a strip, or of its edges from the bottom to the top; the rest is idle.
+/// Holds values for the curves of a strip, or for its edges from the bottom to the top; the remaining entries are
+/// unused.
 using CurveNumbers = std::array<double, 12>;
 static_assert(std::tuple_size_v<CurveNumbers> > TableData::greatest_regions);
 
-/// Value and derivatives by x = ln rho of e_0 and of the edges between the regions of a strip.
+/// Holds values and derivatives with respect to x = ln rho of e_0 and of the edges between the regions of a strip.
 struct Curves {
   alignas(32) CurveNumbers value, slope, curvature;
 };
 
-/// @param tx  place in the strip, from 0 to 1
+/// Evaluates the curves of a strip.
+/// @param tx  position in the strip, from 0 to 1
 inline Curves curves(const TableData& data, const TableData::Strip& strip, double tx) {
   const Piece at = piece(tx, strip.intervals);
   const double scale = strip.intervals * strip.inverse_length;
@@ -69,7 +71,7 @@ inline Curves curves(const TableData& data, const TableData::Strip& strip, doubl
   return result;
 }
 
-/// The edges of the regions, from the bottom to the top of a strip, with their derivatives by x.
+/// Returns the edges of the regions, from the bottom to the top of a strip, with their derivatives with respect to x.
 inline Curves edges(const TableData::Strip& strip, double x, double bottom, const Curves& curves) {
   const auto last = strip.region_count;
   Curves result = curves;
@@ -81,13 +83,13 @@ inline Curves edges(const TableData::Strip& strip, double x, double bottom, cons
   return result;
 }
 
-/// Derivatives of S by two coordinates. Number is double or Lanes.
+/// Holds derivatives of S with respect to two coordinates. Number is double or Lanes.
 template <class Number>
 struct Polynomial {
   Number x, y, xx, xy, yy;
 };
 
-/// Derivatives of S by the coordinates of a cell, each from 0 to 1.
+/// Returns the derivatives of S with respect to the coordinates of a cell, each from 0 to 1.
 inline Polynomial<double> polynomial(const double* cell, double tx, double ty) {
   std::array<double, 6> a0{}, a1{}, a2{};
   for (std::size_t i = 0; i < 6; ++i)
@@ -101,11 +103,10 @@ inline Polynomial<double> polynomial(const double* cell, double tx, double ty) {
   return s;
 }
 
-/// Holds the result of the first of two steps that evaluate four points at once: point by point, the sums over the
-/// powers of x,
-/// their first and half of their second derivatives, for each power of y.
+/// Holds the result of the first of two steps that evaluate four points at once: for each point, the sums over the
+/// powers of x, with first and half of second derivatives, for each power of y.
 using AlongX =
-    std::array<double, 20>;  ///< powers 0 to 3 of the value, slope, curvature; powers 4 and 5; two idle
+    std::array<double, 20>;  ///< powers 0 to 3 of the value, slope, curvature; powers 4 and 5; two unused
 
 inline void along_x(const double* cell, double tx, AlongX& sums) {
   using Pair [[gnu::vector_size(16)]] = double;
@@ -121,13 +122,13 @@ inline void along_x(const double* cell, double tx, AlongX& sums) {
   _mm_storeu_pd(&sums[16], __m128d(b2));
 }
 
-/// Four numbers of four points: by number.
+/// Returns four numbers of four points, ordered by number.
 inline std::array<Lanes, 4> transposed(const AlongX* sums, std::size_t first) {
   const auto row = [&](std::size_t point) { return load(&sums[point][first]); };
   return whipple::transposed({row(0), row(1), row(2), row(3)});
 }
 
-/// Second step: the sums over the powers of y.
+/// Performs the second step: the sums over the powers of y.
 inline Polynomial<Lanes> along_y(const AlongX* sums, Lanes ty) {
   const auto v = transposed(sums, 0), s = transposed(sums, 4), h = transposed(sums, 8);
   const auto vs = transposed(sums, 12), hs = transposed(sums, 16);
@@ -141,7 +142,7 @@ inline Polynomial<Lanes> along_y(const AlongX* sums, Lanes ty) {
   return result;
 }
 
-/// Value of S in a cell.
+/// Returns the value of S in a cell.
 inline double polynomial_value(const double* cell, double tx, double ty) {
   double value = 0;
   for (int j = 5; j >= 0; --j) {
@@ -152,8 +153,8 @@ inline double polynomial_value(const double* cell, double tx, double ty) {
   return value;
 }
 
-/// Where a point lies in its region: y = (z - z_k)/(z_(k+1) - z_k), the lower edge z_k and the width, with
-/// derivatives by x; e_0 too. Number is double or Lanes.
+/// Holds the position of a point in its region: y = (z - z_k)/(z_(k+1) - z_k), the lower edge z_k and the width,
+/// with derivatives with respect to x; also of e_0. Number is double or Lanes.
 template <class Number>
 struct Place {
   Number y, inverse_width, inverse_thermal;  ///< 1/(e - e_0)
@@ -161,13 +162,13 @@ struct Place {
   Number low_slope, low_curvature, width_slope, width_curvature;
 };
 
-/// Derivatives of the entropy by x = ln rho and e.
+/// Holds derivatives of the entropy with respect to x = ln rho and e.
 template <class Number>
 struct Slopes {
   Number x, e, xx, xe, ee;
 };
 
-/// Chain rule from (x, y) to (x, e), with z = ln(e - e_0) and y w = z - z_k.
+/// Applies the chain rule from (x, y) to (x, e), with z = ln(e - e_0) and y w = z - z_k.
 template <class Number>
 inline Slopes<Number> slopes(const Polynomial<Number>& s, const Place<Number>& p) {
   const Number g = p.inverse_thermal, u = p.inverse_width, y = p.y;
@@ -180,7 +181,7 @@ inline Slopes<Number> slopes(const Polynomial<Number>& s, const Place<Number>& p
           y_e * (s.xy + s.yy * y_x) + s.y * y_xe, s.yy * y_e * y_e + s.y * y_ee};
 }
 
-/// Temperature, pressure and c^2.
+/// Holds temperature, pressure and c^2.
 template <class Number>
 struct Thermal {
   Number temperature, pressure, squared_sound_speed;
@@ -195,7 +196,7 @@ inline Thermal<Number> thermal(Number rho, const Slopes<Number>& s) {
   return {T, p, p_rho + p * p_e * (v * v)};
 }
 
-/// Edges closer than this in z are taken as this far apart.
+/// Minimum distance of edges in z; closer ones are treated as having this distance.
 constexpr double least_width = 1e-9;
 
 }  // namespace whipple::eos::table

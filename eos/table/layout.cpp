@@ -9,10 +9,10 @@
 namespace whipple::eos::table {
 namespace {
 
-/// Bins shorter than the shortest slab, so that a point looks at two slabs; but no more than this.
+/// Limits of the number of bins. Bins are shorter than the shortest slab, so that a point examines two slabs.
 constexpr std::size_t least_bins = 256, greatest_bins = 16384;
 
-/// Coefficients of t/length from those of t.
+/// Converts coefficients of t to those of t/length.
 std::array<Lanes, 6> scaled(const TableData::Interval& interval, double length) {
   std::array<Lanes, 6> result;
   double scale = 1;
@@ -60,7 +60,7 @@ Layout::Layout(const TableData& data) : begin(data.strips.front().begin), end(da
   while ((end - begin) / static_cast<double>(bins) > 0.9 * shortest && bins < greatest_bins) bins *= 2;
   bins_per_length = static_cast<double>(bins) / (end - begin);
   for (std::size_t bin = 0, s = 0; bin <= bins; ++bin) {
-    // A little less than the lower end of the bin: it may be rounded.
+    // Slightly less than the lower end of the bin, which may be rounded.
     const double lower = begin + (static_cast<double>(bin) - 1e-6) / bins_per_length;
     while (slabs[s].end <= lower) ++s;
     slab_of_bin.push_back(static_cast<std::uint32_t>(s));

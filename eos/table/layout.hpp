@@ -12,17 +12,17 @@ namespace whipple::eos {
 struct TableData;
 }
 
-/// A table as a batch reads it: the strips and their curves in one list, everything of a region in one cache
-/// line, indices as numbers that compute in lanes. Nothing here is stored in a file.
+/// Lays out a table for batch evaluation: the strips and their curves in one list, all data of a region in one
+/// cache line, indices as floating-point numbers for use in lanes. This layout is not stored in files.
 namespace whipple::eos::table {
 
-/// Densities over which the curves of a strip are one polynomial.
+/// Holds the curves of a strip over densities for which they are one polynomial.
 struct alignas(64) Slab {
   std::array<Lanes, 6> curves;    ///< e_0 and edges 1 to 3 in powers of x - begin
   double begin = 0, end = 0;      ///< ln rho; the last slab has no end
-  double top = 0, top_slope = 0;  ///< greatest z, linear over x - begin
+  double top = 0, top_slope = 0;  ///< maximum z, linear over x - begin
   std::uint32_t first_region = 0, region_count = 1;
-  std::uint32_t more_curves = 0;  ///< index of edges 4 to 7, where there are more than four regions
+  std::uint32_t more_curves = 0;  ///< index of edges 4 to 7, if there are more than four regions
 };
 
 struct alignas(64) RegionRecord {
@@ -35,8 +35,8 @@ struct Layout {
   std::vector<Slab> slabs;  ///< in the order of the density, without gaps
   std::vector<std::array<Lanes, 6>> more_curves;
   std::vector<RegionRecord> regions;
-  /// The slab that holds the lower end of each of equal bins of ln rho, and the last one once more. The slab
-  /// of a point is that of its bin or one of the next.
+  /// Index of the slab that contains the lower end of each of equal bins of ln rho, with the last one repeated. The
+  /// slab of a point is that of its bin or one of the next.
   std::vector<std::uint32_t> slab_of_bin;
   double begin = 0, end = 0, bins_per_length = 0;  ///< ln rho
 

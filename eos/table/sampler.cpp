@@ -8,7 +8,7 @@ namespace whipple::eos::table {
 namespace {
 
 constexpr double edge_tolerance = 4e-13;  ///< of z
-/// Within one phase, a jump of the heat capacity by more than this fraction is an edge as well.
+/// Relative jump of the heat capacity within one phase above which it is treated as an edge.
 constexpr double least_jump = 2e-3;
 
 }  // namespace
@@ -75,7 +75,7 @@ Isochore Sampler::isochore(double x) const {
     find_edges(x, result.base_energy, low, high, result);
     const bool alone = i < 2 || i + 1 >= probes.size() || probes[i - 2].phase != probes[i + 1].phase;
     if (alone || low.phase != high.phase) continue;
-    // Where the heat capacity is smooth, its differences follow those beside them.
+    // Where the heat capacity is smooth, its differences are close to the adjacent ones.
     const double before = low.heat_capacity - probes[i - 2].heat_capacity,
                  after = probes[i + 1].heat_capacity - high.heat_capacity;
     const double excess = high.heat_capacity - low.heat_capacity - 0.5 * (before + after);

@@ -9,16 +9,16 @@
 
 namespace whipple::eos::table {
 
-/// The phases that an isochore crosses, coldest first, and the edges between them.
+/// Holds the phases crossed by an isochore, coldest first, and the edges between them.
 struct Isochore {
   std::vector<std::string_view> phases;
   std::vector<double> edges;  ///< z, one less than phases
   double base_energy = 0;     ///< e_0
-  double top = 0;             ///< z of the greatest temperature
+  double top = 0;             ///< z of the highest temperature
   double least_sound_speed = 0;
 };
 
-/// States of the model by the coordinates of the table.
+/// Evaluates states of the model in the coordinates of the table.
 class Sampler {
  public:
   Sampler(const EquationOfState& eos, double thermal_energy, const TableRequest& request, int scan);

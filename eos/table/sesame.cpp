@@ -16,14 +16,14 @@ constexpr std::string_view density_bound = "density outside the table";
 constexpr std::string_view energy_bound = "specific internal energy above the table";
 constexpr std::string_view number_bound = "density and specific internal energy must be finite";
 
-/// Limits of what is cured of a table whose energy does not rise with the temperature (`raise_energies`).
+/// Limits of the repair of a table whose energy does not increase with temperature (`raise_energies`).
 constexpr double most_raised = 0.01;     // of the steps
 constexpr double greatest_raise = 0.02;  // of the temperature
 
-/// Limits the pressure of the reference state over rho c^2; beyond, the material is a gas.
+/// Limit of the pressure of the reference state over rho c^2, above which the material is a gas.
 constexpr double greatest_condensed_pressure = 0.1;
 
-/// Slopes of a piecewise cubic: those of the parabola through three points.
+/// Returns slopes of a piecewise cubic: those of the parabola through three points.
 std::vector<double> slopes_of(const std::vector<double>& x, const std::vector<double>& y) {
   const std::size_t n = x.size();
   std::vector<double> quotient(n - 1), slope(n);
@@ -38,10 +38,9 @@ std::vector<double> slopes_of(const std::vector<double>& x, const std::vector<do
   return slope;
 }
 
-/// Returns slopes of a piecewise cubic that is monotone wherever the points are: those of the parabola through three
-/// points, cut to three times the lesser difference quotient, zero where
-/// these differ in sign (Fritsch and Carlson, SIAM J. Numer. Anal. 17 (1980) 238; Hyman, SIAM J. Sci. Stat.
-/// Comput. 4 (1983) 645).
+/// Returns slopes of a piecewise cubic that is monotone wherever the points are: those of the parabola through
+/// three points, limited to three times the smaller difference quotient, zero where these differ in sign (Fritsch
+/// and Carlson, SIAM J. Numer. Anal. 17 (1980) 238; Hyman, SIAM J. Sci. Stat. Comput. 4 (1983) 645).
 std::vector<double> monotone_slopes(const std::vector<double>& x, const std::vector<double>& y) {
   std::vector<double> slope = slopes_of(x, y);
   const std::size_t n = x.size();
@@ -54,9 +53,8 @@ std::vector<double> monotone_slopes(const std::vector<double>& x, const std::vec
   return slope;
 }
 
-/// Returns slopes of a piecewise cubic through positive values, cut so that it stays positive: its Bernstein
-/// coefficients are y_i,
-/// y_i + h m_i/3, y_(i+1) - h m_(i+1)/3 and y_(i+1).
+/// Returns slopes of a piecewise cubic through positive values, limited so that it stays positive: its Bernstein
+/// coefficients are y_i, y_i + h m_i/3, y_(i+1) - h m_(i+1)/3 and y_(i+1).
 std::vector<double> positive_slopes(const std::vector<double>& x, const std::vector<double>& y) {
   std::vector<double> slope = slopes_of(x, y);
   for (std::size_t i = 0; i < y.size(); ++i) {
@@ -118,8 +116,8 @@ Sesame::Sesame(const SesameMaterial& material, double reference_temperature, std
     const auto first = values.begin() + static_cast<std::ptrdiff_t>(j * nr);
     return std::vector<double>(first, first + static_cast<std::ptrdiff_t>(nr));
   };
-  // Slopes of the energy: those of the coldest row plus those of the steps between rows. The cubics of the
-  // steps are positive, so that e rises with T between the densities as well.
+  // Slopes of the energy: those of the coldest row plus those of the steps between rows. The cubics of the steps
+  // are positive, so that e also increases with T between the densities.
   energies_.resize(nr * nt);
   pressures_.resize(nr * nt);
   std::vector<double> slopes;
@@ -139,7 +137,7 @@ Sesame::Sesame(const SesameMaterial& material, double reference_temperature, std
   if (!grid.helmholtz.empty()) {
     entropies_.resize(nr * nt);
     for (std::size_t j = 0; j < nt; ++j) {
-      std::vector<double> s(nr, 0.0);  // of T = 0: third law
+      std::vector<double> s(nr, 0.0);  // at T = 0: third law
       for (std::size_t i = 0; i < nr && temperature_[j] > 0; ++i)
         s[i] = (material.total.energy[j * nr + i] - grid.helmholtz[j * nr + i]) / temperature_[j];
       add_row(entropies_, j, s, monotone_slopes(density_, s));
@@ -265,7 +263,8 @@ RangeReport Sesame::evaluate(const Batch& batch) const {
   return report;
 }
 
-/// On the isochore ds = C_v dT/T: exactly linear in ln T where C_v is constant, through the tabulated values.
+/// Returns the entropy; on the isochore ds = C_v dT/T is linear in ln T where C_v is constant, through the table
+/// values.
 double Sesame::entropy(const Cell& c, std::size_t row, double temperature) const {
   if (entropies_.empty()) return State::unknown;
   const Node* s0 = &entropies_[c.index * temperature_.size()];

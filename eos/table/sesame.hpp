@@ -9,29 +9,31 @@
 
 namespace whipple::eos {
 
-/// Table 301 of a SESAME material as a model (docs/theory/equations_of_state.md, section "SESAME tables"):
-/// e and p piecewise cubic in the density, linear in the temperature, so that p is linear in e on an
-/// isochore. The energy rises with the temperature at every density, between the densities of the table too.
-/// Pressure and energy are interpolated apart: consistent as far as table and resolution are.
+/// Implements table 301 of a SESAME material as a model (docs/theory/equations_of_state.md, section "SESAME tables"): e
+/// and p are piecewise cubic in the density and linear in the temperature, so that p is linear in e on an isochore. The
+/// energy increases with temperature at every density, including those between the densities of the table. Pressure and
+/// energy are interpolated separately: they are as consistent as the table and its resolution.
 ///
-/// Range: densities and temperatures of the table. Where c^2 < `least_sound_speed_ratio`^2 of the reference
-/// state's (van der Waals loop, tension), c is held at that; energies below that of the least temperature are
-/// computed there, counted, and kept; energies above the table and densities outside are errors. Entropy from
-/// the Helmholtz energies if the table has them, else unknown. No phases.
+/// Range: densities and temperatures of the table. Where c^2 < `least_sound_speed_ratio`^2 of the reference state
+/// (van der Waals loop, tension), c is limited to that value; energies below that of the lowest temperature are
+/// evaluated there, counted, and kept; energies above the table and densities outside are errors. The entropy is
+/// derived from the Helmholtz energies if the table has them, and otherwise unknown. No phases.
 class Sesame final : public EquationOfState {
  public:
   static constexpr std::string_view name = "sesame";
   static constexpr double least_sound_speed_ratio = 0.01;
 
-  /// @param reference_temperature K; with the reference density of table 201 the reference state
-  /// @param origin what messages call the table, usually its file
-  /// Energies of a few steps that do not rise with the temperature are raised, with a warning that counts them.
-  /// @throws InputError naming origin, density and temperatures if more than a hundredth of the steps do not rise, or
-  /// one needs a raise of more than the heat of 2 % of its temperature, or if the reference state lies outside
+  /// Constructs the model. Energies of a few steps that do not increase with temperature are raised, with a warning
+  /// that states their number.
+  /// @param reference_temperature K; defines the reference state, with the reference density of table 201
+  /// @param origin name of the table in messages, usually its file
+  /// @throws InputError naming origin, density and temperatures if more than a hundredth of the steps do not
+  /// increase, or one must be raised by more than the heat of 2 % of its temperature, or if the reference state is
+  /// outside the table
   Sesame(const SesameMaterial& material, double reference_temperature, std::string origin);
 
   [[nodiscard]] double minimum_density() const { return density_.front(); }
-  /// Greatest specific internal energy at a density (J/kg).
+  /// Returns the maximum specific internal energy at a density (J/kg).
   [[nodiscard]] double maximum_energy(double density) const;
 
   [[nodiscard]] std::string_view model() const override { return name; }
@@ -46,15 +48,15 @@ class Sesame final : public EquationOfState {
   RangeReport evaluate(const Batch& batch) const override;
   [[nodiscard]] State state(double density, double specific_internal_energy) const override;
   [[nodiscard]] State state_at_temperature(double density, double temperature) const override;
-  /// Comments: a table has no constants.
+  /// Returns comments only: a table has no constants.
   [[nodiscard]] std::string constants() const override;
 
  private:
-  /// A quantity at a point of the grid and its slope along the density.
+  /// Holds a quantity at a grid point and its slope along the density.
   struct Node {
     double value = 0, slope = 0;
   };
-  /// Where a density lies: its two isochores and the weights of their nodes.
+  /// Locates a density: its two isochores and the weights of their nodes.
   struct Cell {
     const Node *e0, *e1, *p0, *p1;
     std::size_t index;
@@ -78,9 +80,9 @@ class Sesame final : public EquationOfState {
   [[nodiscard]] static double energy(const Cell& cell, std::size_t row) {
     return value(cell, cell.e0, cell.e1, row);
   }
-  /// Row of temperatures that holds an energy; the first or last if it lies outside.
+  /// Returns the row of temperatures that contains an energy; the first or last if it is outside.
   [[nodiscard]] std::size_t row(const Cell& cell, double energy) const;
-  /// At the fraction of the way from one row to the next.
+  /// Evaluates at the fraction `share` of the interval from one row to the next.
   [[nodiscard]] Result result(const Cell& cell, double density, std::size_t row, double share) const;
   [[nodiscard]] State full(const Cell& cell, double density, double energy, std::size_t row,
                            double share) const;

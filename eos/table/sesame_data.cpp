@@ -12,13 +12,13 @@ namespace whipple::eos {
 namespace {
 
 constexpr double thin_ratio = 1.25, middle_ratio = 1.01, dense_ratio = 1.05, temperature_ratio = 1.05;
-constexpr double default_thinness = 1e-4;     ///< least density over the reference density
-constexpr double default_compression = 10;    ///< greatest over the reference density
+constexpr double default_thinness = 1e-4;     ///< minimum density over the reference density
+constexpr double default_compression = 10;    ///< maximum density over the reference density
 constexpr double below_the_limit = 1 - 1e-9;  ///< a model whose pressure has a pole ends below its limit
-constexpr double coldest_saturation = 100.0;  ///< Pa: colder rows of the dome are left out
-constexpr double least_rise = 1e-6;           ///< of the energy from one temperature to the next
+constexpr double coldest_saturation = 100.0;  ///< Pa: colder rows of the dome are omitted
+constexpr double least_rise = 1e-6;           ///< of the energy from one temperature to the next, minimum
 
-/// Adds the points of a geometric sequence after the last one up to `end`, which is the last.
+/// Extends a geometric sequence from its last point up to `end`, which is the last.
 void extend(std::vector<double>& points, double end, double greatest_ratio) {
   const double begin = points.back();
   if (!(end > begin)) return;
@@ -28,7 +28,7 @@ void extend(std::vector<double>& points, double end, double greatest_ratio) {
   points.push_back(end);
 }
 
-/// The reference point lies on the grid if it lies inside.
+/// Returns an axis; the reference point is on the grid if it is within the range.
 std::vector<double> axis(double begin, double end, const std::vector<std::pair<double, double>>& pieces) {
   std::vector<double> points = {begin};
   for (const auto& [to, ratio] : pieces) extend(points, std::min(to, end), ratio);
@@ -64,12 +64,12 @@ EnergyRepair raise_energies(SesameGrid& grid) {
   for (std::size_t i = 0; i < nr; ++i) {
     const double range = grid.temperature.back() - grid.temperature.front();
     const double mean = (grid.energy[(nt - 1) * nr + i] - grid.energy[i]) / range;
-    if (!(mean > 0)) continue;  // refused by the reader
+    if (!(mean > 0)) continue;  // rejected by the reader
     for (std::size_t j = 1; j < nt; ++j) {
       const double low = grid.energy[(j - 1) * nr + i];
       double& high = grid.energy[j * nr + i];
       if (high > low) continue;
-      // A rise below the digits of the energy is none.
+      // An increase below the digits of the energy does not count.
       const double least =
           std::max(least_heat_capacity * mean * (grid.temperature[j] - grid.temperature[j - 1]),
                    1e-14 * std::abs(low));
@@ -120,7 +120,7 @@ SesameMaterial sesame_of(const EquationOfState& eos, const SesameRequest& reques
     for (const double rho : grid.density) {
       const State s = eos.state_at_temperature(rho, T);
       grid.pressure.push_back(s.pressure);
-      // A temperature may have two energies where stretched metal melts; readers want one that rises.
+      // A temperature may have two energies where stretched metal melts; readers require an increasing one.
       double energy = s.specific_internal_energy;
       if (grid.energy.size() >= grid.density.size()) {
         const double colder = grid.energy[grid.energy.size() - grid.density.size()];

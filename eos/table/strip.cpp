@@ -18,13 +18,13 @@ namespace {
 constexpr std::size_t greatest_curve_intervals = 32;
 constexpr std::uint32_t greatest_nx = 8, greatest_ny = 32;
 constexpr std::uint32_t greatest_fraction_nx = 64, greatest_fraction_ny = 128;
-/// Fraction of a region that a cut parts from it, where the resolution falls short.
+/// Fraction of a region separated by a cut, where the resolution is insufficient.
 constexpr double cut_share = 0.1;
-/// Cuts part no strip into more regions than a point finds by one comparison.
+/// Maximum number of regions of a strip after cuts, which a point can locate by one comparison.
 constexpr std::size_t greatest_cut_regions = 6;
-/// A strip is not halved below this length of ln rho: what remains is reported by the verification.
+/// Minimum length in ln rho of a halved strip: remaining errors are reported by the verification.
 constexpr double least_length = 0.01;
-/// Phase fractions are sampled this far inside of their region.
+/// Distance inside their region at which phase fractions are sampled.
 constexpr double inset = 1e-6;
 
 class StripFit {
@@ -78,7 +78,7 @@ class StripFit {
 
   // ---- curves
 
-  /// Edges of the phases, and the cuts.
+  /// Returns the edges of the phases, and the cuts.
   [[nodiscard]] std::vector<double> inner_edges(const Isochore& isochore) const {
     std::vector<double> all = {bottom_};
     all.insert(all.end(), isochore.edges.begin(), isochore.edges.end());
@@ -92,7 +92,7 @@ class StripFit {
 
   static constexpr std::size_t row_length = std::tuple_size_v<CurveNumbers>;
 
-  /// Edges at infinity.
+  /// Returns edges at infinity.
   static TableData::Interval no_curves() {
     TableData::Interval interval{};
     interval[0] = broadcast(1e300);
@@ -105,7 +105,7 @@ class StripFit {
     for (std::size_t i = 0; i <= samples; ++i) {
       const Isochore isochore =
           sampler_.isochore(x_at(static_cast<double>(i) / static_cast<double>(samples)));
-      // Where a region ends at the rim of a segment, it is missing on the rim itself: the strip is halved.
+      // A region that ends at the boundary of a segment is missing there: the strip is halved.
       if (isochore.phases != isochore_phases_) return {};
       CurveNumbers& row = values.emplace_back();
       row[0] = isochore.base_energy;
@@ -141,7 +141,7 @@ class StripFit {
         const double tx = (static_cast<double>(i) + 0.5) / static_cast<double>(8 * n);
         const double x = a.begin + (a.end - a.begin) * tx;
         const Curves ca = curves(coarse, a, tx), cb = curves(fine, b, tx);
-        // de_0/dx is -p V of the cold curve: on the scale of a pressure of rho c^2/100.
+        // de_0/dx is -p V of the cold curve: measured on the scale of a pressure of rho c^2/100.
         const State s = sampler_.state(x, cb.value[0] + 2 * constants_.thermal_energy);
         const double scale = pressure_scale(cb.slope[0], 1.0, s.sound_speed * s.sound_speed,
                                             soft_square(sampler_.reference_sound_speed()));
@@ -162,8 +162,8 @@ class StripFit {
     }
   }
 
-  /// Last resort for a strip too thin to be halved that holds the end of a region: the curves of its densest
-  /// state with the phases of the strip, held constant.
+  /// Fits, as a last resort, a strip too thin to be halved that contains the end of a region: the curves of its
+  /// densest state with the phases of the strip, constant along it.
   bool coarsest_curves() {
     const Isochore isochore = sampler_.isochore(0.5 * (task_.first_sample + task_.last_sample));
     const double low = sampler_.base_energy(task_.first_sample),
@@ -190,8 +190,9 @@ class StripFit {
     return edges(result_.strip, x, bottom_, base);
   }
 
-  /// Entropy at z in a region. The curves lie beside the edges by their error, and s may jump there (a model
-  /// whose phases do not meet): a state of another phase is replaced by one a little nearer to the middle.
+  /// Returns the entropy at z in a region. The fitted curves deviate from the edges by their error, and s may jump
+  /// there (a model with discontinuous phases): a state of another phase is replaced by one slightly nearer to the
+  /// middle.
   [[nodiscard]] double entropy(std::size_t region, double x, double base, double z, double middle) const {
     const double energy = std::exp(z);
     for (double share = 0; share < 0.01; share = std::max(1e-12, 4 * share)) {
@@ -216,7 +217,7 @@ class StripFit {
         samples[i * (my + 1) + j] = entropy(region, x, base.value[0], z, low + 0.5 * width);
       }
     }
-    // Along x for every energy, then along y for every coefficient.
+    // Fit along x for every energy, then along y for every coefficient.
     const HermiteFit along_x(nx), along_y(ny);
     std::vector<double> rows(6 * nx * (my + 1));
     for (std::size_t j = 0; j <= my; ++j) along_x(samples.data() + j, my + 1, rows.data() + j, my + 1);
@@ -253,13 +254,14 @@ class StripFit {
                            edge.curvature[region + 1] - edge.curvature[region]}));
   }
 
-  /// Greatest difference of two patches over the tolerance, and where in y it lies. Where p passes through
+  /// Holds the maximum difference of two patches over the tolerance, and its position in y. Where p passes through
   /// zero between two probes, the tolerance is that of p = 0.
   struct Difference {
     double worst = 0, y = 0;
   };
   [[nodiscard]] Difference difference(const Patch& a, const Patch& b, std::size_t region) const {
-    // Near the edges of the cells too: the one-sided differences of the outermost are the least accurate.
+    // Probe near the edges of the cells as well: the one-sided differences of the outermost cells are the least
+    // accurate.
     constexpr std::array<double, 4> probes = {0.03, 0.35, 0.65, 0.97};
     const std::size_t nx = std::min(a.nx, b.nx), ny = std::min(a.ny, b.ny);
     const auto place = [&](std::size_t i, std::size_t cells) {
@@ -273,7 +275,7 @@ class StripFit {
       const double x = x_at(tx), rho = std::exp(x);
       Curves base;
       const Curves edge = edges_at(x, base);
-      double below = INFINITY;  // pressure at the probe before
+      double below = INFINITY;  // pressure at the previous probe
       for (std::size_t j = 0; j < probes.size() * ny; ++j) {
         const double y = place(j, ny);
         const auto sa = evaluate(a, region, tx, y, base, edge, rho),
@@ -299,7 +301,7 @@ class StripFit {
     std::uint32_t nx = 1, ny = 1;
     Patch present = fit_patch(region, nx, ny);
     double last_x = INFINITY, last_y = INFINITY;  // differences before the last doubling in that direction
-    // In a thin region the rounding of the entropies, divided by its height, ends the gain of a finer one.
+    // In a thin region the round-off of the entropies, divided by its height, limits the gain from refinement.
     const auto good = [&](double now, double last) {
       return now < safety || (now < 0.5 && now > 0.5 * last);
     };
@@ -315,8 +317,8 @@ class StripFit {
         return false;
       }
       if (by_x >= 1 && !wider && may_split_) return false;
-      // Shorter strips help along y only if edges bend; where the halves of a strip fare no better, they are
-      // left as they are and the verification counts what is beyond the request.
+      // Shorter strips reduce the error along y only if edges are curved; if the halves of a strip are no better,
+      // they are kept and the verification counts the states beyond the request.
       if (by_y >= 1 && !higher && may_split_ && by_y < 0.5 * task_.miss_of_whole) {
         result_.miss = by_y;
         return false;
@@ -364,7 +366,7 @@ class StripFit {
     }
     for (std::uint32_t i = 0; i < nx; ++i) {
       for (std::uint32_t j = 0; j < ny; ++j) {
-        // Not the centre: saddles would hide there.
+        // Probe off centre, where saddles would not be detected.
         const auto exact = fractions_at(region, (i + 0.4) / nx, (j + 0.45) / ny);
         const std::size_t corner = i * (ny + 1) + j;
         for (std::size_t k = 0; k < 2; ++k) {
@@ -412,7 +414,7 @@ class StripFit {
   double bottom_ = 0;
   bool may_split_ = false;
   std::vector<std::string_view> isochore_phases_;  ///< before cuts
-  TableData data_;  ///< holds the intervals of the strip for the kernel's functions
+  TableData data_;  ///< holds the intervals of the strip for the functions of the kernel
   FittedStrip result_;
 };
 

@@ -10,7 +10,7 @@
 #include "eos/table/builder.hpp"
 #include "eos/table/sampler.hpp"
 
-/// Construction of a table, strip by strip (docs/theory/equations_of_state.md, section "Tables").
+/// Constructs a table, strip by strip (docs/theory/equations_of_state.md, section "Tables").
 namespace whipple::eos::table {
 
 /// Returns a floor of c^2 (m^2/s^2) for the scales by which errors are measured: p passes through zero, and c^2 does
@@ -22,27 +22,27 @@ inline double pressure_scale(double pressure, double rho, double squared_sound_s
   return std::abs(pressure) + 0.01 * rho * (squared_sound_speed + soft);
 }
 
-/// Divides a region, counted after the cuts before it, at a fraction of its height in z: resolution where a
-/// phase needs more of it.
+/// Describes the division of a region, numbered after the preceding cuts, at a fraction of its height in z, which
+/// adds resolution where a phase needs it.
 struct Cut {
   std::size_t region;
   double share;
 };
 
-/// Densities to be fitted; the samples stay between `first_sample` and `last_sample`, on this side of a
-/// density at which the phases change.
+/// Specifies the densities to be fitted; the samples stay between `first_sample` and `last_sample`, on one side of
+/// a density at which the phases change.
 struct StripTask {
   double begin, end, first_sample, last_sample;
   std::vector<Cut> cuts = {};
-  double miss_of_whole = INFINITY;  ///< what remained along y, over the request, in the strip that was halved
-  bool last_attempt = false;        ///< what does not converge stands, and shows in the verification
+  double miss_of_whole = INFINITY;  ///< error along y, over the request, in the strip that was halved
+  bool last_attempt = false;        ///< a non-converged fit is accepted, and appears in the verification
 };
 
 struct FittedStrip {
-  bool converged = false;  ///< otherwise: to be cut once more, or else to be halved
+  bool converged = false;  ///< otherwise the strip must be cut again or halved
   std::optional<Cut> cut;
-  double miss = INFINITY;  ///< what remains along y, over the request, if that is why it did not converge
-  TableData::Strip strip;  ///< its indices count from the vectors below
+  double miss = INFINITY;  ///< remaining error along y, over the request, if it prevented convergence
+  TableData::Strip strip;  ///< its indices refer to the vectors below
   std::vector<TableData::Interval> intervals;
   std::vector<double> cells;
   std::vector<std::array<std::uint16_t, 2>> fractions;
@@ -52,7 +52,7 @@ struct FittedStrip {
 FittedStrip fit_strip(const Sampler& sampler, const StripTask& task, const TableData& constants,
                       double error);
 
-/// Adds a fitted strip at the end of a table.
+/// Appends a fitted strip to a table.
 void append(TableData& data, const FittedStrip& fitted);
 
 }  // namespace whipple::eos::table

@@ -19,14 +19,14 @@ using Region = TableData::Region;
 
 constexpr double fraction_unit = 1.0 / 65535;
 
-/// Region of a strip that holds z.
+/// Returns the region of a strip that contains z.
 std::size_t region_of(const Strip& strip, const table::Curves& edges, double z) {
   std::size_t k = 0;
   while (k + 1 < strip.region_count && z > edges.value[k + 1]) ++k;
   return k;
 }
 
-/// Melted and vaporised fraction.
+/// Holds melted and vaporised fraction.
 struct Fractions {
   double melted, vaporised;
 };
@@ -169,7 +169,7 @@ State Table::state(double density, double e) const {
 State Table::state_at_temperature(double density, double temperature) const {
   const double least = minimum_energy(density), greatest = maximum_energy(density);
   const double coldest = state(density, least).temperature, hottest = state(density, greatest).temperature;
-  // The coldest state has the least temperature of the table within its error.
+  // The coldest state has the lowest temperature of the table within its error.
   if (!(temperature >= std::min(coldest, data_.least_temperature) && temperature <= hottest)) {
     throw StateError(
         fmt::format("table of {}: temperature outside the table ({:.6g} K at {:.6g} kg/m^3; {:.6g} to "

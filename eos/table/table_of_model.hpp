@@ -7,12 +7,12 @@
 
 namespace whipple::eos {
 
-/// A table with its model behind it: what the table does not hold - vapour of less density, material hotter
-/// than its greatest temperature, as the first contact of a fast impact may bring it - the model computes.
-/// For runs, which must not end at the edge of a table.
+/// Combines a table with its model: states outside the table - less dense vapour, or material above its maximum
+/// temperature, as may occur at first contact in a fast impact - are computed by the model. For runs, which must
+/// not stop at the edge of a table.
 class TableOfModel final : public EquationOfState {
  public:
-  /// @param table of this model
+  /// @param table table of this model
   TableOfModel(Table table, std::shared_ptr<const EquationOfState> model);
 
   [[nodiscard]] std::string_view model() const override { return Table::name; }

@@ -102,7 +102,7 @@ void write_point(const hdf5::Group& points, const PointRecord& point) {
   for (const auto& [name, text] : point.provenance) write_text(provenance, name, text);
 }
 
-/// @throws InputError unless the file is a store of a format that this program knows.
+/// Checks the format of a database. @throws InputError unless the file is a database in a format known to this program.
 void check_format(const hdf5::File& file, const std::filesystem::path& path) {
   if (!file.root.has_attribute("format") || file.root.text_attribute("format") != format_name) {
     throw InputError(
@@ -119,7 +119,7 @@ std::filesystem::path beside(const std::filesystem::path& path, const char* endi
   return path.parent_path() / fmt::format(".{}{}", path.filename().string(), ending);
 }
 
-/// Makes an empty store in memory.
+/// Creates an empty database in memory.
 hdf5::File empty_store(const std::filesystem::path& path) {
   hdf5::File file = hdf5::File::create_in_memory(beside(path, ".part"), hdf5::File::Compatibility::compact);
   write_text(file.root, "format", format_name);
@@ -130,12 +130,12 @@ hdf5::File empty_store(const std::filesystem::path& path) {
 
 // ---- files
 
-/// One writer at a time.
+/// Locks the database for a single writer.
 FileLock lock_store(const std::filesystem::path& path) {
   return {beside(path, ".lock"), fmt::format("the store {}", path.string()), FileLock::IfHeld::wait};
 }
 
-/// Gives a store another content. @throws InputError; then the old content stands
+/// Replaces the content of a database. @throws InputError, leaving the old content unchanged
 void replace_store(const std::filesystem::path& path, const std::string& bytes) {
   try {
     replace_durably(path, beside(path, ".part"), bytes);
@@ -294,8 +294,7 @@ void normalise_store(const std::filesystem::path& path) {
     for (const PointRecord& point : records) write_point(points, point);
   }
   const std::string bytes = file.close_as_bytes();
-  if (bytes != read_text(path))
-    replace_store(path, bytes);  // a call that had nothing to compute writes nothing
+  if (bytes != read_text(path)) replace_store(path, bytes);  // a call that computed nothing writes nothing
 }
 
 bool append_point(const std::filesystem::path& path, const PointRecord& point) {
@@ -329,7 +328,7 @@ void require_writable(const std::filesystem::path& path) {
   if (fault) throw InputError(fmt::format("cannot make the folder {}: {}", folder.string(), fault.message()));
   if (std::filesystem::is_directory(path)) throw InputError(fmt::format("{} is a folder", path.string()));
   if (std::filesystem::exists(path)) {
-    read_store(path);  // reports a file that is something else, before any work
+    read_store(path);  // reports a file that is not a database, before any work
     if (::access(path.c_str(), W_OK) != 0)
       throw InputError(fmt::format("{} is write-protected", path.string()));
   }

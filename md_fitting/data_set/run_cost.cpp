@@ -27,8 +27,8 @@ double atom_steps(std::optional<PointKind> protocol, double atoms_per_cell, cons
   }
   if (protocol == PointKind::coexistence) {
     constexpr double preparation = 1500.0 + 0.5 * (5000.0 + 1000.0) + 1000.0;  // half of the cell melts
-    const double phase = std::fmax(4.0, 0.75 * shape.cells);  // crystal and melt are averaged apart as well
-    const double runs = shape.replicas + 1.0;                 // the first one finds where the others start
+    const double phase = std::fmax(4.0, 0.75 * shape.cells);  // crystal and melt are also averaged separately
+    const double runs = shape.replicas + 1.0;                 // the first run finds the start of the others
     return atoms * (preparation + run) * runs + atoms_per_cell * std::pow(phase, 3) * run * shape.replicas;
   }
   return atoms * run * shape.replicas;

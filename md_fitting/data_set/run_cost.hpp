@@ -7,26 +7,26 @@
 
 #include "md_fitting/data_set/data_set.hpp"
 
-/// Cost of the runs of a point before they are made (docs/theory/fit.md, section 8).
+/// Estimates the cost of the runs of a point before they are made (docs/theory/fit.md, section 8).
 namespace whipple::md {
 
-/// Size and number of the runs of a point.
+/// Describes the size and number of the runs of a point.
 struct RunShape {
-  double cells = 0.0;   ///< unit cells along an edge; 0: a static crystal, whose cost is nothing
+  double cells = 0.0;   ///< unit cells along an edge; 0: a static crystal, which costs nothing
   double length = 0.0;  ///< unit cells along the third edge
   double equilibration_steps = 0.0;
-  double steps = 0.0;  ///< that are averaged
+  double steps = 0.0;  ///< steps that are averaged
   double replicas = 1.0;
 };
 
 /// Reads the shape from the provenance of a point or of a task.
 RunShape run_shape(const std::map<std::string, std::string>& provenance);
 
-/// Returns atoms times steps of all runs of a point, those that prepare it or search for it included.
-/// @param protocol  of the point; none: one without a search
+/// Returns atoms times steps of all runs of a point, including those that prepare it or search for it.
+/// @param protocol  of the point; none: a protocol without a search
 double atom_steps(std::optional<PointKind> protocol, double atoms_per_cell, const RunShape& shape);
 
-/// Returns unit cells times averaged steps of all runs of a point: the inverse of the variance goes with it.
+/// Returns unit cells times averaged steps of all runs of a point; the variance is inversely proportional to it.
 double sampling(const RunShape& shape);
 
 }  // namespace whipple::md

@@ -18,13 +18,13 @@ namespace {
 constexpr const char* boiling = "boiling_temperature";
 constexpr const char* attraction = "vapour_attraction";
 
-/// A constant that the fit may need, with what `describe` says of it.
+/// Describes a constant that the fit may need, as printed by `describe`.
 struct Kind {
   const char* name;
   const char* unit;
   Range range;
   const char* meaning;
-  const char* instead = nullptr;  ///< what a fit takes instead of a row; nullptr: nothing
+  const char* instead = nullptr;  ///< alternative that a fit uses without a row; nullptr: none
 };
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> all = {
@@ -63,7 +63,7 @@ struct SourceText {
   }
 };
 
-/// The words of a row; its value and error have the unit of its parameter.
+/// Holds the words of a row; its value and error have the unit of its parameter.
 struct RowWords {
   std::string parameter, name = "given", source, evidence{word_of(Evidence::chosen)}, error_source;
   static const ParameterTable<RowWords>& parameters() {
@@ -140,7 +140,7 @@ std::vector<NamedDefault> read_rows(std::vector<input::Table> tables,
   return rows;
 }
 
-/// What a file says of strength and failure.
+/// Specifies the entry of a file for strength and failure.
 enum class Template { as_before, named, none };
 constexpr std::array<Word<Template>, 1> words(Template) { return {{{Template::none, "none"}}}; }
 
@@ -182,10 +182,10 @@ Contents read_contents(const std::filesystem::path& file) {
   return contents;
 }
 
-/// Puts rows in place of those of the same parameters.
+/// Replaces rows by those of the same parameters.
 void replace(std::vector<NamedDefault>& rows, const std::vector<NamedDefault>& others) {
   std::erase_if(rows, [&](const NamedDefault& row) {
-    // A boiling temperature and an attraction say the same of the vapour.
+    // A boiling temperature and an attraction are alternative specifications of the vapour.
     const auto of_vapour = [](const NamedDefault& entry) {
       return entry.parameter == boiling || entry.parameter == attraction;
     };

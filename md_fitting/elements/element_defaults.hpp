@@ -10,11 +10,11 @@
 
 #include "src/core/base/words.hpp"
 
-/// Constants that molecular dynamics of nuclei does not determine, per element, each with its name and source: the only
-/// place from which the fit takes a number that is not in the store.
+/// Provides the constants of each element that molecular dynamics of nuclei does not determine, each with its name
+/// and source. The fit takes numbers that are not in the database from here only.
 namespace whipple::elements {
 
-/// What a constant that is not fitted rests on.
+/// Specifies the basis of a constant that is not fitted.
 enum class Evidence { chosen, measured };
 constexpr std::array<Word<Evidence>, 2> words(Evidence) {
   return {{{Evidence::chosen, "chosen"}, {Evidence::measured, "measured"}}};
@@ -27,38 +27,37 @@ struct NamedDefault {
   std::string source;
   Evidence evidence = Evidence::chosen;
   double error = 0.0;        ///< SI, one standard deviation; 0: the source gives none
-  std::string error_source;  ///< of the error
+  std::string error_source;  ///< source of the error
 };
 
 struct ElementDefaults {
-  std::string element;  ///< chemical symbol
-  std::string metal;    ///< English name
-  std::optional<std::string>
-      template_name{};                    ///< material of the library with its strength and failure, if any
-  std::vector<NamedDefault> constants{};  ///< of several of one parameter the first is the default
+  std::string element;                         ///< chemical symbol
+  std::string metal;                           ///< English name
+  std::optional<std::string> template_name{};  ///< library material with strength and failure
+  std::vector<NamedDefault> constants{};       ///< several for one parameter: the first is the default
 
-  /// The default of a parameter, if there is one.
+  /// Returns the default of a parameter, if there is one.
   [[nodiscard]] const NamedDefault* find(std::string_view parameter) const;
-  /// @throws InputError that names the missing constant and the remedy
+  /// Returns the default of a parameter. @throws InputError naming the missing constant and the remedy
   [[nodiscard]] const NamedDefault& at(std::string_view parameter) const;
-  /// All choices of a parameter, the default first.
+  /// Returns all choices of a parameter, the default first.
   [[nodiscard]] std::vector<const NamedDefault*> choices(std::string_view parameter) const;
 };
 
-/// Reads the constants of an element, and those of all metals: from the table of the program
-/// (eos/data/elements.toml), or where a file of the user has rows of a parameter from that. An element that neither
-/// knows has the common constants only.
+/// Reads the constants of an element and those common to all metals from the program's table
+/// (eos/data/elements.toml); rows for a parameter in the user's file replace those of the table. An element absent
+/// from both has the common constants only.
 /// @throws InputError with file and line
 ElementDefaults element_defaults(std::string_view element,
                                  const std::optional<std::filesystem::path>& file_of_user = {});
 
-/// Symbols of the program's table.
+/// Returns the symbols in the program's table.
 std::vector<std::string> known_elements();
 
-/// Says which constants an element lacks, and the remedies.
+/// Describes which constants an element lacks, with the remedies.
 std::string missing_text(std::string_view element, const std::vector<std::string>& parameters);
 
-/// Says for each constant that a fit lacks how to give it.
+/// Describes, for each constant that a fit lacks, how to supply it.
 std::string remedies(const std::vector<std::string>& parameters);
 
 /// Describes the files of `whipple fit --defaults`.

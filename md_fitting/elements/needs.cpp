@@ -16,7 +16,7 @@ std::vector<std::string> missing_constants(FitModel model, const ElementDefaults
     if (!determined.vibrations) need("debye_temperature");
     return missing;
   }
-  need("join_volume_ratio");  // also the start of a fitted one
+  need("join_volume_ratio");  // also the start value if it is fitted
   if (!determined.vapour && table.find("vapour_attraction") == nullptr) need("boiling_temperature");
   return missing;
 }

@@ -10,11 +10,11 @@
 
 #include "md_fitting/elements/element_defaults.hpp"
 
-/// Says which constants of an element a fit needs: to the fit of the points that there are, and before the simulations
-/// to whoever plans them.
+/// Determines which constants of an element a fit needs: for fits to existing points, and for planning before the
+/// simulations are run.
 namespace whipple::elements {
 
-/// Equations of state that can be fitted, and their names in the catalogue.
+/// Lists the equations of state that can be fitted, with their names in the catalogue.
 enum class FitModel { gray, mie_gruneisen, debye_gruneisen };
 constexpr std::array<std::pair<std::string_view, FitModel>, 3> fit_models = {
     {{"gray", FitModel::gray},
@@ -24,18 +24,18 @@ constexpr std::string_view name_of(FitModel model) {
   return fit_models[static_cast<std::size_t>(model)].first;
 }
 
-/// Temperatures of saturation from which on the vapour is fitted.
+/// Minimum number of saturation temperatures for which the vapour is fitted.
 constexpr std::size_t least_saturations = 2;
 
-/// What stands for constants of the element.
+/// Describes which data determine constants that the element would otherwise have to supply.
 struct Determined {
   bool melting = false;     ///< coexistence points
   bool vapour = false;      ///< saturated densities at `least_saturations` temperatures
-  bool vibrations = false;  ///< elastic constants or quantum nuclei: a Debye temperature
-  bool electrons = false;   ///< the user names their heat coefficient
+  bool vibrations = false;  ///< elastic constants or quantum nuclei, which give a Debye temperature
+  bool electrons = false;   ///< the user supplies the electronic heat coefficient
 };
 
-/// Parameters without which there is no fit of a model.
+/// Returns the parameters without which a model cannot be fitted.
 std::vector<std::string> missing_constants(FitModel model, const ElementDefaults& table,
                                            const Determined& determined);
 

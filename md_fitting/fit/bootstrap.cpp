@@ -34,8 +34,8 @@ bool has_blocks(const PointRecord& point) {
   return !names.empty() && point.blocks.contains(names.front());
 }
 
-/// Mean over drawn blocks, further from the mean of all by n/(n - 1) under the root: the scatter of such
-/// means is too small by (n - 1)/n.
+/// Returns the mean over drawn blocks, with its deviation from the overall mean scaled by sqrt(n/(n - 1)): the
+/// variance of such means is too small by (n - 1)/n.
 double drawn_mean(const std::vector<double>& blocks, const std::vector<std::size_t>& draw, double value) {
   double sum = 0.0;
   double all = 0.0;
@@ -93,7 +93,7 @@ std::vector<PointRecord> resampled(std::span<const PointRecord> points, std::mt1
       draw_normal(point, generator);
     }
     if (point.kind() == md::PointKind::hugoniot) {
-      // The jump conditions hold: Us and up go as the root of the pressure.
+      // By the jump conditions, Us and up are proportional to the square root of the pressure.
       const double factor = std::sqrt(std::fmax(0.0, point.result("pressure").value / before));
       point.results.at("shock_velocity").value *= factor;
       point.results.at("particle_velocity").value *= factor;

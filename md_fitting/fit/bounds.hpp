@@ -5,24 +5,24 @@
 
 namespace whipple::fit {
 
-/// Open interval of a fitted constant; infinite: no bound.
+/// Holds the open interval of a fitted constant; infinite: no bound.
 struct Bounds {
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
 };
 
-/// A constant that a fit without bounds may vary: any real parameter p is mapped into the open interval, p =
-/// 0 onto the start value v0 (docs/theory/fit.md, section 2):
+/// Represents a bounded constant by an unbounded parameter: any real p is mapped into the open interval, p = 0 onto
+/// the start value v0 (docs/theory/fit.md, section 2):
 ///   no bound: v0 + scale p;  one bound b: b + (v0 - b) e^(+-p);  two: the logistic function of p +
 ///   logit(v0).
 class BoundedParameter {
  public:
-  /// @param scale  of a constant without bounds, such that p is of order one
+  /// @param scale  of a constant without bounds, chosen such that p is of order one
   /// @throws StateError if the start value is not inside
   BoundedParameter(double start, const Bounds& bounds, double scale = 1.0);
 
   [[nodiscard]] double value(double p) const;
-  /// d(value)/dp
+  /// Returns d(value)/dp.
   [[nodiscard]] double slope(double p) const;
 
  private:

@@ -13,7 +13,7 @@ namespace {
 
 using md::PointRecord;
 
-/// Equidistant, ends included and exact.
+/// Returns equidistant values with exact end points.
 std::vector<double> spaced(double least, double most, std::int64_t count) {
   if (least == most) return {least};
   std::vector<double> values;
@@ -29,7 +29,7 @@ std::pair<double, double> ends(const std::vector<double>& values) {
   return {*least, *most};
 }
 
-/// Straight lines between the entries, level beyond them.
+/// Interpolates linearly between the entries, constant beyond them.
 double interpolated(const std::map<double, double>& table, double x) {
   const auto above = table.lower_bound(x);
   if (above == table.end()) return table.rbegin()->second;
@@ -138,14 +138,14 @@ std::vector<PlannedPoint> Ranges::start() const {
   for (const double temperature : plan_.zero_pressure->temperature) {
     wanted.push_back({md::PointKind::zero_pressure_volume, 0.0, temperature, 0.0});
   }
-  /// `count` of the points, spread over all of them.
+  /// Selects `count` of the points, spread over all of them.
   const auto spread = [&](const std::vector<PlannedPoint>& points, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
       const double place = static_cast<double>(i * (points.size() - 1)) / static_cast<double>(count - 1);
       wanted.push_back(points[static_cast<std::size_t>(std::lround(place))]);
     }
   };
-  spread(hugoniot(), std::min<std::size_t>(5, hugoniot().size()));  // the ends may lie outside of the window
+  spread(hugoniot(), std::min<std::size_t>(5, hugoniot().size()));  // the ends may be outside the window
   const std::vector<double> ratios = isochore_ratios();
   spread(isochore(ratios.back()), 3);
   spread(isochore(ratios.front()), 3);
@@ -211,7 +211,7 @@ md::Plan Ranges::plan_of(std::span<const PlannedPoint> points) const {
   plan.seed = plan_.seed;
   plan.ranks_per_point = plan_.ranks_per_point;
   plan.folder = plan_.folder;
-  plan.zero_pressure = plan_.zero_pressure;  // Hugoniot points need it; what the store holds costs nothing
+  plan.zero_pressure = plan_.zero_pressure;  // required by Hugoniot points; free if in the database
   for (const PlannedPoint& point : points) {
     if (point.protocol == md::PointKind::hugoniot) {
       if (!plan.hugoniot) plan.hugoniot = md::HugoniotPlan{{}, plan_.hugoniot->size, {}};

@@ -10,46 +10,45 @@
 
 namespace whipple::fit {
 
-/// A point that a plan with [adaptive] may ask for.
+/// Describes a point that a plan with [adaptive] may request.
 struct PlannedPoint {
   md::PointKind protocol = md::PointKind::zero_pressure_volume;
-  double volume_ratio = 0.0;  ///< V over that of the static crystal; of hugoniot and isochore
-  double temperature = 0.0;   ///< K; of coexistence the first guess, of hugoniot none
-  double pressure = 0.0;      ///< Pa; of coexistence
+  double volume_ratio = 0.0;  ///< V over that of the static crystal; for hugoniot and isochore
+  double temperature = 0.0;   ///< K; the first guess for coexistence, unused for hugoniot
+  double pressure = 0.0;      ///< Pa; for coexistence
 };
 
-/// Points that are worth something together: three temperatures of a new isochore, else one.
+/// Groups points that are useful only together: three temperatures of a new isochore, otherwise one point.
 struct Candidate {
   std::vector<PlannedPoint> points;
   double cost = 0.0;  ///< atom-steps
 };
 
-/// The sections of a plan as ranges, each with equidistant values; and what a store holds of them.
+/// Represents the sections of a plan as ranges of equidistant values, with the points that a database holds of them.
 class Ranges {
  public:
-  /// @param points  of the store; may be none
+  /// @param points  of the database; may be empty
   Ranges(const md::Plan& plan, std::span<const md::PointRecord> points);
 
-  /// The least that a fit needs, less what the store holds: the zero-pressure volumes, five Hugoniot states
-  /// over their whole range, three temperatures of the largest and of the smallest volume, the lowest
-  /// coexistence pressure.
+  /// Returns the minimum that a fit needs, less the points in the database: the zero-pressure volumes, five
+  /// Hugoniot states over their whole range, three temperatures at the largest and at the smallest volume, and the
+  /// lowest coexistence pressure.
   [[nodiscard]] std::vector<PlannedPoint> start() const;
-  /// Everything else that the store does not hold. A point that failed is none.
-  /// @param isochore_volumes  m^3/kg, with at least three states already: there a single state is worth
-  /// something
+  /// Returns all other points that are not in the database. Points that failed are not candidates.
+  /// @param isochore_volumes  m^3/kg, with at least three states already: there a single further state is useful
   [[nodiscard]] std::vector<Candidate> candidates(std::span<const double> isochore_volumes) const;
 
-  /// Atoms times steps (docs/theory/fit.md, section 8).
+  /// Returns atoms times steps (docs/theory/fit.md, section 8).
   [[nodiscard]] double cost(const PlannedPoint& point) const;
-  /// Returns the cost of all points of the store, failed ones included.
+  /// Returns the cost of all points in the database, including failed ones.
   [[nodiscard]] double spent() const;
-  /// V of the static crystal at zero pressure, as the store has it, m^3/kg.
+  /// Returns V of the static crystal at zero pressure from the database, m^3/kg.
   [[nodiscard]] double static_volume() const { return static_volume_; }
-  /// Unit cells times averaged steps: the inverse of the variance goes with it.
+  /// Returns unit cells times averaged steps; the variance is inversely proportional to it.
   [[nodiscard]] double sampling(const PlannedPoint& point) const;
   [[nodiscard]] static double sampling(const md::PointRecord& point);
 
-  /// The plan of these points, with the sizes of their sections.
+  /// Returns the plan of these points, with the run sizes of their sections.
   [[nodiscard]] md::Plan plan_of(std::span<const PlannedPoint> points) const;
 
  private:

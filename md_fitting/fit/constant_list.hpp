@@ -15,7 +15,7 @@ namespace whipple::fit {
 using elements::ElementDefaults;
 using elements::NamedDefault;
 
-/// Where the constants that are not fitted come from, by name.
+/// Records the origin of each constant that is not fitted, by name.
 struct Sources {
   struct Entry {
     Origin origin;
@@ -37,19 +37,19 @@ struct Sources {
   static std::string named(const NamedDefault& entry);
 };
 
-/// The electrons of the material by the name of a choice of the element's table (none: the first), or as a
-/// quantity, J/(mol K^2).
+/// Returns the electronic heat coefficient, given by the name of a choice in the element's table (none: the first)
+/// or as a quantity, J/(mol K^2).
 /// @throws InputError naming the choices
 double electronic_coefficient(const ElementDefaults& table, const std::optional<std::string>& choice,
                               Sources& sources);
 
-/// Lists the constants of a bound parameter table in `fit`, each with its error or its source, and rounds
-/// them to what the material file will hold. Covariances and fitted names must be there.
+/// Lists the constants of a bound parameter table in `fit`, each with its error or its source, and rounds them to
+/// the values written to the material file. Covariances and fitted names must have been set.
 /// @throws InternalError if a constant has no source
 void list_constants(Fit& fit, const std::vector<BoundParameter>& table, const Sources& sources);
 
-/// A value as it stands in the material file, in the practical unit of its SI unit: "0.1118 cm^3/g", and the
-/// value that it reads back to.
+/// Returns a value as written in the material file, in the practical unit for its SI unit, e.g. "0.1118 cm^3/g";
+/// `as_written` returns the value that it reads back to.
 std::string practical_quantity(double value, const std::string& si_unit, int digits = 8);
 double as_written(double value, const std::string& si_unit);
 

@@ -22,7 +22,7 @@ std::vector<LeaveOneOut> leave_one_out(std::span<const Datum> data, const LeastS
   const MatrixXd Q = inverse_factor.transpose() * projection * inverse_factor;
   const MatrixXd inverse_sigma = inverse_factor.transpose() * inverse_factor;
   const VectorXd weighted = inverse_factor.transpose() * (projection * solution.whitened);
-  // The parameters change by this for each unit of a datum's weighted residual.
+  // Change of the parameters per unit of a datum's weighted residual.
   const MatrixXd gain = -covariance * J.transpose() * inverse_factor;
 
   std::vector<LeaveOneOut> parts;
@@ -31,11 +31,11 @@ std::vector<LeaveOneOut> leave_one_out(std::span<const Datum> data, const LeastS
       parts.push_back({.quantity = datum.quantity});
     LeaveOneOut& part = parts.back();
     const MatrixXd block = Q.block(datum.begin, datum.begin, datum.rows, datum.rows);
-    // In units of what the datum would weigh by itself: rows of one datum may be a pressure and an energy.
+    // Scaled by the single-datum weight: the rows of a datum may be a pressure and an energy.
     const VectorXd unit =
         inverse_sigma.diagonal().segment(datum.begin, datum.rows).cwiseSqrt().cwiseInverse();
     const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(unit.asDiagonal() * block * unit.asDiagonal());
-    if (!(eigen.eigenvalues()[0] > 1e-9)) continue;  // the rest says nothing about it
+    if (!(eigen.eigenvalues()[0] > 1e-9)) continue;  // the other data do not determine it
     const VectorXd weight = weighted.segment(datum.begin, datum.rows);
     const VectorXd difference = block.ldlt().solve(weight);
     const double pull = std::sqrt(weight.dot(difference) / static_cast<double>(datum.rows));

@@ -39,7 +39,7 @@ void Design::update() {
 
 double Design::reduction(std::span<const Index> rows, const VectorXd& gradient) const {
   const std::vector<Index> chosen = as_vector(rows);
-  // What the present rows do not tell about the new ones already: u = J_c - Sigma_cA Sigma_A^-1 J_A.
+  // Part of the new rows not predicted by the present ones: u = J_c - Sigma_cA Sigma_A^-1 J_A.
   const MatrixXd common = sigma_(present_, chosen);
   const MatrixXd shared = factor_.matrixL().solve(common);
   const MatrixXd jacobian = jacobian_(chosen, Eigen::all);

@@ -8,27 +8,27 @@
 
 namespace whipple::fit {
 
-/// Predicts the covariance of fitted parameters with further data, in the linear approximation
-/// (docs/theory/fit.md, section 8). All rows that there are or might be have one Jacobian and one covariance
-/// Sigma; some are present. No value of a datum is needed, so a row counts before it is measured.
+/// Predicts the covariance of fitted parameters with further data, in the linear approximation (docs/theory/fit.md,
+/// section 8). All existing and candidate rows share one Jacobian and one covariance Sigma; a subset is present.
+/// Values of the data are not needed, so a row can be evaluated before it is measured.
 class Design {
  public:
   /// @param jacobian  of the residuals of all rows
   /// @param sigma     their covariance, from noise and model errors
-  /// @param weak      standard deviations of the parameters before any datum: so large that they say nothing
-  /// where a parameter is determined by data; they keep the intercepts finite of which there are no data yet
+  /// @param weak      prior standard deviations of the parameters: large enough to carry no information where data
+  /// determine a parameter; they keep intercepts without data finite
   Design(Eigen::MatrixXd jacobian, Eigen::MatrixXd sigma, Eigen::VectorXd weak,
          std::vector<Eigen::Index> present);
 
-  /// Returns the covariance of the parameters that follows from the present rows.
+  /// Returns the covariance of the parameters given the present rows.
   [[nodiscard]] const Eigen::MatrixXd& covariance() const { return covariance_; }
   [[nodiscard]] double variance(const Eigen::VectorXd& gradient) const {
     return gradient.dot(covariance_ * gradient);
   }
-  /// By how much rows that are not present would lower the variance of a linear function of the parameters:
-  /// equation (F8); one row is the update of rank one.
+  /// Returns the decrease of the variance of a linear function of the parameters due to rows that are not yet
+  /// present, equation (F8); a single row is a rank-one update.
   [[nodiscard]] double reduction(std::span<const Eigen::Index> rows, const Eigen::VectorXd& gradient) const;
-  /// Makes rows present.
+  /// Marks rows as present.
   void add(std::span<const Eigen::Index> rows);
 
  private:

@@ -6,22 +6,22 @@
 #include <span>
 #include <vector>
 
-/// Covariance of what a law leaves out, as a function along its curve (docs/theory/fit.md, section 3).
+/// Models the covariance of the model discrepancy of a law along its curve (docs/theory/fit.md, section 3).
 namespace whipple::fit {
 
-/// Correlation of a smooth function at two places: Matern's with nu = 3/2, (1 + r) exp(-r), r = 3^(1/2) d/length
-/// (Rasmussen & Williams, Gaussian Processes for Machine Learning (2006), eq. 4.17). Continuous once differentiable
-/// functions: smoother ones (a squared exponential) make the covariance of close states singular.
+/// Returns the correlation of a smooth function at two places: Matern's with nu = 3/2, (1 + r) exp(-r), r = 3^(1/2)
+/// d/length (Rasmussen & Williams, Gaussian Processes for Machine Learning (2006), eq. 4.17). Its functions are
+/// once differentiable: smoother ones (squared exponential) make the covariance of neighbouring states singular.
 double matern(double distance, double length);
 
-/// One deviation of a law: size of its standard deviation at each state, in units of the row, and the correlation of
-/// two states.
+/// Describes one discrepancy of a law: its standard deviation at each state, in the unit of the row, and the
+/// correlation of two states.
 struct Discrepancy {
   std::vector<double> size;
   std::function<double(std::size_t, std::size_t)> correlation;
 };
 
-/// Adds the covariance of a deviation to the rows of its states.
+/// Adds the covariance of a discrepancy to the rows of its states.
 /// @param rows  row of each state in `covariance`
 void add_discrepancy(const Discrepancy& deviation, std::span<const Eigen::Index> rows,
                      Eigen::MatrixXd& covariance);

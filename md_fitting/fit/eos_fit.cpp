@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// whipple-fit: from a store of molecular-dynamics points to a material file.
+// whipple-fit: creates a material file from a database of molecular-dynamics points.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -95,7 +95,7 @@ FitSettings settings(const Options& options) {
   return settings;
 }
 
-/// NAME of NAME.md.h5
+/// Returns NAME of NAME.md.h5.
 std::string stem(const std::filesystem::path& store) {
   std::string name = store.filename().string();
   for (const std::string_view ending : {".md.h5", ".h5"}) {
@@ -104,10 +104,10 @@ std::string stem(const std::filesystem::path& store) {
   return name;
 }
 
-/// @throws InputError for a file that is no store of points, such as a potential
+/// Checks that a file is a database. @throws InputError for a file that is not one, such as a potential
 void require_store(const std::filesystem::path& file) {
   constexpr std::string_view signature = "\x89HDF";
-  if (!std::filesystem::is_regular_file(file)) return;  // the reader says so
+  if (!std::filesystem::is_regular_file(file)) return;  // reported by the reader
   std::ifstream stream(file, std::ios::binary);
   std::string begin(signature.size(), '\0');
   stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
@@ -119,8 +119,8 @@ void require_store(const std::filesystem::path& file) {
   }
 }
 
-/// One material file per store: as many -o as stores, or one -o that is a folder (it exists, or ends with
-/// '/').
+/// Returns one material file per database: as many -o as databases, or one -o that is a folder (it exists, or ends
+/// with '/').
 std::vector<std::filesystem::path> material_files(const Options& options) {
   std::vector<std::filesystem::path> files;
   if (options.outputs.empty()) return files;
@@ -149,7 +149,7 @@ std::vector<std::filesystem::path> material_files(const Options& options) {
   return files;
 }
 
-/// An ensemble beside the material NAME.toml: NAME_samples/NAME_1.toml, ...
+/// Writes an ensemble next to the material NAME.toml: NAME_samples/NAME_1.toml, ...
 void write_samples(const Fit& fit, const StoreOrigin& origin,
                    const std::optional<std::filesystem::path>& template_file,
                    const std::filesystem::path& material, const std::optional<PotentialSpread>& spread,
@@ -182,15 +182,15 @@ Fit fit_model(FitModel model, std::span<const md::PointRecord> points, const Fit
   throw InternalError("unknown model of a fit");
 }
 
-/// The words of --model.
+/// Returns the words of --model.
 std::vector<std::string> model_names() {
   std::vector<std::string> names;
   for (const auto& [name, model] : fit_models) names.emplace_back(name);
   return names;
 }
 
-/// Scatter over the potentials of each element of which there are fits of two or more, by element. Of several
-/// stores of one potential the first counts.
+/// Returns the scatter over the potentials, by element, for elements with two or more fits. If several databases
+/// are of one potential, the first is used.
 std::map<std::string, PotentialSpread> spreads_of(const std::vector<NamedFit>& fits,
                                                   const std::vector<StoreOrigin>& origins) {
   std::map<std::string, std::vector<const Fit*>> by_element;
@@ -212,7 +212,7 @@ FitModel model_of(std::string_view name) {
   return std::ranges::find(fit_models, name, &std::pair<std::string_view, FitModel>::first)->second;
 }
 
-/// The next round of `whipple md --adaptive`: a plan of its points, or no file if the work is at its end.
+/// Writes the next round of `whipple md --adaptive`: a plan of its points, or no file if the campaign is complete.
 void propose_round(const Options& options) {
   if (options.stores.size() > 1) throw InputError("--propose works on one store");
   const md::Plan plan = md::read_plan(options.propose);

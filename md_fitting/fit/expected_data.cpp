@@ -16,8 +16,8 @@ namespace {
 
 using md::PointRecord;
 
-/// Geometric mean of sigma/scale (cells x steps)^1/2 over the points of a protocol that state an error; 0 if
-/// none does.
+/// Returns the geometric mean of sigma/scale (cells x steps)^1/2 over the points of a protocol that have an error;
+/// 0 if there are none.
 template <class Scale>
 double coefficient(std::span<const PointRecord> points, md::PointKind protocol, const char* quantity,
                    Scale scale) {
@@ -95,7 +95,7 @@ void ExpectedData::add_hugoniot(const PlannedPoint& point, int owner) {
 void ExpectedData::add_isochore(const PlannedPoint& point, int owner) {
   const double v = point.volume_ratio * ranges_.static_volume();
   const double t = point.temperature;
-  if (t > melting_temperature(constants_.gray, v)) return;  // the fit leaves superheated states out
+  if (t > melting_temperature(constants_.gray, v)) return;  // the fit excludes superheated states
   const auto found = std::find_if(data_.isochores.begin(), data_.isochores.end(),
                                   [&](const Isochore& one) { return std::abs(one.volume - v) <= 1e-6 * v; });
   const auto place = static_cast<std::size_t>(found - data_.isochores.begin());
@@ -104,7 +104,7 @@ void ExpectedData::add_isochore(const PlannedPoint& point, int owner) {
     isochore_owners_.emplace_back();
   }
   Isochore& isochore = data_.isochores[place];
-  // The intercepts of an isochore are free: only differences to its first state count.
+  // The intercepts of an isochore are free: only differences from its first state are significant.
   double energy = thermal_energy(constants_, v, t);
   if (!isochore.states.empty()) {
     const ThermalState& first = isochore.states.front();
@@ -134,7 +134,7 @@ void ExpectedData::add_coexistence(const PlannedPoint& point, int owner, const G
     data_.melting.push_back(datum);
     melting_owners_.push_back(owner);
   } catch (const StateError&) {
-    // The model does not melt there: the candidate brings nothing that the fit could use.
+    // The model does not melt there: the candidate adds no datum to the fit.
   }
 }
 

@@ -11,22 +11,22 @@
 
 namespace whipple::fit {
 
-/// The data of a fit together with those that candidates would bring: values as the fit predicts them, and
-/// errors as points of the same protocol had them, sigma = a (cells x steps)^-1/2 with the geometric mean of
-/// a over the store (docs/theory/fit.md, section 8).
+/// Holds the data of a fit together with those that candidates would add: values as predicted by the fit, and
+/// errors scaled from points of the same protocol, sigma = a (cells x steps)^-1/2 with the geometric mean of a over
+/// the database (docs/theory/fit.md, section 8).
 class ExpectedData {
  public:
-  /// @param fit    gives the values
-  /// @param points of the store, give the errors
+  /// @param fit    supplies the values
+  /// @param points of the database, supply the errors
   ExpectedData(const GrayFit& fit, std::span<const md::PointRecord> points, const Ranges& ranges,
                const std::vector<Candidate>& candidates);
 
   [[nodiscard]] const Observations& data() const { return data_; }
 
-  /// Rows of the least-squares problem of `data`.
+  /// Holds row indices of the least-squares problem of `data`.
   struct Rows {
-    std::vector<Eigen::Index> present;                  ///< of the store
-    std::vector<std::vector<Eigen::Index>> candidates;  ///< of each candidate; none: it brings no datum
+    std::vector<Eigen::Index> present;                  ///< rows of the database
+    std::vector<std::vector<Eigen::Index>> candidates;  ///< rows of each candidate; empty: it adds no datum
   };
   [[nodiscard]] Rows rows(const SolidProblem& problem) const;
 
@@ -46,7 +46,7 @@ class ExpectedData {
   double pressure_ = 0.0, energy_ = 0.0;  // over T^1/2
   double melting_ = 0.0, solid_volume_ = 0.0, latent_heat_ = 0.0;
   double correlation_ = 0.0;
-  // Whose the data are, in their order: a candidate, or -1 for the store.
+  // Owners of the data, in the order of the data: index of a candidate, or -1 for the database.
   std::vector<int> hugoniot_owners_, melting_owners_;
   std::vector<std::vector<int>> isochore_owners_;
 };

@@ -21,8 +21,8 @@ namespace {
 
 struct Column {
   std::string title, unit;
-  std::string name;  ///< of the constant
-  double size;       ///< of the printed unit in SI
+  std::string name;  ///< name of the constant
+  double size;       ///< printed unit in SI
   int decimals;
 };
 
@@ -59,7 +59,7 @@ const std::vector<Column>& columns(FitModel model) {
 
 using Row = std::vector<std::string>;
 
-/// Where a constant comes from.
+/// Returns the word for the origin of a constant.
 const char* source_word(const Constant& constant) {
   switch (constant.origin) {
     case Origin::fitted:
@@ -161,7 +161,7 @@ std::string unknown_to_classical_nuclei(const Fit& fit) {
   return text;
 }
 
-/// The isotherm of classical and of quantum nuclei, if the store has points of the protocol "quantum".
+/// Formats the isotherms of classical and quantum nuclei, if the database has points of the protocol "quantum".
 std::string nuclei_text(const Fit& fit) {
   const NucleiComparison& nuclei = fit.nuclei;
   if (nuclei.isotherm.empty()) return {};

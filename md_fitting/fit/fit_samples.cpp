@@ -35,7 +35,7 @@ void require_material(const Fit& fit) {
   static_cast<void>(declared.build());
 }
 
-/// Constants that are drawn, and their covariance: those of the fit, then the defaults with a known error.
+/// Holds the constants that are drawn and their covariance: those of the fit, then the defaults with a known error.
 struct Drawn {
   std::vector<std::string> names;
   Eigen::MatrixXd covariance;
@@ -114,7 +114,7 @@ FitSamples sample_fit(const Fit& fit, int count, std::uint64_t seed, ErrorTier t
       samples.fits.push_back(std::move(sample));
     } catch (const InputError& error) {
       refuse(error.what());
-    } catch (const StateError& error) {  // constants without the states that the model is built from
+    } catch (const StateError& error) {  // the model does not exist for these constants
       refuse(error.what());
     }
   }

@@ -11,17 +11,18 @@
 
 namespace whipple::fit {
 
-/// Fits whose constants are drawn from the normal distribution of a fit's covariance: an ensemble of
-/// materials. A draw of which the model makes no material is replaced by another one. The drawn constants say
-/// so, and there is no covariance any more.
+/// Holds fits whose constants are drawn from the normal distribution given by the covariance of a fit: an ensemble
+/// of materials. A draw that does not yield a valid material is replaced. The sources of drawn constants record
+/// the draw, and the samples have no covariance.
 struct FitSamples {
   std::vector<Fit> fits;
   int refused = 0;  ///< draws that were replaced
 };
 
-/// @param tier    errors to draw from: that of the fit contains the known errors of the defaults
+/// Draws samples of a fit.
+/// @param tier    errors to draw from; those of the fit include the known errors of the defaults
 /// @param spread  over potentials, for the second tier
-/// @throws InputError if four of five draws are refused, or the second tier is missing
+/// @throws InputError if four out of five draws are rejected, or if the second tier is missing
 FitSamples sample_fit(const Fit& fit, int count, std::uint64_t seed, ErrorTier tier = ErrorTier::fit,
                       const std::optional<PotentialSpread>& spread = std::nullopt);
 

@@ -11,14 +11,14 @@
 
 namespace whipple::fit {
 
-/// Holds the errors of the laws of GRAY on data without noise: part of the weights
-/// (docs/theory/fit.md, section 3). All are one standard deviation.
+/// Holds the errors of the laws of GRAY on noise-free data, which contribute to the weights (docs/theory/fit.md,
+/// section 3). All are one standard deviation.
 struct ModelErrors {
   double zero_pressure_volume = 1e-4;  ///< relative
   double shock_velocity = 3e-3;        ///< relative, per Hugoniot state: Us-up is not exactly a line
   double gruneisen = 0.02;             ///< relative, common to an isochore: gamma is not exactly linear in V
   double anharmonic = 2e-4;            ///< J/(mol K^2), common to an isochore: the coefficient depends on V
-  double thermal_pressure = 0.01;      ///< relative, per state: gamma depends on T, too
+  double thermal_pressure = 0.01;      ///< relative, per state: gamma also depends on T
   double energy = 0.003;  ///< relative to the thermal energy, per state: not exactly quadratic in T
   double melting_temperature = 0.01;  ///< relative: Lindemann law
   double latent_heat = 0.05;          ///< relative: one entropy of melting for all volumes
@@ -27,39 +27,38 @@ struct ModelErrors {
   double liquid_density = 0.03;       ///< relative, of the saturated melt: the form of the fluid
   double vapour_density = 0.3;        ///< relative, of the saturated vapour
 
-  /// No model error at all: the weights are those of the noise.
+  /// Returns zero model errors: the weights are those of the noise.
   static ModelErrors none() { return {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}; }
 };
 
-/// How the model errors of the states of one curve are related.
+/// Specifies how the model errors of the states of one curve are related.
 enum class ErrorStructure {
   correlated,  ///< a smooth deviation of the law from the curve: Matern covariance of stated lengths
-  independent  ///< one deviation for each state, those of an isochore's law common to it
+  independent  ///< an independent deviation for each state; an isochore's law has a common one
 };
 constexpr std::array<Word<ErrorStructure>, 2> words(ErrorStructure) {
   return {{{ErrorStructure::correlated, "correlated"}, {ErrorStructure::independent, "independent"}}};
 }
 
-/// Lengths over which the deviation of a law from its curve changes (docs/theory/fit.md, section 3).
+/// Holds the correlation lengths of the discrepancy of a law along its curve (docs/theory/fit.md, section 3).
 struct CorrelationLengths {
   double particle_velocity = 1000.0;  ///< m/s, of Us-up
   double volume_ratio = 0.1;          ///< of V/V0: isochores, isotherm, melting line
   double temperature = 1000.0;        ///< K, along an isochore
 };
 
-/// Which windows of particle velocities the constants are taken from.
+/// Specifies the windows of particle velocities from which the constants are taken.
 enum class WindowChoice {
-  averaged,  ///< mean over the windows, their scatter is part of the covariance
-  single     ///< the window of the settings alone
+  averaged,  ///< mean over the windows; their scatter contributes to the covariance
+  single     ///< only the window of the settings
 };
 constexpr std::array<Word<WindowChoice>, 2> words(WindowChoice) {
   return {{{WindowChoice::averaged, "averaged"}, {WindowChoice::single, "single"}}};
 }
 
-/// Whose thermodynamics the isotherm of a fit is.
+/// Specifies the nuclei to which the isotherm of a fit applies.
 enum class Nuclei {
-  quantum,   ///< with what the points of the protocol "quantum" add, if there are any at the reference
-             ///< temperature
+  quantum,  ///< with the quantum corrections of the protocol "quantum", if present at the reference temperature
   classical  ///< as simulated
 };
 constexpr std::array<Word<Nuclei>, 2> words(Nuclei) {
@@ -70,24 +69,24 @@ struct FitSettings {
   double reference_temperature = 293.0;    ///< K: V0 is the volume at zero pressure and this temperature
   double least_particle_velocity = 300.0;  ///< m/s, window of the Hugoniot states
   double most_particle_velocity = 2500.0;  ///< m/s
-  /// Curve of the model through the coexistence points: the lower edge of its melting band, T_m(V) itself, or
-  /// the common tangent of solid and liquid. It is also the melting transition of the material.
+  /// Model curve through the coexistence points: the lower edge of the melting band, T_m(V), or the common tangent
+  /// of solid and liquid. It is also the melting transition of the material.
   eos::MeltingTransition melting = eos::MeltingTransition::equilibrium;
   ModelErrors model_errors;
   ErrorStructure structure = ErrorStructure::correlated;
   CorrelationLengths lengths;
-  bool inflation = true;  ///< model errors grow until chi^2 of each kind of data is what it should be
+  bool inflation = true;  ///< scale model errors up until chi^2 of each kind of data has its expected value
   WindowChoice windows = WindowChoice::averaged;
   Nuclei nuclei = Nuclei::quantum;
-  /// Name of a choice of the element's table, or a quantity; none: the first choice.
+  /// Name of a choice in the element's table, or a quantity; none: the first choice.
   std::optional<std::string> electrons;
-  std::optional<std::filesystem::path> defaults{};  ///< a file of the user with constants of elements
+  std::optional<std::filesystem::path> defaults{};  ///< file of the user with constants of elements
   int bootstrap = 0;                                ///< replicates; 0: none
   std::optional<double> density;  ///< kg/m^3: replaces the fitted reference volume by a measured one
 };
 
-/// Leaves one window and the stated model errors, each state by itself: for what counts the information of
-/// single states.
+/// Returns settings with a single window, the stated model errors and independent errors of the states, for
+/// purposes that count the information of single states.
 inline FitSettings independent_errors(FitSettings settings) {
   settings.structure = ErrorStructure::independent;
   settings.inflation = false;

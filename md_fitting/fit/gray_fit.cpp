@@ -26,13 +26,14 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using eos::GrayConstants;
 
-/// V_J/V0 is a choice for each element. Where the fitted constants have no complete material with it, or no
-/// melt at the simulated melting point, one near it is taken: these steps from it, in this order.
+/// Steps from the element's choice of V_J/V0 to alternative values, in the order in which they are tried if the
+/// fitted constants do not form a complete material or have no melt at the simulated melting point.
 constexpr std::array join_steps = {0.0, -0.05, 0.05, -0.1, 0.1};
 
 bool has_vapour(const Observations& data) { return data.saturation.size() >= elements::least_saturations; }
 
-/// Takes what is not fitted of the vapour from the table: it boils there, or attracts, or is left to saturated densities.
+/// Takes the unfitted vapour constant from the table: boiling temperature, attraction, or none with saturated
+/// densities.
 void fix_vapour(GrayConstants& constants, const ElementDefaults& table, Sources& sources) {
   const bool boils = table.find("vapour_attraction") == nullptr;
   const char* const parameter = boils ? "boiling_temperature" : "vapour_attraction";
@@ -43,8 +44,8 @@ void fix_vapour(GrayConstants& constants, const ElementDefaults& table, Sources&
   sources.by_default(*entry);
 }
 
-/// Everything that is not fitted.
-/// @param join_step  from the table's V_J/V0
+/// Collects all constants that are not fitted.
+/// @param join_step  relative to V_J/V0 of the table
 SolidStart fixed_constants(const Observations& data, const ElementDefaults& table,
                            const FitSettings& settings, double join_step, Sources& sources) {
   const auto missing = elements::missing_constants(FitModel::gray, table,
@@ -92,7 +93,7 @@ SolidModel gray_model(const Observations& data) {
   return model;
 }
 
-/// Joins the vapour's constants to the covariance of the others.
+/// Appends the constants of the vapour to the covariance of the others.
 void append(GrayFit& fit, const VapourFit& vapour) {
   const auto joined = [&](const MatrixXd& solid, const MatrixXd& own) {
     const Index n = solid.rows();
@@ -145,7 +146,7 @@ void add_vapour(GrayFit& fit, const Observations& data) {
   }
 }
 
-/// The fitted solid by GRAY's names, over replicates of the store.
+/// Bootstraps the fitted solid constants, under GRAY's names, over replicates of the database.
 BootstrapResult bootstrap_gray(std::span<const md::PointRecord> points, const SolidFit& fit,
                                const FitSettings& settings, const std::string& store_name) {
   const auto constants = [&](std::span<const md::PointRecord> drawn) {
@@ -161,7 +162,7 @@ BootstrapResult bootstrap_gray(std::span<const md::PointRecord> points, const So
   return bootstrap(points, settings.bootstrap, seed, constants);
 }
 
-/// A measured density takes the place of the fitted volume.
+/// Replaces the fitted volume by a measured density.
 void replace_volume(GrayFit& fit, double density, Sources& sources) {
   const double ratio = 1.0 / (density * fit.fitted_reference_volume);
   fit.gray.reference_specific_volume = 1.0 / density;
@@ -169,8 +170,8 @@ void replace_volume(GrayFit& fit, double density, Sources& sources) {
       "reference_specific_volume",
       fmt::format("measured density {}; the simulations give {}", units::format_quantity(density, "kg/m^3"),
                   practical_quantity(fit.fitted_reference_volume, "m^3/kg")));
-  // Every other fitted constant is a function of V/V0, but for a_y, which keeps its a_y/V0 and with it the
-  // critical temperature: only the row of V0 leaves the covariance.
+  // Every other fitted constant is a function of V/V0, except a_y, which is scaled to keep a_y/V0 and hence the
+  // critical temperature: only the row of V0 is removed from the covariance.
   const Index count = fit.covariance.rows();
   Eigen::VectorXd scale = Eigen::VectorXd::Ones(count);
   for (std::size_t k = 0; k < fit.fitted_names.size(); ++k) {

@@ -26,7 +26,7 @@ VectorXd sizes(const Fit& fit) {
   return size;
 }
 
-/// "0.98 hugoniot_intercept - 0.21 hugoniot_slope": the largest parts of a combination.
+/// Formats the largest components of a combination, e.g. "0.98 hugoniot_intercept - 0.21 hugoniot_slope".
 std::string combination(const Fit& fit, const VectorXd& vector) {
   constexpr double least_part = 0.3;
   std::vector<Index> order(static_cast<std::size_t>(vector.size()));
@@ -46,9 +46,9 @@ std::string combination(const Fit& fit, const VectorXd& vector) {
   return text;
 }
 
-/// What the data say of a constant, in words.
+/// Describes in words how well the data determine a constant.
 std::string verdict(const Fit& fit, const Determination& one) {
-  constexpr double two_errors = 0.5;       // relative error of a constant that may as well be zero
+  constexpr double two_errors = 0.5;       // relative error of a constant compatible with zero
   constexpr double in_combination = 0.95;  // correlation
   std::string text = one.relative_error > two_errors
                          ? std::string("not distinguished from zero")

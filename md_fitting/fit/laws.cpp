@@ -11,7 +11,7 @@
 
 namespace whipple::fit {
 namespace {
-/// g_anh (V/V0)^gamma_e T^2/2 per mass
+/// Returns g_anh (V/V0)^gamma_e T^2/2 per unit mass.
 double anharmonic_energy(const eos::GrayConstants& c, double V, double T) {
   return c.anharmonic_heat_coefficient * std::pow(V / c.reference_specific_volume, c.electronic_gruneisen) *
          T * T / (2.0 * c.molar_mass);
@@ -47,11 +47,11 @@ double melting_temperature(const eos::GrayConstants& c, double V) {
 }
 
 namespace {
-/// At one volume melting rests on Delta S - alpha alone, up to the square of T/T_m - 1. Without the fall of
-/// the liquid's heat capacity (alpha = 0) the surface exists for every g, also where liquid or vapour of the
-/// complete model would have no positive heat capacity. In equilibrium the liquid has another volume, T/T_m
-/// of which is some 1.15: there the square counts, and alpha stays. The attraction of the vapour has no
-/// influence.
+/// Returns the constants used for melting. At one volume melting depends on Delta S - alpha alone, up to the square
+/// of T/T_m - 1. Without the decrease of the liquid's heat capacity (alpha = 0) the surface exists for every g,
+/// including values for which liquid or vapour of the complete model would have a negative heat capacity. In
+/// equilibrium the liquid has a different volume, with T/T_m of about 1.15: there the quadratic term is
+/// significant, and alpha is kept. The attraction of the vapour has no influence.
 eos::GrayConstants for_melting(eos::GrayConstants constants) {
   if (constants.melting != eos::MeltingTransition::equilibrium) {
     constants.melting_entropy -= constants.liquid_heat_coefficient;
@@ -73,13 +73,13 @@ double Melting::solidus(double V) const {
   if (surface_.constants().melting != eos::MeltingTransition::equilibrium) {
     return surface_.band(surface_.isochore(V)).T1;
   }
-  // Equal pressure and Gibbs energy of the solid of this volume and a liquid of another one (G27).
+  // Equal pressure and Gibbs energy of the solid at this volume and a liquid at another volume (G27).
   const auto excess = [&](double T) {
     const eos::GrayPoint solid = surface_.solid(V, T);
     const double volume = condensed_volume(surface_, true, solid.pressure, T);
     return surface_.liquid(volume, T).gibbs(volume, T) - solid.gibbs(V, T);
   };
-  // The solid of V melts below T_m(V), where the liquid of the same volume has the same free energy.
+  // The solid at V melts below T_m(V), where the liquid at the same volume has the same free energy.
   double low = T_m;
   while (low > 0.5 * T_m && excess(low) < 0.0) low *= 0.98;
   return eos::find_root(excess, low, T_m, "melting temperature of the solid's volume");

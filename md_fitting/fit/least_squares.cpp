@@ -20,7 +20,7 @@ namespace {
 struct Callback {
   const LeastSquaresProblem* problem;
   const Eigen::LLT<Eigen::MatrixXd>* sigma;
-  std::exception_ptr failure;  // no exception may pass through GSL's C frames
+  std::exception_ptr failure;  // no exception may propagate through GSL's C frames
 };
 
 int whitened_residuals(const gsl_vector* x, void* data, gsl_vector* f) {
@@ -30,7 +30,7 @@ int whitened_residuals(const gsl_vector* x, void* data, gsl_vector* f) {
     for (std::size_t i = 0; i < x->size; ++i) p[static_cast<Eigen::Index>(i)] = gsl_vector_get(x, i);
     p += callback->problem->start - Eigen::VectorXd::Ones(p.size());
     const Eigen::VectorXd r = callback->sigma->matrixL().solve(callback->problem->residuals(p));
-    const bool usable = r.allFinite();  // otherwise worse than any fit: the step is taken back and shortened
+    const bool usable = r.allFinite();  // otherwise worse than any fit: the step is rejected and shortened
     for (std::size_t i = 0; i < f->size; ++i)
       gsl_vector_set(f, i, usable ? r[static_cast<Eigen::Index>(i)] : 1e12);
     return GSL_SUCCESS;
@@ -52,7 +52,7 @@ Eigen::MatrixXd to_eigen(const gsl_matrix& m) {
   return result;
 }
 
-/// The Jacobian must determine every parameter: its columns, scaled to unit length, must not be dependent.
+/// Checks that the Jacobian determines every parameter: its columns, scaled to unit length, must be independent.
 void require_determined(const Eigen::MatrixXd& jacobian) {
   Eigen::MatrixXd scaled = jacobian;
   for (Eigen::Index k = 0; k < scaled.cols(); ++k) {
@@ -61,7 +61,7 @@ void require_determined(const Eigen::MatrixXd& jacobian) {
     scaled.col(k) /= norm;
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled.transpose() * scaled);
-  // The normal matrix of central differences is known to about 1e-10.
+  // The normal matrix of central differences is accurate to about 1e-10.
   if (!(eigen.eigenvalues()[0] > 1e-11)) {
     throw StateError("least squares: the data leave a combination of the parameters undetermined");
   }
@@ -95,11 +95,10 @@ LeastSquaresSolution solve(const LeastSquaresProblem& problem) {
       gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &settings, system.n, system.p),
       &gsl_multifit_nlinear_free);
 
-  // GSL's difference step is relative to the parameter: iterate on 1 + (p - start), so that none is near
-  // zero.
+  // GSL's difference step is relative to the parameter: iterate on 1 + (p - start), so that none is near zero.
   Eigen::VectorXd start = Eigen::VectorXd::Ones(p);
   const gsl_vector_view view = gsl_vector_view_array(start.data(), system.p);
-  gsl_error_handler_t* handler = gsl_set_error_handler_off();  // errors come back as codes
+  gsl_error_handler_t* handler = gsl_set_error_handler_off();  // errors are returned as codes
   int status = gsl_multifit_nlinear_init(&view.vector, &system, workspace.get());
   int reason = 0;
   constexpr std::size_t most_iterations = 200;
@@ -109,8 +108,8 @@ LeastSquaresSolution solve(const LeastSquaresProblem& problem) {
   }
   gsl_set_error_handler(handler);
   if (callback.failure) std::rethrow_exception(callback.failure);
-  // GSL_ENOPROG: no step lowers chi squared any more, the minimum to rounding. If the very first one does
-  // not, the driver says GSL_EMAXITER and gives the reason.
+  // GSL_ENOPROG: no step reduces chi squared any further, the minimum to rounding. If this occurs at the first
+  // step, the driver returns GSL_EMAXITER and sets the reason.
   const bool at_minimum = status == GSL_ENOPROG || (status == GSL_EMAXITER && reason == GSL_ENOPROG);
   if (status != GSL_SUCCESS && !at_minimum) {
     throw StateError(fmt::format("least squares: no convergence after {} iterations ({})",

@@ -27,8 +27,8 @@
 namespace whipple::fit {
 namespace {
 
-/// Name of the table that a line opens: "strength" for "[strength]", "failure" for "[[failure]]"; empty if
-/// none.
+/// Returns the name of the table that a line opens: "strength" for "[strength]", "failure" for "[[failure]]"; empty
+/// if none.
 std::string_view opened_table(std::string_view line) {
   const std::size_t begin = line.find_first_not_of(" \t[");
   if (begin == std::string_view::npos || line[line.find_first_not_of(" \t")] != '[') return {};
@@ -42,7 +42,7 @@ std::string constant_line(const Constant& constant) {
   std::string line = fmt::format("{} = {}", constant.name, bare ? text : toml_string(text));
   switch (constant.origin) {
     case Origin::fitted: {
-      // The errors in the unit of the value.
+      // Print the errors in the unit of the value.
       const double size = units::parse_quantity(practical_quantity(constant.value, unit), unit);
       const double factor = constant.value == 0.0 ? 1.0 : std::strtod(text.c_str(), nullptr) / size;
       line += fmt::format("  # fitted: +- {:.2g}, of which noise {:.2g}", constant.error * factor,
@@ -63,7 +63,7 @@ std::string constant_line(const Constant& constant) {
   return line + "\n";
 }
 
-/// The lines of a text as comments.
+/// Returns the lines of a text as comments.
 std::string comment_lines(const std::string& text) {
   std::istringstream lines(text);
   std::string comments;
@@ -71,7 +71,7 @@ std::string comment_lines(const std::string& text) {
   return comments;
 }
 
-/// A symmetric matrix of the fitted constants as a table, one row for each name.
+/// Formats a symmetric matrix of the fitted constants as a table, one row per name.
 std::string matrix_table(const char* title, const std::vector<std::string>& names,
                          const Eigen::MatrixXd& matrix, const std::function<std::string(double)>& number) {
   std::string text = fmt::format("\n[{}]\n", title);
@@ -83,8 +83,8 @@ std::string matrix_table(const char* title, const std::vector<std::string>& name
   return text;
 }
 
-/// Scatter over the replicates of the bootstrap, by the names of the covariance; "nan" for constants that the
-/// bootstrap leaves out (those of the vapour).
+/// Returns the scatter over the bootstrap replicates, by the names of the covariance; "nan" for constants that the
+/// bootstrap does not cover (those of the vapour).
 std::vector<std::string> bootstrap_errors(const Fit& fit) {
   std::vector<std::string> errors;
   for (const std::string& name : fit.fitted_names) {
@@ -98,7 +98,7 @@ std::vector<std::string> bootstrap_errors(const Fit& fit) {
 }
 
 std::string covariance_table(const Fit& fit) {
-  if (fit.fitted_names.empty()) return {};  // of a sample
+  if (fit.fitted_names.empty()) return {};  // a sample has no covariance
   std::vector<std::string> names;
   std::vector<std::string> si_units;
   for (const std::string& name : fit.fitted_names) {
@@ -204,7 +204,7 @@ std::string defaults_table(const Fit& fit) {
       text += fmt::format("{} = {}\n", constant.name, toml_string(constant.source));
     }
   }
-  if (fit.fitted_names.empty()) return text;  // of a sample
+  if (fit.fitted_names.empty()) return text;  // a sample has no covariance
   std::vector<std::string> names, units, errors, sources, unknown;
   for (const Constant& constant : fit.constants) {
     if (constant.origin != Origin::by_default) continue;
@@ -227,7 +227,7 @@ std::string defaults_table(const Fit& fit) {
              fmt::join(sources, ", "), fmt::join(unknown, ", "));
 }
 
-/// Second tier of the errors: of the constants that the material has from its fit.
+/// Formats the second tier of the errors, for constants that the material takes from its fit.
 std::string spread_table(const Fit& fit, const PotentialSpread& spread) {
   std::vector<Eigen::Index> kept;
   std::vector<std::string> names, quoted, units, potentials, deviations;
@@ -265,7 +265,7 @@ StoreOrigin store_origin(const std::filesystem::path& store, std::span<const md:
     for (const auto& [name, value] : point.provenance) values[name].insert(value);
   }
   for (const auto& [name, found] : values) {
-    if (found.size() != 1 || name == "lammps_commands") continue;  // the commands stay in the store
+    if (found.size() != 1 || name == "lammps_commands") continue;  // kept in the database only
     const bool everywhere =
         std::all_of(points.begin(), points.end(), [&, key = name](const md::PointRecord& point) {
           return !point.done() || point.provenance.contains(key);
@@ -278,7 +278,7 @@ StoreOrigin store_origin(const std::filesystem::path& store, std::span<const md:
 std::string strength_and_failure(const std::filesystem::path& material) {
   std::istringstream lines(whipple::material_text(material));
   std::string text;
-  std::string pending;  // comments and blank lines: they belong to what follows
+  std::string pending;  // comments and blank lines, written before the line that follows
   bool copying = false;
   for (std::string line; std::getline(lines, line);) {
     const std::string_view table = opened_table(line);

@@ -14,7 +14,7 @@
 namespace whipple::fit {
 namespace {
 
-/// Collects model less datum.
+/// Collects model minus datum.
 class Deviations {
  public:
   Deviations(std::string quantity, std::string unit, double unit_size)
@@ -29,7 +29,7 @@ class Deviations {
       check_.rms += deviation * deviation;
       if (std::abs(deviation) > std::abs(check_.maximum)) check_.maximum = deviation;
     } catch (const StateError&) {
-      // Outside the model: not counted.
+      // Outside the range of the model: not counted.
     }
   }
   void finish(std::vector<ModelCheck>& checks) {
@@ -44,7 +44,7 @@ class Deviations {
   double unit_size_;
 };
 
-/// Temperature of one edge of the melting band where its pressure is the asked one.
+/// Returns the temperature of one edge of the melting band at a pressure.
 double edge_temperature(const eos::GrayFreeEnergy& surface, double pressure, bool liquid) {
   const auto edge = [&](double volume) {
     const eos::GrayBand band = surface.band(surface.isochore(volume));

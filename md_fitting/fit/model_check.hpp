@@ -13,13 +13,14 @@
 
 namespace whipple::fit {
 
-/// The complete model of the material, electrons included, against everything that was simulated, used in the
-/// fit or not: Hugoniot, isotherms and isochores, expansion; for GRAY also melting temperature, heat and
-/// volume of fusion, melt and saturated densities. Points outside the model's range are left out of a figure.
-/// @throws InputError if the constants make no complete model
+/// Compares the complete material model, including electrons, with all simulated points, whether or not they were
+/// used in the fit: Hugoniot, isotherms and isochores, expansion; for GRAY also melting temperature, heat and
+/// volume of fusion, melt and saturated densities. Points outside the model's range are excluded.
+/// @throws InputError if the constants do not form a complete model
 std::vector<ModelCheck> check_gray(const eos::GrayConstants& constants, const Observations& data,
                                    std::span<const md::PointRecord> points);
-/// @param solid_pressure  of the model's solid at (V, T), Pa
+/// Compares a model of a solid with the simulated points.
+/// @param solid_pressure  pressure of the model's solid at (V, T), Pa
 std::vector<ModelCheck> check_solid(const eos::EquationOfState& model,
                                     const std::function<double(double, double)>& solid_pressure,
                                     const Observations& data, std::span<const md::PointRecord> points);

@@ -17,17 +17,17 @@ namespace {
 using md::Estimate;
 using md::PointRecord;
 
-/// Series that are proportional have r = +-1, which makes one combination of P and E exact and the matrix of
-/// errors singular. The error of that combination, relative to those of P and E, is sqrt(2 (1 - r)); r comes
-/// from 16 blocks and cannot show less than a few per cent: the bound leaves 4.5 %.
+/// Upper limit of |r|. Proportional series have r = +-1, which makes one combination of P and E exact and the error
+/// matrix singular. The error of that combination, relative to those of P and E, is sqrt(2 (1 - r)); r is estimated
+/// from 16 blocks and cannot resolve less than a few per cent: the limit corresponds to 4.5 %.
 constexpr double most_correlated = 0.999;
 constexpr double same_volume = 1e-6;      // relative: states of one isochore
-constexpr double same_temperature = 0.5;  // K: a volume at the reference temperature itself
+constexpr double same_temperature = 0.5;  // K: tolerance on the reference temperature of a volume
 constexpr std::size_t least_states = 3;   // of the Hugoniot window, of an isochore
 constexpr std::size_t least_isochores = 2;
 constexpr std::size_t least_isotherm = 5;
 
-/// V at zero pressure and the reference temperature: the point there, or the line through its neighbours.
+/// Finds V at zero pressure and the reference temperature, from the point there or by linear interpolation.
 bool reference_volume(const std::vector<PointRecord>& points, double temperature, Estimate& volume) {
   const PointRecord* below = nullptr;
   const PointRecord* above = nullptr;
@@ -51,8 +51,8 @@ bool reference_volume(const std::vector<PointRecord>& points, double temperature
   return true;
 }
 
-/// The state behind the shock by the jump conditions: V is exact, us and up stand for the pressure above the
-/// initial one, P = us up / V0 with V0 = V us / (us - up).
+/// Returns the state behind the shock by the jump conditions: V is exact, us and up represent the pressure above
+/// the initial one, P = us up / V0 with V0 = V us / (us - up).
 HugoniotState hugoniot_state(const PointRecord& point) {
   HugoniotState state;
   state.volume = point.condition("specific_volume");
@@ -84,7 +84,7 @@ std::vector<Isochore> isochores(std::span<const PointRecord> points) {
         found.push_back({volume, {state}});
         continue;
       }
-      // An isotherm and an isochore may cross in one state: it is one datum.
+      // An isotherm and an isochore may share a state: it is one datum.
       const bool twice =
           std::any_of(place->states.begin(), place->states.end(), [&](const ThermalState& other) {
             return other.temperature == state.temperature && other.pressure.value == state.pressure.value;
@@ -105,10 +105,10 @@ std::vector<Isochore> isochores(std::span<const PointRecord> points) {
   return found;
 }
 
-/// Of the points of one pressure only those of the largest cells count: a plan may hold smaller ones to show
-/// the effect.
+/// Returns the melting points; at each pressure only those of the largest cells are used, since a plan may contain
+/// smaller ones to show the size effect.
 std::vector<MeltingPoint> melting_points(std::vector<PointRecord> points) {
-  // Without the volume of the solid a point says nothing on V0.
+  // Without the volume of the solid a point does not constrain V0.
   std::erase_if(points, [](const auto& point) { return !point.results.contains("solid_specific_volume"); });
   const auto cells = [](const PointRecord& point) {
     const md::RunShape shape = md::run_shape(point.provenance);
@@ -134,7 +134,7 @@ std::vector<MeltingPoint> melting_points(std::vector<PointRecord> points) {
   return found;
 }
 
-/// Solid states at the reference temperature, of whatever protocol.
+/// Returns the solid states at the reference temperature, regardless of protocol.
 std::vector<IsothermState> isotherm_states(std::span<const PointRecord> points, double temperature) {
   std::vector<IsothermState> found;
   for (const char* protocol : {"isotherm", "isochore"}) {
@@ -142,7 +142,7 @@ std::vector<IsothermState> isotherm_states(std::span<const PointRecord> points, 
       if (!is_solid(point) || std::abs(point.condition("temperature") - temperature) > same_temperature)
         continue;
       const IsothermState state{point.condition("specific_volume"), point.result("pressure")};
-      // An isotherm and an isochore may cross in one state: it is one datum.
+      // An isotherm and an isochore may share a state: it is one datum.
       const bool twice = std::ranges::any_of(found, [&](const IsothermState& other) {
         return other.volume == state.volume && other.pressure.value == state.pressure.value;
       });
@@ -153,11 +153,11 @@ std::vector<IsothermState> isotherm_states(std::span<const PointRecord> points, 
   return found;
 }
 
-/// Of V0: there P/(1 - V/V0), or the difference of two, is the noise of P.
+/// Minimum |1 - V/V0|: closer to V0, P/(1 - V/V0), or the difference of two, is dominated by the noise of P.
 constexpr double too_near = 2e-3;
 
-/// -V dP/dV where an isotherm crosses zero pressure: P/(1 - V/V0) of the two nearest states of different
-/// volumes, extrapolated to V0; nothing if all states are of one volume, or next to V0.
+/// Returns -V dP/dV where an isotherm crosses zero pressure: P/(1 - V/V0) of the two nearest states of different
+/// volumes, extrapolated to V0; nothing if all states have one volume or are next to V0.
 std::optional<double> modulus_at_rest(std::vector<IsothermState> isotherm, double v0) {
   const auto strain = [&](const IsothermState& state) { return 1.0 - state.volume / v0; };
   std::erase_if(isotherm, [&](const IsothermState& state) { return std::abs(strain(state)) < too_near; });
@@ -173,7 +173,7 @@ std::optional<double> modulus_at_rest(std::vector<IsothermState> isotherm, doubl
   return secant0 - (secant1 - secant0) / (x1 - x0) * x0;
 }
 
-/// The points of the protocol "quantum" at a temperature, by falling volume.
+/// Returns the points of the protocol "quantum" at a temperature, by decreasing volume.
 std::vector<QuantumState> quantum_states(std::span<const PointRecord> points, double temperature) {
   std::vector<QuantumState> found;
   for (const PointRecord& point : md::select(points, "quantum")) {
@@ -185,8 +185,8 @@ std::vector<QuantumState> quantum_states(std::span<const PointRecord> points, do
   return found;
 }
 
-/// What quantum nuclei add to the pressure, linear between the volumes of their points; nothing outside of
-/// these.
+/// Returns the quantum correction to the pressure, interpolated linearly between the volumes of the points; nothing
+/// outside their range.
 std::optional<Estimate> quantum_pressure(const std::vector<QuantumState>& states, double volume) {
   const auto below =
       std::ranges::find_if(states, [&](const auto& s) { return s.volume <= volume * (1 + 1e-9); });
@@ -198,7 +198,7 @@ std::optional<Estimate> quantum_pressure(const std::vector<QuantumState>& states
                   std::hypot(weight * above.pressure.error, (1 - weight) * below->pressure.error)};
 }
 
-/// Compares the isotherm with that of quantum nuclei, where the points of the protocol reach the volume at zero
+/// Compares the isotherm with that of quantum nuclei, if the points of the protocol include the volume at zero
 /// pressure.
 void compare_nuclei(Observations& data) {
   const double v0 = data.reference_volume.value;
@@ -213,8 +213,8 @@ void compare_nuclei(Observations& data) {
   }
 }
 
-/// Turns the isotherm of classical nuclei, and the volume at zero pressure, into those of quantum ones.
-/// @throws InputError if the points of the protocol do not cover the isotherm, or its states tell no bulk modulus
+/// Converts the isotherm of classical nuclei, and the volume at zero pressure, to those of quantum nuclei.
+/// @throws InputError if the points of the protocol do not cover the isotherm, or its states do not give a bulk modulus
 void take_quantum_nuclei(Observations& data, const std::string& store_name) {
   if (data.quantum.empty()) return;
   const auto addition = [&](double volume) {
@@ -264,7 +264,7 @@ void add_other_phases(std::span<const PointRecord> points, Observations& data) {
   }
 }
 
-/// The one value that all finished points share.
+/// Returns the value common to all finished points.
 std::string common_origin(std::span<const PointRecord> points, const char* entry,
                           const std::string& store_name) {
   std::set<std::string> values;

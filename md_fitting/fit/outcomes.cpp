@@ -34,7 +34,7 @@ eos::State behind_shock(const EquationOfState& eos, const AdaptivePlan& wish) {
   return eos::Hugoniot(eos).at_density(eos.reference_density() / wish.volume_ratio).state;
 }
 
-/// One line per name of `md::adaptive_outcomes`.
+/// Lists one entry per name of `md::adaptive_outcomes`.
 constexpr std::array entries = {
     Entry{"hugoniot_pressure", "Pa",
           [](const EquationOfState& eos, const AdaptivePlan& wish) -> std::optional<double> {

@@ -10,21 +10,21 @@
 
 namespace whipple::fit {
 
-/// Holds the quantity that [adaptive] of a plan asks for, SI.
+/// Holds the quantity that [adaptive] of a plan names, SI.
 struct Outcome {
   double value = 0.0;
   std::string unit;
 };
 
-/// The outcome of a complete GRAY model.
+/// Evaluates the outcome for a complete GRAY model.
 /// @throws StateError if the model has none; InputError if the constants contradict each other
 Outcome outcome_of(const eos::GrayConstants& constants, const md::AdaptivePlan& wish);
 
-/// d(outcome)/d(constant) by differences over about a quarter of each constant's error, the range over which
-/// the outcome has to be a straight line. One-sided where the other side has no outcome.
+/// Returns d(outcome)/d(constant) from differences over about a quarter of each constant's error, the range over which
+/// the outcome should be linear. Uses one-sided differences where the outcome does not exist on the other side.
 /// @param names   of GRAY's parameter table
 /// @param errors  1 sigma, > 0
-/// @throws StateError naming a constant that can be moved to neither side
+/// @throws StateError naming a constant that can be varied in neither direction
 Eigen::VectorXd outcome_gradient(const eos::GrayConstants& constants, const md::AdaptivePlan& wish,
                                  const std::vector<std::string>& names, const Eigen::VectorXd& errors);
 

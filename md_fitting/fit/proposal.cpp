@@ -22,12 +22,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// A parameter without data: 100 GPa and 1 MJ/kg for the intercepts of an isochore, e^100 for a constant.
+/// Prior standard deviation of a parameter without data: 100 GPa and 1 MJ/kg for the intercepts of an isochore,
+/// e^100 for a constant.
 constexpr double weak = 100.0;
-/// Points that lower the variance by less than this fraction are not worth their time.
+/// Minimum relative reduction of the variance for which a point is worth its cost.
 constexpr double least_gain = 1e-3;
 
-/// Central differences, as `solve` takes them.
+/// Returns the Jacobian by central differences, as in `solve`.
 MatrixXd jacobian_of(const LeastSquaresProblem& problem, Index rows) {
   constexpr double step = 1e-5;
   MatrixXd jacobian(rows, problem.start.size());
@@ -61,7 +62,7 @@ void propose_points(Proposal& proposal, const Ranges& ranges, const std::vector<
   }
 }
 
-/// Returns whether the store bears a fit, and one with melting if the plan has any.
+/// Returns whether the database supports a fit, including melting if the plan has it.
 bool bears_fit(const md::Plan& plan, std::span<const md::PointRecord> points, const FitSettings& settings,
                const std::string& store_name) {
   const bool melting = std::any_of(points.begin(), points.end(), [](const auto& point) {
@@ -72,11 +73,11 @@ bool bears_fit(const md::Plan& plan, std::span<const md::PointRecord> points, co
     observe(points, settings, {}, store_name);
     return true;
   } catch (const InputError&) {
-    return false;  // the fit says what is missing, if the start does not bring it
+    return false;  // the fit reports missing data if the start does not supply them
   }
 }
 
-/// The fit of the moment and the linear picture of all that may be added to it.
+/// Holds the current fit and the linear model of all candidates.
 class Planner {
  public:
   Planner(const md::AdaptivePlan& wish, const FitSettings& settings, const Ranges& ranges,
@@ -107,18 +108,18 @@ class Planner {
     return now;
   }
 
-  /// Candidates one after the other until the error is below `target`, the purse is empty, or nothing is
-  /// worth its time any more.
+  /// Holds candidates taken one after the other until the error is below `target`, the budget is exhausted, or no
+  /// candidate is worth its cost.
   struct Path {
     std::vector<std::size_t> steps;
     double cost = 0.0;
     double error = 0.0;     ///< expected at the end
-    bool too_dear = false;  ///< a candidate that would be worth it costs more than what was left
+    bool too_dear = false;  ///< a worthwhile candidate exceeds the remaining budget
   };
 
-  /// Each step takes the largest fall of the variance, by itself or for its cost. Either can be misled by
-  /// costs that differ a hundredfold; the better of both cannot be far from the best (Krause, Guestrin, CMU
-  /// CALD-05-103 (2005); Leskovec et al., Proc. KDD 2007, 420).
+  /// Returns the better of two greedy paths: each step takes the largest reduction of the variance, either in absolute
+  /// terms or per cost. Either can be misled by costs that differ a hundredfold; the better of the two is within a
+  /// bounded factor of the optimum (Krause, Guestrin, CMU CALD-05-103 (2005); Leskovec et al., Proc. KDD 2007, 420).
   [[nodiscard]] Path best_path(double purse, double target) const {
     const Path by_gain = path(purse, target, false);
     const Path by_price = path(purse, target, true);
@@ -130,7 +131,7 @@ class Planner {
   }
 
   [[nodiscard]] const Candidate& candidate(std::size_t index) const { return candidates_[index]; }
-  /// Makes the data of a candidate present.
+  /// Adds the data of a candidate to the present rows.
   void take(std::size_t index) { design_.add(rows_.candidates[index]); }
 
  private:
@@ -183,7 +184,7 @@ class Planner {
   ExpectedData::Rows rows_;
   Outcome outcome_;
   Design design_;
-  VectorXd gradient_;  // of the outcome by the parameters
+  VectorXd gradient_;  // of the outcome with respect to the parameters
   Proposal::Standing standing_;
 };
 

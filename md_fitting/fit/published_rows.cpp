@@ -15,7 +15,7 @@ constexpr std::array rows = {
     PublishedRow{"MD (Liu et al. 2013)", "Cu", liu2013, 0.1119e-3, 3980.0, 1.301, 1.86, 1.7, 8.3e-4, 2006.0},
     PublishedRow{"experiment (Steinberg 1996)", "Al", steinberg1996, 1e-3 / 2.707, 5386.0, 1.339, 1.97, 1.5,
                  1.35e-3, 1220.0},
-    // Steinberg's shock curve of lead is a cubic: the straight line is another one.
+    // Steinberg's shock curve of lead is a cubic: the straight line is from a different source.
     PublishedRow{
         "experiment (Anderson et al. 1990; Steinberg 1996)", "Pb",
         "lead, C and S: Anderson, Trucano & Mullin, Int. J. Impact Eng. 9 (1990) 89, as typed in the public "

@@ -6,7 +6,7 @@
 
 namespace whipple::fit {
 
-/// A row of published constants that a fit is printed beside.
+/// Holds a row of published constants for comparison with a fit.
 struct PublishedRow {
   std::string_view name;
   std::string_view element;
@@ -16,7 +16,7 @@ struct PublishedRow {
   double hugoniot_slope;
   double gruneisen;
   double gruneisen_slope;
-  double heat_coefficient;  ///< J/(mol K^2): g_e, whatever it stands for
+  double heat_coefficient;  ///< J/(mol K^2): g_e, whatever its physical interpretation
   double melting_temperature;
 };
 std::span<const PublishedRow> published_rows();

@@ -20,7 +20,8 @@ using Eigen::VectorXd;
 
 constexpr std::size_t least_states_of_window = 3;
 
-/// One step of the variance components: f^2 chi^2/r, at least 1. A kind without a model error has nothing to scale.
+/// Performs one iteration of the variance components: f^2 chi^2/r, at least 1. A kind without a model error is not
+/// scaled.
 ModelScale next_scale(const SolidProblem& problem, const LeastSquaresProblem& weights,
                       const LeastSquaresSolution& solution, const ModelScale& scale) {
   constexpr double least_redundancy = 0.5;
@@ -61,11 +62,11 @@ SolidConstants converged(const Observations& data, const SolidModel& model, cons
     const VectorXd& step = solution.parameters;
     constants = problem.constants_at(step);
     const double change = step.head(problem.constants()).lpNorm<Eigen::Infinity>();
-    // Sharp data leave a badly conditioned problem, whose solution scatters by a millionth: no pass removes
-    // that.
+    // Precise data make the problem badly conditioned, and its solution scatters by about 1e-6, which further
+    // passes do not reduce.
     const bool at_its_noise = change < 1e-5 && change > 0.5 * former_change;
     if (change < 1e-7 || at_its_noise || !model.fits(Place::melting)) return constants;
-    // Correlated model errors are worse conditioned: a small part of the errors of the constants is settled.
+    // Correlated model errors are worse conditioned: a small fraction of the errors of the constants is accepted.
     const VectorXd errors = solution.covariance.diagonal().head(problem.constants()).cwiseSqrt();
     const double of_errors = step.head(problem.constants()).cwiseQuotient(errors).lpNorm<Eigen::Infinity>();
     if (settings.structure == ErrorStructure::correlated && of_errors < settled_of_errors) return constants;

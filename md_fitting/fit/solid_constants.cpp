@@ -47,7 +47,7 @@ Bounds bounds_of(Place place, const SolidConstants& start) {
   switch (place) {
     case Place::gruneisen_slope:
     case Place::anharmonic:
-      return {};          // of any sign
+      return {};          // either sign
     case Place::entropy:  // Delta S - alpha, the entropy of melting at constant volume, is positive
       return {.lower = start.gray.liquid_heat_coefficient};
     case Place::bulk_modulus_slope:

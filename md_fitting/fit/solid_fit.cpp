@@ -19,7 +19,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 using eos::GrayConstants;
 
-/// C and S: the straight line through the Hugoniot states of the window.
+/// Estimates C and S by a straight line through the Hugoniot states of the window.
 void guess_hugoniot(const Observations& data, const FitSettings& settings, GrayConstants& constants) {
   std::vector<double> x;
   std::vector<double> y;
@@ -44,7 +44,7 @@ void guess_hugoniot(const Observations& data, const FitSettings& settings, GrayC
   }
 }
 
-/// gamma0 and a: the slope of P against E of each isochore, and the straight line through these.
+/// Estimates gamma0 and a from the slope of P against E of each isochore, and a straight line through these slopes.
 void guess_gruneisen(const Observations& data, GrayConstants& constants) {
   std::vector<double> x;
   std::vector<double> y;
@@ -69,7 +69,7 @@ void guess_gruneisen(const Observations& data, GrayConstants& constants) {
   }
 }
 
-/// K0 and K0': for each K0' of a list the K0 of least squares, which is linear.
+/// Estimates K0 and K0': for each K0' in a list, K0 by linear least squares.
 void guess_isotherm(const Observations& data, SolidConstants& constants) {
   double least = std::numeric_limits<double>::infinity();
   SolidConstants trial = constants;
@@ -99,7 +99,7 @@ void guess_isotherm(const Observations& data, SolidConstants& constants) {
 IsochoreGruneisen isochore_gruneisen(const Isochore& isochore) {
   double slope = 0.0;
   double error = 0.0;
-  for (int pass = 0; pass < 3; ++pass) {  // the weights hold the slope
+  for (int pass = 0; pass < 3; ++pass) {  // the weights depend on the slope
     double w = 0, we = 0, wp = 0, wee = 0, wep = 0;
     for (const ThermalState& state : isochore.states) {
       const double variance = std::pow(state.pressure.error, 2) + std::pow(slope * state.energy.error, 2) -
@@ -180,7 +180,7 @@ std::vector<ChiSquaredPart> chi_squared_parts(const SolidProblem& problem,
   return parts;
 }
 
-/// T_m0 such that T_m(V) itself runs through the coexistence points: geometric mean of T/(T_m(V)/T_m0).
+/// Returns T_m0 such that T_m(V) passes through the coexistence points: geometric mean of T/(T_m(V)/T_m0).
 std::optional<double> isochoric_melting_temperature(const Observations& data, GrayConstants constants) {
   if (data.melting.empty()) return std::nullopt;
   constants.melting_temperature = 1.0;
@@ -239,7 +239,7 @@ SolidFit fit_solid(Observations data, const SolidModel& model, const SolidStart&
   const bool melts = model.fits(Place::melting);
   if (melts) {
     fit.superheating = start.gray.melting_temperature;
-  } else {  // a model without melting of its own leaves superheated states out all the same
+  } else {  // superheated states are also excluded for a model without melting
     fit.superheating = isochoric_melting_temperature(data, start.gray);
     if (!fit.superheating) fit.superheating = known.melting_temperature;
   }

@@ -15,25 +15,25 @@
 
 namespace whipple::fit {
 
-/// The solid's constants from a store: what the fits of all models share.
+/// Holds the constants of the solid fitted to a database, the common part of the fits of all models.
 struct SolidFit {
   Observations data;  ///< without superheated states
   SolidModel model;
   SolidConstants constants;
-  /// T_m0 of the curve T_m(V) above which solids are left out; none: not known, all count
+  /// T_m0 of the curve T_m(V) above which solid states are excluded; none: unknown, all states are used.
   std::optional<double> superheating;
-  ModelScale scale;                                    ///< of the model errors, in the window of the settings
+  ModelScale scale;  ///< scale of the model errors, in the window of the settings
   Eigen::MatrixXd covariance, statistical_covariance;  ///< of `model.free`, SI
-  Fit report;  ///< everything but constants and words, with GRAY's names; covariances of `model.free`
+  Fit report;  ///< everything except constants and words, with GRAY's names; covariances of `model.free`
 };
 
-/// Constants that all models need, and that no datum bears: molar mass, reference temperature, 3R/M.
+/// Returns the constants that all models need and no datum determines: molar mass, reference temperature, 3R/M.
 SolidConstants fixed_solid(const Observations& data);
 
-/// Where a fit begins.
+/// Holds the starting point of a fit.
 struct SolidStart {
-  SolidConstants constants;  ///< values of all that are not fitted; the others are guessed from the data
-  std::optional<double> melting_temperature;  ///< T_m0; none: known from coexistence points at most
+  SolidConstants constants;                   ///< values that are not fitted; others are estimated
+  std::optional<double> melting_temperature;  ///< T_m0; none: known at most from coexistence points
 };
 
 /// Solves for `model.free`.
@@ -42,13 +42,13 @@ struct SolidStart {
 SolidFit fit_solid(Observations data, const SolidModel& model, const SolidStart& known,
                    const FitSettings& settings, const std::string& store_name);
 
-/// Fits other data with the model and the weights of a fit, in the window of the settings, and returns the constants
-/// alone: for replicates.
+/// Fits other data with the model and the weights of a given fit, in the window of the settings, and returns only
+/// the constants; used for bootstrap replicates.
 SolidConstants refit_solid(const Observations& data, const SolidFit& fit);
 
-/// Leaves out superheated solid: above T_m(V) the crystal is metastable, and its energy does not follow the
-/// law. Returns how many states that were.
-/// @param melting  T_m0; without it no state is left out
+/// Removes superheated solid states and returns their number: above T_m(V) the crystal is metastable, and its
+/// energy does not follow the law.
+/// @param melting  T_m0; none: no state is removed
 int remove_superheated(Observations& data, eos::GrayConstants constants, std::optional<double> melting,
                        const std::string& store_name);
 

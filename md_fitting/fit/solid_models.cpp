@@ -34,8 +34,7 @@ VectorXd free_values(const SolidFit& fit) {
   return values;
 }
 
-/// The fit by the names of a model whose constants are functions of the solid's, with the covariance of that
-/// map.
+/// Maps the fit to a model whose constants are functions of those of the solid, with the covariance of that map.
 struct Renamed {
   std::vector<std::string> names;
   MatrixXd jacobian;  ///< d(constant of the model)/d(constant of the solid)
@@ -65,7 +64,7 @@ BootstrapResult replicates(std::span<const md::PointRecord> points, const SolidF
   return bootstrap(points, settings.bootstrap, seed, constants);
 }
 
-/// A measured density takes the place of the fitted one, which leaves the covariance.
+/// Replaces the fitted density by a measured one and removes it from the covariance.
 void replace_density(Fit& fit, double& density, Sources& sources) {
   const auto place = std::find(fit.fitted_names.begin(), fit.fitted_names.end(), "reference_density");
   const Index row = place - fit.fitted_names.begin();
@@ -82,7 +81,7 @@ void replace_density(Fit& fit, double& density, Sources& sources) {
   fit.fitted_names.erase(place);
 }
 
-/// Where the fit of an element begins, with its melting temperature if the table has one.
+/// Returns the starting point for an element, with its melting temperature if the table has one.
 SolidStart start_of(const Observations& data, const ElementDefaults& table) {
   SolidStart start{fixed_solid(data), {}};
   if (const NamedDefault* melting = table.find("melting_temperature"))
@@ -177,7 +176,7 @@ Fit fit_debye_gruneisen(std::span<const md::PointRecord> points, const FitSettin
   model.free = {Place::volume, Place::bulk_modulus, Place::bulk_modulus_slope, Place::gruneisen,
                 Place::gruneisen_slope};
   model.isotherm = true;
-  if (melts) model.free.push_back(Place::melting);  // Lindemann's law itself: the model has no liquid
+  if (melts) model.free.push_back(Place::melting);  // Lindemann's law: the model has no liquid
   const SolidFit solid = fit_solid(std::move(data), model, start, settings, store_name);
 
   const double v0 = solid.constants.gray.reference_specific_volume;

@@ -90,8 +90,8 @@ VectorXd SolidProblem::melting_values(const SolidConstants& constants) const {
   return values;
 }
 
-/// GRAY's surface costs a fraction of a millisecond: its rows are linear about the start values, and the fit
-/// is repeated from its result until these stay.
+/// Linearises the melting rows about the start values, because an evaluation of GRAY's surface costs a fraction of
+/// a millisecond; the fit is repeated from its result until these values converge.
 void SolidProblem::linearise_melting() {
   if (melting_.empty() && fusion_.empty()) return;
   VectorXd p = VectorXd::Zero(constants());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The weights of SolidProblem: covariances of its residuals (docs/theory/fit.md, sections 2 and 3).
+// Weights of SolidProblem: covariances of its residuals (docs/theory/fit.md, sections 2 and 3).
 #include <cmath>
 
 #include "md_fitting/fit/discrepancy.hpp"
@@ -13,7 +13,7 @@ using Eigen::MatrixXd;
 
 double square(double value) { return value * value; }
 
-/// Consecutive rows, from one on.
+/// Returns equally spaced row indices starting at `begin`.
 std::vector<Index> rows_from(Index begin, std::size_t count, Index step = 1) {
   std::vector<Index> rows(count);
   for (std::size_t i = 0; i < count; ++i) rows[i] = begin + step * static_cast<Index>(i);
@@ -29,7 +29,7 @@ void SolidProblem::weigh_noise(MatrixXd& statistical) const {
   };
   weight(square(observations_.reference_volume.error));
   for (const HugoniotState& state : window_) {
-    // V is exact; Us and up both go as P^(1/2): d(Us - S up) = (Us - S up) dP/(2P).
+    // V is exact; Us and up are both proportional to P^(1/2): d(Us - S up) = (Us - S up) dP/(2P).
     const auto [us, up] = velocities(state, start_.gray.reference_specific_volume);
     weight(
         square((us - start_.gray.hugoniot_slope * up) * state.pressure.error / (2.0 * state.pressure.value)));
@@ -64,7 +64,7 @@ void SolidProblem::weigh_model(MatrixXd& model) const {
   const ModelErrors& errors = settings_.model_errors;
   const bool correlated = settings_.structure == ErrorStructure::correlated;
   const double v0 = start_.gray.reference_specific_volume;
-  /// A deviation along a curve: its size at each state, and where the states lie.
+  /// Adds a discrepancy along a curve: its size at each state, and the positions of the states.
   const auto along = [&](Index begin, const std::vector<double>& size, const std::vector<double>& place,
                          double length) {
     const Discrepancy deviation{size, [&](std::size_t i, std::size_t k) {
@@ -118,8 +118,8 @@ void SolidProblem::weigh_model(MatrixXd& model) const {
   along(row, size, place, settings_.lengths.volume_ratio);
 }
 
-/// Two deviations of the pressure and two of the energy: of gamma and the anharmonic coefficient as functions of V,
-/// and of the thermal pressure and energy as functions of V and T.
+/// Adds two discrepancies of the pressure and two of the energy: of gamma and the anharmonic coefficient as
+/// functions of V, and of the thermal pressure and energy as functions of V and T.
 void SolidProblem::weigh_isochores(Index begin, MatrixXd& model) const {
   const ModelErrors& errors = settings_.model_errors;
   const CorrelationLengths& lengths = settings_.lengths;

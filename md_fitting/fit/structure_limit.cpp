@@ -14,12 +14,12 @@ namespace {
 
 constexpr std::string_view energy_key = "specific_internal_energy";
 
-/// A volume of the cold curve: pressure, and energy of another structure less that of the simulated one.
+/// Holds a volume of the cold curve: pressure, and energy of another structure minus that of the simulated one.
 struct ColdDifference {
   double volume, pressure, difference;
 };
 
-/// By structure, by falling volume.
+/// Returns the differences by structure, in order of decreasing volume.
 std::map<std::string, std::vector<ColdDifference>> cold_differences(std::span<const md::PointRecord> points) {
   std::map<std::string, std::vector<ColdDifference>> found;
   for (const md::PointRecord& point : md::select(points, "cold_curve")) {
@@ -36,7 +36,7 @@ std::map<std::string, std::vector<ColdDifference>> cold_differences(std::span<co
   return found;
 }
 
-/// Data at pressures beyond the validity of the potential; older stores state none.
+/// Adds a remark on data at pressures beyond the validity of the potential; older databases do not contain it.
 void add_validity_remark(Fit& fit, std::span<const md::PointRecord> points, const Observations& data) {
   const auto first = std::ranges::find_if(points, [](const md::PointRecord& point) {
     return point.done() && point.provenance.contains("validity_pressure");

@@ -11,13 +11,13 @@
 
 namespace whipple::fit {
 
-/// The number behind a row of a parameter table; null for words.
+/// Returns the number bound to a row of a parameter table; null for words.
 inline double* number_behind(const BoundParameter& parameter) {
   double* const* target = std::get_if<double*>(&parameter.target);
   return target == nullptr ? nullptr : *target;
 }
 
-/// A numerical constant of GRAY by its key.
+/// Returns a numerical constant of GRAY by its key.
 inline double& number_of(eos::GrayConstants& constants, std::string_view name) {
   for (const BoundParameter& parameter : whipple::bind(eos::gray_parameters(), constants)) {
     double* const value = number_behind(parameter);

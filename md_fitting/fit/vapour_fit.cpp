@@ -23,12 +23,13 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using eos::GrayConstants;
 
-// Below, the join lies within the melting band; above, the form of gamma makes nonsense of the fluid
+// Below the range the join is within the melting band; above it, the form of gamma gives an unphysical fluid
 // (docs/theory/gray.md, section 8).
 constexpr Bounds join_bounds = {.lower = 1.05, .upper = 1.45};
 constexpr double beside_the_bounds = 0.01;
 
-/// Logarithms of the saturated densities, melt and vapour in turn; NaN where the model has none.
+/// Returns the logarithms of the saturated densities, melt and vapour alternating; NaN from the first temperature at
+/// which the model has none.
 VectorXd log_densities(const GrayConstants& constants, const std::vector<SaturationState>& data) {
   VectorXd values =
       VectorXd::Constant(2 * static_cast<Index>(data.size()), std::numeric_limits<double>::quiet_NaN());
@@ -106,7 +107,7 @@ class VapourProblem {
     }
     return variance;
   }
-  /// The attraction of least chi^2 among a few: far from it the isotherms of the data have no loop.
+  /// Returns the attraction of minimum chi^2 among a few: far from it the isotherms of the data have no loop.
   [[nodiscard]] double best_start() {
     // Young-Alder fluid with a critical temperature somewhat above the data (docs/theory/gray.md, G30).
     const double covolume = constants_.covolume_ratio * constants_.reference_specific_volume;
@@ -135,8 +136,8 @@ class VapourProblem {
   std::vector<BoundedParameter> join_;  ///< one, or none
 };
 
-/// d(residual)/d(constant) of the constants that were fitted before, by central differences of a tenth of
-/// their errors.
+/// Returns d(residual)/d(constant) for the constants fitted before, by central differences over a tenth of their
+/// errors.
 MatrixXd slopes_by(const VapourProblem& problem, const GrayConstants& constants, const FittedBefore& before) {
   MatrixXd slopes;
   for (std::size_t k = 0; k < before.names.size(); ++k) {
@@ -169,7 +170,7 @@ VapourFit solve_vapour(const GrayConstants& constants, const std::vector<Saturat
     fit.names.emplace_back("join_volume_ratio");
     fit.values[1] = fitted.join_volume_ratio;
   }
-  // dq/dp = -(J^T W J)^-1 J^T W dr/dp: what the constants p of the solid move.
+  // dq/dp = -(J^T W J)^-1 J^T W dr/dp: sensitivity to the constants p of the solid.
   const MatrixXd gain = scale.asDiagonal() * solution.covariance * solution.jacobian.transpose();
   const MatrixXd moved = slopes_by(problem, fitted, before);
   if (!moved.allFinite())
@@ -202,7 +203,7 @@ std::pair<double, double> saturated_densities(const GrayConstants& constants, do
 VapourFit fit_vapour(const GrayConstants& constants, const std::vector<SaturationState>& data,
                      const ModelErrors& errors, bool inflation, const FittedBefore& before) {
   constexpr double width = join_bounds.upper - join_bounds.lower;
-  const double unknown = width / std::sqrt(12.0);  // standard deviation of any value between the bounds
+  const double unknown = width / std::sqrt(12.0);  // standard deviation of a uniform distribution
   std::string remark;
   try {
     VapourFit fit = solve_vapour(constants, data, errors, inflation, before, true);

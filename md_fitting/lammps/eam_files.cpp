@@ -20,41 +20,40 @@
 namespace whipple::md {
 namespace {
 
-// Hartree and Bohr as the authors of the funcfl format rounded them; LAMMPS converts effective charges with
-// these.
+// Hartree and Bohr as rounded by the authors of the funcfl format; LAMMPS converts effective charges with these.
 constexpr double funcfl_hartree = 27.2;
 constexpr double funcfl_bohr = 0.529;
 
-// No embedded-atom potential reaches further; a damaged file must not make a lattice sum endless.
+// No embedded-atom potential has a longer range; a damaged file must not cause an endless lattice sum.
 constexpr double longest_cutoff = 25.0;            // A
 constexpr double longest_lattice_constant = 15.0;  // A
 constexpr double shortest_lattice_constant = 1.5;  // A; a file may give 0 for unknown
 
-/// LAMMPS takes words of headers for formats of messages, in which braces have a meaning; and what is not
-/// printable is no number and no name.
+/// Returns whether a line is free of braces and non-printable characters: LAMMPS uses words of headers as message
+/// formats, in which braces have a meaning, and non-printable characters belong to no number or name.
 bool is_plain(std::string_view line) {
   return std::ranges::all_of(line, [](unsigned char c) {
     return c == '\t' || c == '\r' || (c >= 0x20 && c < 0x7f && c != '{' && c != '}');
   });
 }
 
-/// Lines and words of a potential file, with errors that name file and line.
+/// Reads lines and words of a potential file, with errors that name file and line.
 class Reader {
  public:
   explicit Reader(const std::filesystem::path& path) : path_(path), stream_(read_text(path)) {}
-  /// The next line, a comment: it may hold anything.
+  /// Returns the next line, a comment with arbitrary content.
   std::string line() {
     next_line();
     return std::string(std::exchange(rest_, {}));
   }
-  /// The next word of the present line; empty at its end.
+  /// Returns the next word of the current line; empty at its end.
   std::string_view word() {
     rest_.remove_prefix(std::min(rest_.find_first_not_of(blanks), rest_.size()));
     const std::string_view result = rest_.substr(0, rest_.find_first_of(blanks));
     rest_.remove_prefix(result.size());
     return result;
   }
-  /// The words of the next line.
+  /// Returns the words of the next line.
   std::vector<std::string> words() {
     next_line();
     require_plain();
@@ -62,9 +61,9 @@ class Reader {
     for (std::string_view one = word(); !one.empty(); one = word()) all.emplace_back(one);
     return all;
   }
-  /// Numbers over as many lines as they take; those behind them on the last line stay for the next call.
+  /// Reads numbers over as many lines as needed; numbers left on the last line remain for the next call.
   std::vector<double> numbers(std::size_t count, const char* what) {
-    std::vector<double> values;  // a file may declare more than it holds
+    std::vector<double> values;  // a file may declare more than it contains
     for (; count > 0; --count) {
       std::string_view text = word();
       while (text.empty()) {
@@ -77,7 +76,7 @@ class Reader {
     }
     return values;
   }
-  /// A finite number or a whole one, without anything behind it.
+  /// Reads a finite or whole number without trailing characters.
   template <class Number>
   static bool read(std::string_view text, Number& value) {
     if (text.starts_with('+')) text.remove_prefix(1);
@@ -112,7 +111,7 @@ class Reader {
   int line_ = 0;
 };
 
-/// Sizes of the tables: "nrho drho nr dr cutoff", the same line in all four formats.
+/// Holds the sizes of the tables: "nrho drho nr dr cutoff", the same line in all four formats.
 struct Grid {
   std::size_t densities = 0;
   double density_step = 0.0;
@@ -143,7 +142,7 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-/// "Z mass lattice_constant structure"
+/// Reads the line "Z mass lattice_constant structure".
 int read_element_line(Reader& reader, EamTables& tables) {
   const std::vector<std::string> words = reader.words();
   int atomic_number = 0;
@@ -171,8 +170,8 @@ std::vector<std::string> read_element_names(Reader& reader) {
   return names;
 }
 
-/// Headers are written by hand, many with 0 or 1 for the atomic number of all elements. The mass scales every
-/// density and energy of the simulation.
+/// Checks atomic number and mass of a header. Headers are written by hand, many with 0 or 1 as the atomic number of
+/// all elements; the mass scales every density and energy of the simulation.
 void check_header(const Reader& reader, const EamTables& tables, int number, const std::string& element) {
   constexpr double tolerance = 0.02;
   const auto expected = atomic_number(element);
@@ -213,8 +212,8 @@ EamTables read_funcfl(const std::filesystem::path& path, const std::string& elem
   return tables;
 }
 
-/// The three kinds of setfl differ in the number of density functions per element and in what follows the
-/// pairs.
+/// Reads setfl, whose three variants differ in the number of density functions per element and in the tables after
+/// the pair functions.
 EamTables read_setfl(const std::filesystem::path& path, const std::string& element, EamFormat format) {
   Reader reader(path);
   const std::vector<std::string> names = read_element_names(reader);
@@ -296,7 +295,7 @@ std::string to_setfl(const EamTables& tables, const std::string& comment) {
   std::string text = fmt::format("{}\nwritten by whipple-md\nUNITS: metal\n1 {}\n", comment, tables.element);
   text += fmt::format("{} {:.17g} {} {:.17g} {:.17g}\n", tables.embedding.size(), tables.density_step,
                       tables.density.size(), tables.radius_step, tables.cutoff);
-  // An unknown symbol has the number after the last: LAMMPS does not use it.
+  // An unknown symbol gets a number beyond the last element; LAMMPS does not use it.
   const int number = atomic_number(tables.element).value_or(104);
   text += fmt::format("{} {:.17g} {:.17g} {}\n", number, tables.mass, tables.header_lattice_constant,
                       word_of(tables.structure));

@@ -11,8 +11,8 @@
 namespace whipple::md {
 namespace {
 
-/// Cubic interpolation through the four nearest points of an equidistant table; the end is continued by its
-/// last slope, as LAMMPS does.
+/// Interpolates cubically through the four nearest points of an equidistant table; beyond the end it extrapolates
+/// with the last slope, as LAMMPS does.
 double interpolate(const std::vector<double>& table, double step, double x) {
   const double position = x / step;
   const auto last = static_cast<double>(table.size() - 1);
@@ -45,8 +45,8 @@ void for_each_neighbour(const EamTables& tables, double a, const Visit& visit) {
   }
 }
 
-/// Calls visit(r) for every neighbour within the cutoff (A) of an atom of hcp with the ideal axial ratio: layers ABAB,
-/// a triangular lattice of distance d (A) in each.
+/// Calls visit(r) for every neighbour within the cutoff (A) of an atom of hcp with the ideal axial ratio: layers
+/// ABAB, each a triangular lattice of distance d (A).
 template <class Visit>
 void for_each_hexagonal_neighbour(double cutoff, double d, const Visit& visit) {
   const int reach = static_cast<int>(std::ceil(1.3 * cutoff / d)) + 1;
@@ -92,7 +92,7 @@ double EamTables::crystal_energy(double a) const {
 double EamTables::static_lattice_constant() const {
   double lower = header_lattice_constant > 0.0 ? 0.85 * header_lattice_constant : 2.0;
   double upper = header_lattice_constant > 0.0 ? 1.15 * header_lattice_constant : 8.0;
-  // A coarse search brackets the least energy, because the cutoff makes shallow secondary minima.
+  // A coarse search brackets the minimum energy, because the cutoff causes shallow secondary minima.
   constexpr int samples = 240;
   const double step = (upper - lower) / samples;
   int best = 0;

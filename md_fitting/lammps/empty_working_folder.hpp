@@ -8,9 +8,9 @@
 
 namespace whipple::md {
 
-/// Makes an empty folder the working folder of the process as long as it lives. LAMMPS and the KIM library look for models,
-/// scripts and shared objects in the working folder first: a plan that lies beside such files, received from somebody
-/// else, must not run them. Relative paths are to be made absolute before.
+/// Makes an empty folder the working directory of the process for the lifetime of the object. LAMMPS and the KIM
+/// library search the working directory first for models, scripts and shared objects; a plan from an untrusted
+/// source must not cause such files next to it to be executed. Relative paths must be made absolute beforehand.
 class EmptyWorkingFolder {
  public:
   EmptyWorkingFolder() : former_(std::filesystem::current_path()) {

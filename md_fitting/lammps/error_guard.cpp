@@ -10,7 +10,7 @@
 #include "src/core/base/error.hpp"
 
 namespace {
-/// Ranks of the instance that the calling thread works for.
+/// Number of ranks of the instance for which the calling thread works.
 thread_local int ranks_of_instance = 1;
 
 [[noreturn]] void throw_error(const std::string& file, int line, const std::string& text) {
@@ -28,10 +28,9 @@ thread_local int ranks_of_instance = 1;
 }
 }  // namespace
 
-// The class is declared here with the members that are replaced and nothing else: LAMMPS' error.h needs
-// headers that are not installed. No member variable is touched, so the layout does not matter. The dynamic
-// linker prefers these definitions, being in the executable, over those of liblammps
-// (tests/unit/md_lammps_test.cpp proves it).
+// The class is declared here with only the members that are replaced: LAMMPS' error.h needs headers that are not
+// installed. No member variable is accessed, so that the layout is irrelevant. The dynamic linker prefers these
+// definitions, which are in the executable, over those of liblammps (verified by tests/unit/md_lammps_test.cpp).
 namespace LAMMPS_NS {
 
 struct Error {

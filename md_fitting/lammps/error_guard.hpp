@@ -6,19 +6,19 @@
 
 namespace whipple::md {
 
-/// LAMMPS reported an error. The text is LAMMPS' own, with its source file and line.
+/// Reports an error raised by LAMMPS, with LAMMPS' text, source file and line.
 class LammpsError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// LAMMPS is usually built without exceptions: an error then ends the process that hosts it. Linking this
-/// file replaces the five members of LAMMPS' class Error through which every error passes by members that
-/// throw LammpsError. Errors reported by all ranks of an instance throw on all; an error that one rank alone
-/// reports throws if the instance has one rank, and aborts the job with its message otherwise, because the
-/// other ranks would wait for the throwing one for ever.
+/// Converts LAMMPS errors to exceptions. LAMMPS is usually built without exceptions, so that an error terminates
+/// the host process. Linking this file replaces the five members of LAMMPS' class Error through which every error
+/// passes by members that throw LammpsError. Errors reported by all ranks of an instance throw on all of them; an
+/// error reported by one rank only throws if the instance has one rank, and otherwise aborts the job with its
+/// message, because the other ranks would wait for it indefinitely.
 ///
-/// While an object of this class lives, the calling thread works for an instance on `ranks` ranks.
+/// While an object of this class exists, the calling thread works for an instance on `ranks` ranks.
 class ErrorGuard {
  public:
   explicit ErrorGuard(int ranks);

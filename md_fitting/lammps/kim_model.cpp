@@ -20,8 +20,8 @@
 namespace whipple::md {
 namespace {
 
-/// Keeps the KIM library, which is part of liblammps' dependencies, from writing kim.log into the present
-/// folder. It is reached by name, because its headers are no requirement of the build.
+/// Prevents the KIM library, a dependency of liblammps, from writing kim.log into the current folder. The function
+/// is looked up by name, because the KIM headers are not required by the build.
 void silence_kim() {
   struct Verbosity {
     int id;
@@ -38,8 +38,8 @@ void silence_kim() {
   static_cast<void>(done);
 }
 
-/// The folders in which the KIM library looks for models, by the environment variables of its manual and the
-/// places of packages.
+/// Returns the folders searched by the KIM library for models: the environment variables in its manual and the
+/// installation folders of packages.
 std::vector<std::filesystem::path> model_folders() {
   std::vector<std::filesystem::path> folders;
   for (const char* variable : {"KIM_API_PORTABLE_MODELS_DIR", "KIM_API_SIMULATOR_MODELS_DIR"}) {
@@ -54,7 +54,7 @@ std::vector<std::filesystem::path> model_folders() {
   return folders;
 }
 
-/// The species in an identifier, "..._2001_Cu__MO_..." or "..._AlCu__MO_...", hold the element.
+/// Returns whether the species in an identifier, "..._2001_Cu__MO_..." or "..._AlCu__MO_...", include the element.
 bool names_element(const std::string& identifier, const std::string& element) {
   const std::string name = identifier.substr(0, identifier.find("__"));
   const std::string species = name.substr(name.rfind('_') + 1);
@@ -78,7 +78,7 @@ std::vector<std::string> installed_models(const std::string& element) {
   return names;
 }
 
-/// Tells which models to name instead: the installed ones nearest in name, or where to get some.
+/// Suggests alternative models: the installed ones with the most similar names, or how to install some.
 std::string advice(const std::string& identifier, const std::string& element) {
   std::vector<std::string> models = installed_models(element);
   if (models.empty())

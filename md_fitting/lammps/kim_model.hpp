@@ -7,8 +7,8 @@
 
 namespace whipple::md {
 
-/// Returns whether a name is an extended KIM identifier: NAME__MO_123456789012_000, or SM for simulator
-/// models. The last number is the version; the identifier stands for one content for ever.
+/// Returns whether a name is an extended KIM identifier: NAME__MO_123456789012_000, or SM for simulator models. The
+/// last number is the version; the content behind an identifier never changes.
 bool is_kim_identifier(const std::string& name);
 
 /// Returns the commands of a model of the OpenKIM repository (Tadmor et al., JOM 63 (2011) 17) for one

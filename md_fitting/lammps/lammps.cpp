@@ -12,7 +12,7 @@
 namespace whipple::md {
 namespace {
 
-/// Instances given up after an error, kept reachable so that leak checkers do not report them.
+/// Returns the instances abandoned after an error, kept reachable so that leak checkers do not report them.
 std::vector<void*>& abandoned_instances() {
   static std::vector<void*> instances;
   return instances;
@@ -33,7 +33,7 @@ auto Lammps::guarded(const Call& call) -> decltype(call()) {
 }
 
 Lammps::Lammps(MPI_Comm communicator) {
-  // One thread per rank: LAMMPS links OpenMP, and idle threads of several ranks would fight for the cores.
+  // One thread per rank: LAMMPS links OpenMP, and idle threads of several ranks would compete for the cores.
   setenv("OMP_NUM_THREADS", "1", 1);
   int initialized = 0;
   MPI_Initialized(&initialized);
@@ -63,7 +63,7 @@ Lammps::~Lammps() {
   try {
     lammps_close(handle_);
   } catch (const LammpsError&) {
-    // The instance is being thrown away; what it says on the way out changes no result.
+    // The instance is being discarded; errors during its destruction affect no result.
   }
 }
 
@@ -80,7 +80,7 @@ double Lammps::variable(const std::string& name) {
   void* const value = guarded([&] { return lammps_extract_variable(handle_, name.c_str(), nullptr); });
   if (value == nullptr) throw LammpsError(fmt::format("LAMMPS has no variable '{}'", name));
   const double number = *static_cast<double*>(value);
-  lammps_free(value);  // LAMMPS allocates every number that it returns through a pointer
+  lammps_free(value);  // LAMMPS allocates every number returned through a pointer
   return number;
 }
 
@@ -91,7 +91,7 @@ std::vector<std::vector<double>> Lammps::series(const std::string& fix, int colu
       if (value == nullptr) throw LammpsError(fmt::format("LAMMPS has no data of a fix '{}'", fix));
       return value;
     };
-    // The size is a pointer into the fix itself; the entries are allocated one by one and are ours to free.
+    // The size is a pointer into the fix; the entries are allocated one by one and must be freed by the caller.
     const int count = *static_cast<const int*>(entry(columns == 1 ? LMP_SIZE_VECTOR : LMP_SIZE_ROWS, 0, 0));
     std::vector<std::vector<double>> table(static_cast<std::size_t>(columns));
     for (int column = 0; column < columns; ++column) {
@@ -109,7 +109,7 @@ std::vector<std::vector<double>> Lammps::series(const std::string& fix, int colu
 std::vector<double> Lammps::gather(const std::string& name) {
   return guarded([&] {
     std::vector<double> values(3 * static_cast<std::size_t>(lammps_get_natoms(handle_)));
-    std::string copy = name;  // the interface takes no constant text
+    std::string copy = name;  // the interface does not accept constant text
     constexpr int floating_point = 1;
     constexpr int components = 3;
     lammps_gather_atoms(handle_, copy.data(), floating_point, components, values.data());

@@ -20,8 +20,8 @@ struct StaticState {
   double pressure = 0.0;  ///< eV/A^3
 };
 
-/// Static crystals of one structure, all in one instance; two cells along each axis, as a lattice sum has no
-/// size effect.
+/// Evaluates static crystals of one structure in one instance; two cells along each axis, since a lattice sum has
+/// no size effect.
 class StaticCrystal {
  public:
   StaticCrystal(const MeasuredModel& model, CrystalStructure structure, double lattice_constant) {
@@ -89,8 +89,8 @@ void MeasuredModel::apply(Lammps& lammps) const {
   lammps.command("mass * {:.17g}", mass_);
 }
 
-/// The structure stated, or that of least energy at rest among fcc and bcc. Distances of neighbours from 5.5
-/// A, longer than those of any metal, inwards to 1.9 A, or to where the model refuses.
+/// Finds the crystal: the stated structure, or that of minimum energy at zero pressure among fcc and bcc. Scans
+/// neighbour distances from 5.5 A, longer than in any metal, inwards to 1.9 A, or until the model fails.
 void MeasuredModel::find_crystal(std::optional<CrystalStructure> stated) {
   bool found = false;
   double least = 0.0;
@@ -110,11 +110,11 @@ void MeasuredModel::find_crystal(std::optional<CrystalStructure> stated) {
         if (energy < best_energy) best_energy = energy, best = distance * per_distance;
       }
     } catch (const LammpsError& error) {
-      // The model knows no such density: what was found before stands, unless it knows none at all.
+      // The model does not cover this density: earlier results remain valid, unless there are none.
       if (best == 0.0) throw;
     }
     if (best == 0.0) continue;
-    // Zero pressure between the neighbours of the best step.
+    // Find zero pressure between the neighbours of the best step.
     StaticCrystal fine(*this, structure, best);
     double smaller = best * step;
     double larger = best / step;
@@ -144,7 +144,7 @@ void MeasuredModel::find_crystal(std::optional<CrystalStructure> stated) {
   }
 }
 
-/// The distance beyond which two atoms do not feel each other.
+/// Finds the distance beyond which two atoms do not interact.
 void MeasuredModel::find_cutoff() {
   Lammps lammps;
   begin(lammps);
@@ -235,7 +235,7 @@ double MeasuredModel::crystal_energy(double volume) const {
   }
   const auto upper = std::upper_bound(volumes_.begin() + 1, volumes_.end() - 1, volume);
   const auto i = static_cast<std::size_t>(upper - volumes_.begin()) - 1;
-  // Cubic through both values and slopes.
+  // Cubic interpolation of values and slopes at both ends.
   const double h = volumes_[i + 1] - volumes_[i];
   const double t = (volume - volumes_[i]) / h;
   const double s = 1.0 - t;

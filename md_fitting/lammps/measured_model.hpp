@@ -10,48 +10,49 @@
 
 namespace whipple::md {
 
-/// Commands that give a LAMMPS instance interactions whose functions the program does not read.
+/// Holds the LAMMPS commands that define interactions whose functions the program does not read.
 struct Interactions {
   struct Command {
     std::string line;
-    std::string shown;  ///< in transcripts, without folders
+    std::string shown;  ///< for transcripts, without folders
   };
   std::string name;  ///< for messages: "the KIM model ..."
   std::vector<Command> before_box;
   std::vector<Command> in_box;
 };
 
-/// Interactions of one element, a model of OpenKIM or a pair style of LAMMPS. Their functions are not open to
-/// the program: what a file's tables would tell is measured on the static crystal when the model is loaded
-/// (docs/theory/molecular_dynamics.md, "Measured models").
+/// Provides the interactions of one element from an OpenKIM model or a LAMMPS pair style. Their functions are not
+/// accessible to the program: quantities otherwise read from tables are measured on the static crystal when the
+/// model is loaded (docs/theory/molecular_dynamics.md, "Measured models").
 class MeasuredModel {
  public:
-  /// Finds the structure of least energy (unless one is stated), its lattice constant and cutoff, and how far
-  /// it can be compressed.
-  /// @throws InputError if the element is not in it, or if the static crystal is neither fcc nor bcc.
+  /// Finds the structure of minimum energy (unless one is specified), its lattice constant and cutoff, and the
+  /// largest compression.
+  /// @throws InputError if the model does not contain the element, or if the static crystal is neither fcc nor bcc.
   MeasuredModel(Interactions interactions, const std::string& element,
                 std::optional<CrystalStructure> structure = {});
 
-  /// Units and atom style of an instance that has no box yet.
+  /// Sets units and atom style of an instance that has no box yet.
   void begin(Lammps& lammps) const;
-  /// The interactions of an instance with a box.
+  /// Applies the interactions to an instance with a box.
   void apply(Lammps& lammps) const;
 
   [[nodiscard]] double mass() const { return mass_; }  ///< g/mol
   [[nodiscard]] CrystalStructure structure() const { return structure_; }
   [[nodiscard]] double lattice_constant() const { return lattice_constant_; }  ///< A
   [[nodiscard]] double cutoff() const { return cutoff_; }                      ///< A
-  /// V/V0 at which the model refuses the static crystal or the crystal ceases to resist compression; 0: not
-  /// down to `least_scanned_ratio`.
+  /// Returns V/V0 at which the model fails for the static crystal or the crystal no longer resists compression; 0:
+  /// not down to `least_scanned_ratio`.
   [[nodiscard]] double end() const { return end_; }
   [[nodiscard]] const std::string& reason_of_end() const { return reason_; }
-  /// Energy per atom (eV) of the static crystal at a volume per atom (A^3), between the scanned states.
-  /// @throws StateError outside of them.
+  /// Returns the energy per atom (eV) of the static crystal at a volume per atom (A^3), interpolated between the
+  /// scanned states.
+  /// @throws StateError outside their range.
   [[nodiscard]] double crystal_energy(double volume) const;
-  /// Pressure (Pa) of the static crystal at V/V0.
-  /// @throws StateError outside of the scanned states.
+  /// Returns the pressure (Pa) of the static crystal at V/V0.
+  /// @throws StateError outside the range of the scanned states.
   [[nodiscard]] double pressure(double volume_ratio) const;
-  /// Least scanned volume per atom, A^3.
+  /// Returns the smallest scanned volume per atom, A^3.
   [[nodiscard]] double least_volume() const { return volumes_.front(); }
 
   static constexpr double least_scanned_ratio = 0.30;

@@ -23,8 +23,8 @@ namespace {
 /// Styles whose tables the program reads and checks itself.
 constexpr std::array<std::string_view, 3> read_styles = {"eam", "eam/alloy", "eam/fs"};
 
-/// Styles whose coefficients are numbers and tables. Others are refused: some run what a file says (python, mliap), load
-/// shared objects (kim: such models are named by `potential`), or mean something else than atoms.
+/// Styles whose coefficients are numbers and tables. Others are rejected: some execute code in files (python,
+/// mliap), load shared objects (kim: such models are specified by `potential`), or do not represent atoms.
 // clang-format off
 constexpr auto data_styles = std::to_array<std::string_view>(
     {"adp", "agni", "airebo", "airebo/morse", "atm", "beck", "bop", "born", "buck", "comb", "comb3",
@@ -50,7 +50,7 @@ std::vector<std::string> words_of(const std::string& line) {
   return {std::istream_iterator<std::string>(stream), {}};
 }
 
-/// LAMMPS would take such characters for variables, comments or the end of a command.
+/// Checks a text for characters that LAMMPS would interpret as variables, comments or the end of a command.
 void require_plain(const std::string& text) {
   const bool plain = std::ranges::all_of(text, [](unsigned char c) {
     return c >= 0x20 && c < 0x7f &&
@@ -62,7 +62,7 @@ void require_plain(const std::string& text) {
   }
 }
 
-/// A name with an ending that does not begin with a digit, which no number has.
+/// Returns whether a word has an extension that does not begin with a digit, unlike any number.
 bool looks_like_file(const std::string& word) {
   const std::size_t dot = word.rfind('.');
   return dot != std::string::npos && dot + 1 < word.size() &&
@@ -79,7 +79,7 @@ std::string readable_path(const std::filesystem::path& path) {
       "{}: LAMMPS reads no paths with quotation marks or letters beyond ASCII: move the file", text));
 }
 
-/// Refuses styles that are more than data, also as parts of a hybrid one.
+/// Rejects styles that are more than data, including parts of a hybrid style.
 /// @param words  of the command pair_style
 void require_data(const std::vector<std::string>& words, const Lammps& lammps) {
   for (const std::string& word : words) {

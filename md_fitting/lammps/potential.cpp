@@ -24,20 +24,20 @@
 namespace whipple::md {
 namespace {
 
-/// A potential that the program knows by name.
+/// Describes a built-in potential.
 struct KnownPotential {
   const char* name;
   const char* element;
-  const char* file;    ///< in LAMMPS' folder of potentials
-  double cutoff;       ///< A, replaces that of the file; 0: that of the file
+  const char* file;    ///< in the LAMMPS potentials folder
+  double cutoff;       ///< A, overrides that of the file; 0: that of the file
   const char* source;  ///< publication
 };
 
-// Cu_mishin1.eam.alloy, the file that LAMMPS ships for Mishin's copper, ends at 1.64 times the equilibrium
-// density, which the static crystal reaches at V/V0 = 0.72 (102 GPa). The copper block of the
-// angular-dependent Al-Cu potential is the same function with a table that goes on to 22 times that density;
-// its angular part is zero for copper. Beyond 5.5076 A, the cutoff of the publication, its functions are
-// below 1e-12: the larger cutoff of the file only costs time.
+// Cu_mishin1.eam.alloy, the file that LAMMPS ships for Mishin's copper, ends at 1.64 times the equilibrium density,
+// which the static crystal reaches at V/V0 = 0.72 (102 GPa). The copper block of the angular-dependent Al-Cu
+// potential is the same function with a table that extends to 22 times that density; its angular part is zero for
+// copper. Beyond 5.5076 A, the cutoff of the publication, its functions are below 1e-12: the larger cutoff of the
+// file only increases the cost.
 constexpr std::array known = {
     KnownPotential{
         "copper_mishin_2001", "Cu", "AlCu.adp", 5.5076,
@@ -57,7 +57,7 @@ constexpr std::array known = {
                    "Foiles, Baskes, Daw, Phys. Rev. B 33 (1986) 7983"},
 };
 
-/// Files of a folder that hold the element, for error messages.
+/// Returns the files of a folder that contain the element, for error messages.
 std::vector<std::string> files_for(const std::string& element, const std::filesystem::path& folder) {
   std::vector<std::string> names;
   std::error_code fault;
@@ -68,7 +68,7 @@ std::vector<std::string> files_for(const std::string& element, const std::filesy
         names.push_back(entry.path().filename().string());
       }
     } catch (const InputError&) {
-      // not a potential file of a known format
+      // Not a potential file of a known format.
     }
   }
   std::sort(names.begin(), names.end());
@@ -101,7 +101,7 @@ std::filesystem::path find_file(const std::string& name, const std::string& elem
                                potential_folder().string()));
 }
 
-/// Shortens the reach of all functions to the cutoff; what is cut off must be nothing.
+/// Truncates all functions at the cutoff; the truncated part must be zero.
 void shorten(EamTables& tables, double cutoff, const std::string& name) {
   for (std::size_t i = 0; i < tables.density.size(); ++i) {
     const double r = tables.radius_step * static_cast<double>(i);
@@ -115,17 +115,17 @@ void shorten(EamTables& tables, double cutoff, const std::string& name) {
   tables.cutoff = cutoff;
 }
 
-/// LAMMPS replaces characters beyond ASCII in its commands.
+/// Returns whether a text is ASCII; LAMMPS replaces other characters in its commands.
 bool is_ascii(const std::string& text) {
   return std::ranges::all_of(text, [](unsigned char c) { return c < 0x80; });
 }
 
-/// Takes the cubic structure of least energy, unless the plan states one: headers of potential files are
-/// written by hand, and some programs that fit alloys know fcc only.
-/// @return what differs from the header; empty: nothing
+/// Chooses the cubic structure of minimum energy, unless the plan states one: headers of potential files are
+/// written by hand, and some programs that fit alloys support fcc only.
+/// @return the difference from the header; empty if none
 std::string choose_structure(EamTables& tables, std::optional<CrystalStructure> stated,
                              const std::string& name) {
-  constexpr double clearly = 5e-3;  // eV per atom: what fcc and hcp differ by in potentials of fcc metals
+  constexpr double clearly = 5e-3;  // eV per atom: typical difference of fcc and hcp in fcc metals
   const std::optional<CrystalStructure> header = value_of<CrystalStructure>(tables.header_structure);
   const bool cubic = header == CrystalStructure::fcc || header == CrystalStructure::bcc;
   const double header_volume = std::pow(tables.header_lattice_constant, 3) / tables.atoms_per_cell();
@@ -138,7 +138,7 @@ std::string choose_structure(EamTables& tables, std::optional<CrystalStructure> 
     if (stated && structure != *stated) continue;
     EamTables own = tables;
     own.structure = structure;
-    // The bracket of the search is the header's, at its volume per atom.
+    // The search is bracketed by the header, at its volume per atom.
     if (structure != header) {
       own.header_lattice_constant = cubic ? std::cbrt(header_volume * own.atoms_per_cell()) : 0.0;
     }
@@ -146,7 +146,7 @@ std::string choose_structure(EamTables& tables, std::optional<CrystalStructure> 
       const double a = own.static_lattice_constant();
       candidates.push_back({own, a * a * a / own.atoms_per_cell(), own.crystal_energy(a)});
     } catch (const InputError& fault) {
-      // A structure for comparison need not exist.
+      // A structure used for comparison need not exist.
       if (structure == (stated ? stated : header))
         throw InputError(fmt::format("potential {}: {}", name, fault.what()));
     }
@@ -183,7 +183,7 @@ std::string choose_structure(EamTables& tables, std::optional<CrystalStructure> 
 
 }  // namespace
 
-/// A file in a folder of its own below the system's temporary folder, removed with the last user.
+/// Holds a file in a new folder below the system's temporary folder, removed with its last user.
 class Potential::TemporaryFile {
  public:
   TemporaryFile(const std::string& name, const std::string& content)
@@ -193,7 +193,7 @@ class Potential::TemporaryFile {
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
  private:
-  /// LAMMPS reads no other paths.
+  /// Returns the parent folder, since LAMMPS reads ASCII paths only.
   static std::filesystem::path place() {
     const std::filesystem::path usual = std::filesystem::temp_directory_path();
     return is_ascii(usual.string()) ? usual : "/tmp";
@@ -226,8 +226,7 @@ Potential Potential::load(const std::string& name, const std::string& element,
   if (is_kim_identifier(name)) {
     potential.style_ = "kim";
     potential.source_ = "OpenKIM, https://openkim.org/id/" + name;
-    // The identifier with its version stands for the model's content: KIM never changes one without the
-    // other.
+    // The identifier with its version identifies the content of the model: KIM never changes one without the other.
     potential.hash_ = sha256("KIM model " + name);
     potential.take_model(
         std::make_shared<const MeasuredModel>(kim_interactions(name, element), element, structure));
@@ -295,7 +294,7 @@ void Potential::read_file(const std::string& element, const std::filesystem::pat
 
 void Potential::write_tables(const std::string& comment) {
   style_ = "eam/alloy";
-  // The hash is that of the tables only: the comment is not part of the physics.
+  // The hash covers the tables only: the comment does not affect the physics.
   hash_ = sha256(to_setfl(tables_, ""));
   written_ = std::make_shared<TemporaryFile>(element() + ".eam.alloy", to_setfl(tables_, comment));
 }
@@ -323,7 +322,7 @@ void Potential::apply(Lammps& lammps) const {
   lammps.command("pair_style {}", style_);
   lammps.command_shown_as(fmt::format("pair_coeff * * \"{}\"{}", path.string(), elements),
                           fmt::format("pair_coeff * * \"{}\"{}", path.filename().string(), elements));
-  // pair_coeff sets the mass that the file gives; set again to the value that all conversions use.
+  // pair_coeff sets the mass in the file; reset it to the value used in all conversions.
   lammps.command("mass 1 {:.17g}", mass());
 }
 

@@ -16,33 +16,33 @@
 
 namespace whipple::md {
 
-/// The folder of the potential files that LAMMPS ships; the environment variable LAMMPS_POTENTIALS comes
-/// first.
+/// Returns the folder of the potential files shipped with LAMMPS; the environment variable LAMMPS_POTENTIALS takes
+/// precedence.
 std::filesystem::path potential_folder();
 
-/// The interatomic potential of one element, checked before a simulation uses it: an embedded-atom potential
-/// whose tables the program reads itself, a model of OpenKIM, or a pair style of LAMMPS.
+/// Represents the interatomic potential of one element, checked before a simulation uses it: an embedded-atom
+/// potential whose tables the program reads itself, an OpenKIM model, or a LAMMPS pair style.
 class Potential {
  public:
-  /// Loads a potential by the name of a known one ("zhou_2004" for each of its elements), by the extended
-  /// identifier of a KIM model, or by a file name: a path, a file beside the plan (`folder`), or a file in
-  /// LAMMPS' folder.
-  /// @param structure fcc or bcc; none: that of least energy
-  /// @param pair      with a style: LAMMPS' commands for it, and `name` is free
-  /// @throws InputError if there is no such file or model (listing the ones for the element), if the element
-  /// is not in it, if the file is damaged, or if hcp has the least energy.
+  /// Loads a potential by the name of a built-in one ("zhou_2004" for each of its elements), by the extended
+  /// identifier of a KIM model, or by a file name: a path, a file in the folder of the plan (`folder`), or a file
+  /// in the LAMMPS folder.
+  /// @param structure fcc or bcc; none: the one of minimum energy
+  /// @param pair      if it has a style: the LAMMPS commands for it; `name` is then arbitrary
+  /// @throws InputError if there is no such file or model (listing those available for the element), if it does not
+  /// contain the element, if the file is damaged, or if hcp has the minimum energy.
   static Potential load(const std::string& name, const std::string& element,
                         const std::filesystem::path& folder = {},
                         std::optional<CrystalStructure> structure = {}, const PairStyle& pair = {});
 
-  /// Units and atom style of an instance that has no box yet.
+  /// Sets units and atom style of an instance that has no box yet.
   void begin(Lammps& lammps) const;
-  /// Gives an instance with a defined box the pair style, the tables and the mass of atom type 1.
+  /// Applies the pair style, the tables and the mass of atom type 1 to an instance with a defined box.
   /// @throws InputError if LAMMPS was built without the pair style.
   void apply(Lammps& lammps) const;
 
-  /// Refuses a state whose density leaves the embedding table, where LAMMPS would silently continue it by a
-  /// straight line, or the range in which a measured model was found to bear compression.
+  /// Rejects a state whose density exceeds the embedding table, which LAMMPS would silently extrapolate linearly,
+  /// or that is outside the range in which a measured model resists compression.
   /// @param volume_ratio V/V0, V0 that of the static crystal at zero pressure
   /// @throws InputError naming the potential, the end of its range and the state.
   void require_range(double volume_ratio) const;
@@ -50,43 +50,42 @@ class Potential {
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
   [[nodiscard]] const std::string& source() const { return source_; }
-  /// SHA-256 of the tables as LAMMPS reads them.
+  /// Returns the SHA-256 of the tables as LAMMPS reads them.
   [[nodiscard]] const std::string& hash() const { return hash_; }
-  /// Returns whether its functions are those of tables that the program read.
+  /// Returns whether the potential is defined by tables that the program has read.
   [[nodiscard]] bool has_tables() const { return model_ == nullptr; }
-  /// @throws InternalError for a measured model.
+  /// Returns the tables. @throws InternalError for a measured model.
   [[nodiscard]] const EamTables& tables() const;
   [[nodiscard]] const std::string& element() const { return element_; }
   [[nodiscard]] double mass() const { return mass_; }                      ///< g/mol
   [[nodiscard]] CrystalStructure structure() const { return structure_; }  ///< fcc or bcc
-  /// How the structure differs from what the file says; empty: it does not.
+  /// Describes how the structure differs from that in the file; empty if it does not.
   [[nodiscard]] const std::string& remark() const { return remark_; }
   [[nodiscard]] int atoms_per_cell() const { return md::atoms_per_cell(structure_); }
   [[nodiscard]] double cutoff() const { return cutoff_; }  ///< A
-  /// Energy per atom (eV) of the static crystal with lattice constant a (A).
-  /// @throws StateError for a measured model beyond the volumes that were scanned.
+  /// Returns the energy per atom (eV) of the static crystal with lattice constant a (A).
+  /// @throws StateError for a measured model outside the range of the scanned volumes.
   [[nodiscard]] double crystal_energy(double a) const;
-  /// Least specific volume (m^3/kg) with a known `crystal_energy`; 0: all.
+  /// Returns the smallest specific volume (m^3/kg) with a known `crystal_energy`; 0: unlimited.
   [[nodiscard]] double least_known_volume() const;
-  /// Lattice constant (A) of the static crystal at zero pressure.
+  /// Returns the lattice constant (A) of the static crystal at zero pressure.
   [[nodiscard]] double lattice_constant() const { return lattice_constant_; }
-  /// Specific volume (m^3/kg) of the static crystal at zero pressure: the V0 of all volume ratios.
+  /// Returns the specific volume (m^3/kg) of the static crystal at zero pressure: V0 of all volume ratios.
   [[nodiscard]] double static_volume() const;
-  /// V/V0 at which the static crystal reaches the end of the density table, or of the range of a measured
+  /// Returns V/V0 at which the static crystal reaches the end of the density table, or of the range of a measured
   /// model; 0: never.
   [[nodiscard]] double table_end() const { return table_end_; }
-  /// Least admissible V/V0: there the static crystal still keeps `density_margin` to the end of the table, or
-  /// `volume_margin` to the end of a measured model.
+  /// Returns the smallest admissible V/V0, at which the static crystal still has the margin `density_margin` to the
+  /// end of the table, or `volume_margin` to the end of a measured model.
   [[nodiscard]] double least_volume_ratio() const { return least_volume_ratio_; }
-  /// Pressure beyond which states are flagged.
+  /// Returns the pressure beyond which states are flagged.
   [[nodiscard]] const Validity& validity() const { return validity_; }
-  /// Replaces it by what the plan states.
+  /// Replaces the validity by that stated in the plan.
   void state_validity(Validity validity) { validity_ = std::move(validity); }
 
-  /// Thermal motion raises the density of single atoms above that of the static crystal at the same volume.
+  /// Margin for thermal motion, which raises the density at single atoms above that of the static crystal.
   static constexpr double density_margin = 0.10;
-  /// Leaves this part of the volume for thermal motion in models whose electron density is not known; that of
-  /// metals grows about as 1/V^2.
+  /// Margin in volume for thermal motion in models with unknown electron density; that of metals grows about as 1/V^2.
   static constexpr double volume_margin = 0.05;
 
  private:
@@ -94,7 +93,7 @@ class Potential {
   void take_model(std::shared_ptr<const MeasuredModel> model);
   void read_file(const std::string& element, const std::filesystem::path& folder,
                  std::optional<CrystalStructure> stated);
-  /// Tables that LAMMPS reads from a file made for it.
+  /// Writes the tables to a temporary file for LAMMPS.
   void write_tables(const std::string& comment);
 
   std::string name_;
@@ -113,7 +112,7 @@ class Potential {
   double table_end_ = 0.0;
   double least_volume_ratio_ = 0.0;
   Validity validity_;
-  std::shared_ptr<const TemporaryFile> written_;  // what LAMMPS reads, if it is not `file_` itself
+  std::shared_ptr<const TemporaryFile> written_;  // the file that LAMMPS reads, if different from `file_`
 };
 
 }  // namespace whipple::md

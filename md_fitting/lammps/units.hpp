@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-/// LAMMPS' unit set "metal" against SI: the only place of the conversion. The constants are those that LAMMPS
-/// itself uses for this set (its update.cpp), so that kinetic energies and pressures agree to the last digit.
+/// Converts between the LAMMPS unit set "metal" and SI; no other file does. The constants are those used internally
+/// by LAMMPS for this set (its update.cpp), so that kinetic energies and pressures agree to the last digit.
 namespace whipple::md::metal {
 
 inline constexpr double angstrom = 1e-10;                 ///< m
@@ -14,22 +14,22 @@ inline constexpr double boltzmann = 8.617343e-5;          ///< eV/K in LAMMPS (C
 inline constexpr double pressure_from_energy = 1.6021765e6;  ///< bar per eV/A^3 in LAMMPS
 inline constexpr double avogadro = 6.02214076e23;            ///< 1/mol, exact since 2019
 
-/// J/kg from an energy per atom in eV and the atomic mass in g/mol.
+/// Returns J/kg from an energy per atom in eV and the atomic mass in g/mol.
 inline double specific_energy(double energy_per_atom, double mass) {
   return energy_per_atom * electron_volt / (mass * dalton);
 }
-/// m^3/kg from a volume per atom in A^3 and the atomic mass in g/mol.
+/// Returns m^3/kg from a volume per atom in A^3 and the atomic mass in g/mol.
 inline double specific_volume(double volume_per_atom, double mass) {
   return volume_per_atom * angstrom * angstrom * angstrom / (mass * dalton);
 }
-/// A^3 per atom from m^3/kg.
+/// Returns A^3 per atom from m^3/kg.
 inline double volume_per_atom(double volume, double mass) {
   return volume * (mass * dalton) / (angstrom * angstrom * angstrom);
 }
 
 }  // namespace whipple::md::metal
 
-/// Constants in SI (exact since 2019; hbar to ten digits).
+/// Defines constants in SI (exact since 2019; hbar to ten digits).
 namespace whipple::md::si {
 inline constexpr double hbar = 1.054571817e-34;    ///< J s
 inline constexpr double boltzmann = 1.380649e-23;  ///< J/K

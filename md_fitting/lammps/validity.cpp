@@ -14,7 +14,7 @@ namespace {
 constexpr double clearly = 1e-3;  // eV per atom
 constexpr double step = 0.0025;   // of V/V0
 
-/// Pressure (Pa) of the static crystal at a volume per atom (A^3).
+/// Returns the pressure (Pa) of the static crystal at a volume per atom (A^3).
 double static_pressure(const EamTables& tables, double volume) {
   constexpr double small = 1e-3;
   const auto energy = [&](double v) { return tables.crystal_energy(std::cbrt(v * tables.atoms_per_cell())); };
@@ -28,7 +28,7 @@ Validity validity_of(const EamTables& tables, double least_volume_ratio) {
   EamTables other = tables;
   other.structure = tables.structure == CrystalStructure::fcc ? CrystalStructure::bcc : CrystalStructure::fcc;
   const double v0 = std::pow(tables.static_lattice_constant(), 3) / tables.atoms_per_cell();
-  constexpr double least_of_all = 0.2;  // far beyond every potential of a metal
+  constexpr double least_of_all = 0.2;  // beyond the range of all potentials of metals
   const double end = std::max(least_volume_ratio, least_of_all);
   for (double ratio = 1.0 - step; ratio > end; ratio -= step) {
     const double volume = ratio * v0;

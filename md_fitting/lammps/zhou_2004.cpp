@@ -13,7 +13,7 @@
 namespace whipple::md {
 namespace {
 
-/// Constants of one metal; lengths in A, energies in eV.
+/// Holds the constants of one metal; lengths in A, energies in eV.
 struct Metal {
   const char* element;
   CrystalStructure structure;
@@ -21,7 +21,7 @@ struct Metal {
   double re, fe, density, scale;  ///< r_e, f_e, rho_e, rho_s
   double alpha, beta, A, B, kappa, lambda;
   std::array<double, 4> low;     ///< cubic below `low_end`
-  std::array<double, 4> middle;  ///< cubic about rho_e; its third power below rho_e
+  std::array<double, 4> middle;  ///< cubic about rho_e; its third coefficient below rho_e
   double third_above;            ///< and above it
   double eta, Fe;
   double low_end;  ///< of rho_e
@@ -29,7 +29,7 @@ struct Metal {
 
 constexpr double middle_end = 1.15;  // of rho_e
 
-// Table III of the publication, as the authors' own program holds them (tools/eam_database of LAMMPS).
+// Table III of the publication, as contained in the authors' program (tools/eam_database of LAMMPS).
 constexpr std::array metals = {
     Metal{"Cu",
           CrystalStructure::fcc,
@@ -298,7 +298,7 @@ EamTables zhou_2004(const std::string& element) {
   constexpr std::size_t densities = 12001;
   constexpr std::size_t radii = 4001;
   constexpr double density_end = 12.0;    // of rho_e
-  constexpr double least_distance = 0.5;  // A; the functions are held there
+  constexpr double least_distance = 0.5;  // A; the functions are constant below it
   const Metal& m = metal(element);
   EamTables tables;
   tables.element = m.element;
@@ -308,7 +308,7 @@ EamTables zhou_2004(const std::string& element) {
   const bool fcc = m.structure == CrystalStructure::fcc;
   tables.header_lattice_constant = m.re * (fcc ? std::sqrt(2.0) : 2.0 / std::sqrt(3.0));
   tables.cutoff = std::sqrt(5.0) * m.re;
-  tables.fitted_density = middle_end * m.density;  // the last branch continues a fit about rho_e
+  tables.fitted_density = middle_end * m.density;  // the last branch extrapolates a fit about rho_e
   tables.density_step = density_end * m.density / static_cast<double>(densities - 1);
   for (std::size_t i = 0; i < densities; ++i) {
     tables.embedding.push_back(embedding(m, tables.density_step * static_cast<double>(i)));

@@ -12,7 +12,7 @@ namespace whipple::md {
 
 struct Plan;
 
-/// Melting temperatures by coexistence of crystal and melt.
+/// Requests melting temperatures by coexistence of crystal and melt.
 struct CoexistencePlan {
   std::vector<double> pressure;
   std::vector<double> first_guess;  ///< K, one per pressure

@@ -7,7 +7,7 @@
 
 namespace whipple::md {
 
-/// Energy and pressure of static crystals.
+/// Requests energy and pressure of static crystals.
 struct ColdCurvePlan {
   std::vector<double> volume_ratio;
 

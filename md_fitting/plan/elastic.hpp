@@ -8,7 +8,7 @@
 
 namespace whipple::md {
 
-/// Elastic constants of the static crystal.
+/// Requests elastic constants of the static crystal.
 struct ElasticPlan {
   std::vector<double> volume_ratio = {1.0};
   double largest_strain = 0.005;

@@ -11,7 +11,7 @@ namespace whipple::md {
 
 struct Plan;
 
-/// States behind a shock by the Hugoniostat.
+/// Requests shocked states computed by the Hugoniostat.
 struct HugoniostatPlan {
   std::vector<double> pressure;
   RunSize size{.cells = 5, .equilibration_steps = 5000, .steps = 20000};

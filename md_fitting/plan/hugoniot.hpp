@@ -11,7 +11,7 @@ namespace whipple::md {
 
 struct Plan;
 
-/// States behind a shock from the first state at zero pressure.
+/// Requests shocked states starting from the first state at zero pressure.
 struct HugoniotPlan {
   std::vector<double> volume_ratio;
   RunSize size{};

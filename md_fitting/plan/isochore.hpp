@@ -8,7 +8,7 @@
 
 namespace whipple::md {
 
-/// States at one volume and several temperatures.
+/// Requests states at one volume and several temperatures.
 struct IsochorePlan {
   double volume_ratio = 1.0;
   std::vector<double> temperature;

@@ -8,7 +8,7 @@
 
 namespace whipple::md {
 
-/// States at one temperature and several volumes.
+/// Requests states at one temperature and several volumes.
 struct IsothermPlan {
   double temperature = 293.0;
   std::vector<double> volume_ratio;

@@ -12,7 +12,7 @@ namespace whipple::md {
 
 struct Plan;
 
-/// Density and enthalpy of the melt.
+/// Requests density and enthalpy of the melt.
 struct LiquidPlan {
   std::vector<double> temperature;
   std::vector<double> pressure = {0.0};

@@ -11,7 +11,7 @@ namespace whipple::md {
 
 struct Plan;
 
-/// A film of melt in equilibrium with its vapour.
+/// Requests a film of melt in equilibrium with its vapour.
 struct LiquidVapourPlan {
   std::vector<double> temperature;
   double gap = 2.0;

@@ -11,7 +11,7 @@ namespace whipple::md {
 
 struct Plan;
 
-/// Shocks driven by a piston through a crystal.
+/// Requests shocks driven through a crystal by a piston.
 struct PistonPlan {
   std::vector<double> particle_velocity;
   std::int64_t length = 60;  ///< unit cells along the shock

@@ -60,7 +60,7 @@ void Plan::check(const Plan&, const input::Faults& faults) const {
   }
 }
 
-/// One line per section.
+/// Lists the sections, one per line.
 std::span<const input::Section<Plan, Plan>> Plan::sections() {
   static const std::vector<input::Section<Plan, Plan>> all = {
       section_of<&Plan::zero_pressure>(

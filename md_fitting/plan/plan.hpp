@@ -24,9 +24,9 @@
 #include "md_fitting/plan/zero_pressure.hpp"
 #include "src/core/input/section.hpp"
 
-/// The plan of a campaign of molecular-dynamics points: a TOML file that names what is to be measured. This
-/// library depends neither on LAMMPS nor on potentials; `whipple describe md` prints its tables. Each
-/// protocol has its section in a file of its own (src/core/input/section.hpp).
+/// Defines the plan of a campaign of molecular-dynamics points, a TOML file that lists the quantities to compute.
+/// This library depends neither on LAMMPS nor on potentials; `whipple describe md` prints its tables. The section
+/// of each protocol is defined in a separate file (src/core/input/section.hpp).
 namespace whipple::md {
 
 struct Plan {
@@ -34,13 +34,13 @@ struct Plan {
   std::string element;
   std::string potential;
   std::string structure = "least_energy";  ///< or "fcc", "bcc"
-  std::string pair_style;  ///< of LAMMPS, with its arguments; empty: `potential` names the potential
+  std::string pair_style;  ///< LAMMPS pair style with its arguments; empty: `potential` names the potential
   std::vector<std::string> pair_coeff;  ///< its coefficients
-  double validity_pressure = 0.0;       ///< Pa; 0: that of the potential itself
+  double validity_pressure = 0.0;       ///< Pa; 0: that of the potential
   std::int64_t seed = 1;
   std::int64_t ranks_per_point = 1;
-  double processor_time = 0.0;   ///< s, of all ranks together; 0: no limit stated
-  std::filesystem::path folder;  ///< of the plan file: a potential file may lie there
+  double processor_time = 0.0;   ///< s, of all ranks together; 0: no limit
+  std::filesystem::path folder;  ///< of the plan file, which may contain a potential file
 
   // One member per section: optional for [section], a vector for [[section]].
   std::optional<ZeroPressurePlan> zero_pressure;
@@ -56,7 +56,7 @@ struct Plan {
   std::optional<SpallPlan> spall;
   std::optional<QuantumPlan> quantum;
   std::optional<LiquidVapourPlan> liquid_vapour;
-  std::optional<AdaptivePlan> adaptive;  ///< no points of its own
+  std::optional<AdaptivePlan> adaptive;  ///< adds no points
 
   static ParameterTable<Plan> parameters();
   void check(const Plan& plan, const input::Faults& faults) const;
@@ -67,11 +67,11 @@ struct Plan {
 Plan read_plan(const std::filesystem::path& path);
 Plan read_plan(input::Document& document);
 
-/// The points of a plan as a file that reads back to the same numbers, without [adaptive]. A potential file
-/// beside the plan gets its whole path.
+/// Writes the points of a plan as a file that reads back to the same numbers, without [adaptive]. A potential file
+/// in the folder of the plan is written with its full path.
 std::string plan_text(const Plan& plan);
 
-/// The sections of a plan with their keys: for `whipple describe md` and the manual.
+/// Describes the sections of a plan with their keys, for `whipple describe md` and the manual.
 std::string describe_plan();
 
 /// Returns the JSON schema of plans, for editors (src/core/input/schema.hpp).

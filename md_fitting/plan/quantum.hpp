@@ -8,12 +8,12 @@
 
 namespace whipple::md {
 
-/// What quantum nuclei add to the classical ones of the simulations.
+/// Requests quantum corrections to the classical nuclei of the simulations.
 struct QuantumPlan {
   std::vector<double> volume_ratio;
   std::vector<double> temperature;
-  std::int64_t cells = 6;       ///< of the crystal whose vibrations count
-  double displacement = 5e-13;  ///< m, of the atom whose force constants are measured
+  std::int64_t cells = 6;       ///< size of the crystal whose vibrations are evaluated
+  double displacement = 5e-13;  ///< m, of the atom in the measurement of force constants
 
   static ParameterTable<QuantumPlan> parameters();
 };

@@ -7,7 +7,7 @@
 
 namespace whipple::md {
 
-/// Size and length of one simulation.
+/// Specifies the size and length of one simulation.
 struct RunSize {
   std::int64_t cells = 5;  ///< unit cells along each edge
   std::int64_t equilibration_steps = 1500;

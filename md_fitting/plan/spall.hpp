@@ -11,7 +11,7 @@ namespace whipple::md {
 
 struct Plan;
 
-/// Tensile strength of a crystal that is stretched in all directions at once.
+/// Requests the tensile strength of a crystal under triaxial stretching.
 struct SpallPlan {
   std::vector<double> temperature = {293.0};
   double strain_rate = 1e10;

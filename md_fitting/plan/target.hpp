@@ -9,18 +9,18 @@
 
 namespace whipple::md {
 
-/// Target accuracy of the points of a section. It is no part of the identity of a point: a plan with a smaller error
-/// continues the points that a database holds.
+/// Specifies the target accuracy of the points of a section. It is not part of the identity of a point: a plan with
+/// a smaller error continues the points in the database.
 struct Target {
   double error = 0.0;
   std::int64_t most_steps = 0;
 
-  /// @param unit    of the error; empty: relative
-  /// @param meaning which error is meant
+  /// @param unit    unit of the error; empty: relative
+  /// @param meaning error to which the target applies
   static ParameterTable<Target> parameters(const std::string& unit, const std::string& meaning);
 };
 
-/// Returns the table of a section with the keys of its runs and of their target error at its end.
+/// Returns the table of a section followed by the keys of its run size and target error.
 template <class Section>
 ParameterTable<Section> with_run(ParameterTable<Section> own, RunSize Section::* size,
                                  Target Section::* target, const std::string& unit,

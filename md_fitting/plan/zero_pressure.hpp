@@ -11,8 +11,8 @@ namespace whipple::md {
 
 struct Plan;
 
-/// Volume and energy at given temperatures and zero pressure; the first temperature is the reference of the
-/// Hugoniot.
+/// Requests volume and energy at given temperatures and zero pressure; the first temperature is the reference of
+/// the Hugoniot.
 struct ZeroPressurePlan {
   std::vector<double> temperature = {293.0};
   RunSize size{.cells = 5, .equilibration_steps = 3000, .steps = 27000};

@@ -11,10 +11,10 @@
 namespace whipple::md {
 namespace {
 
-/// Damping time, time steps: one to two vibrations. With a longer one the energies of single vibrations
-/// wander too slowly for a short run to know its own error; a shorter one only adds noise.
+/// Damping time in time steps: one to two vibrations. With a longer one the energies of single vibrations fluctuate
+/// too slowly for a short run to estimate its error; a shorter one only adds noise.
 constexpr double damping_steps = 200.0;
-/// Length of a window, time steps: one to two vibrations; of a short run at most a quarter.
+/// Length of a window in time steps: one to two vibrations; at most a quarter of a short run.
 constexpr std::int64_t window_steps = 160;
 
 }  // namespace

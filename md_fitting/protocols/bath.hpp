@@ -9,19 +9,19 @@
 
 namespace whipple::md {
 
-/// Couples all atoms to a Langevin bath whose random forces add up to zero, so that the centre of mass stays
-/// at rest; beside it an integrator at constant energy or enthalpy moves the atoms. Unlike a Nose-Hoover
-/// chain it makes every vibration forget its energy within a known time.
+/// Couples all atoms to a Langevin bath whose random forces add up to zero, so that the centre of mass stays at
+/// rest; an integrator at constant energy or enthalpy moves the atoms. Unlike a Nose-Hoover chain, the bath
+/// decorrelates the energy of every vibration within a known time.
 /// @param temperature K
 /// @param time_step   ps
 void couple_to_bath(Lammps& lammps, double temperature, double time_step, std::int64_t seed);
 
-/// Samples of a thermal quantity of a crystal in the bath, freed of what only adds noise to their mean
-/// (docs/theory/molecular_dynamics.md, equation 4a). The kinetic temperature T_i is a control variate, whose
-/// expectation the bath sets (Lavenberg & Welch, Management Sci. 27 (1981) 322): from sample x_i is taken
-/// (<x> - x_cold) (T_i - T)/T, what the wandering temperature adds to a quantity whose thermal part is
-/// proportional to it. Whatever that factor, the mean stays the right one. Averages over windows of one or
-/// two vibrations then leave what wanders slowly, from which the error comes.
+/// Returns samples of a thermal quantity of a crystal in the bath, with noise removed that does not affect their
+/// mean (docs/theory/molecular_dynamics.md, equation 4a). The kinetic temperature T_i is a control variate, whose
+/// expectation is set by the bath (Lavenberg & Welch, Management Sci. 27 (1981) 322): (<x> - x_cold) (T_i - T)/T,
+/// the effect of the temperature fluctuation on a quantity whose thermal part is proportional to it, is subtracted
+/// from sample x_i. The mean is unbiased for any such factor. Averages over windows of one or two vibrations then
+/// retain the slow fluctuations, which determine the error.
 /// @param cold         value of the quantity in the static crystal
 /// @param temperatures kinetic temperature (K), sampled together with the series
 /// @param temperature  of the bath, K

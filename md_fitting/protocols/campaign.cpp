@@ -34,12 +34,12 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// Whole numbers that all ranks can change at any time (one-sided communication), kept by rank 0.
+/// Holds integers that all ranks can change at any time (one-sided communication), located on rank 0.
 class SharedNumbers {
  public:
   enum Index : MPI_Aint { next_task, finished, stop, first_task };
 
-  /// @param tasks numbers of its own for each task: whether its turn is over
+  /// @param tasks number of tasks, each with one integer that is set when the task is finished
   SharedNumbers(MPI_Comm communicator, std::size_t tasks) {
     int rank = 0;
     MPI_Comm_rank(communicator, &rank);
@@ -58,7 +58,7 @@ class SharedNumbers {
     MPI_Win_unlock_all(window_);
     MPI_Win_free(&window_);
   }
-  /// Adds and returns the former value.
+  /// Adds the increment and returns the former value.
   long add(MPI_Aint index, long increment) {
     long former = 0;
     MPI_Fetch_and_op(&increment, &former, MPI_LONG, 0, index, MPI_SUM, window_);
@@ -80,8 +80,8 @@ std::optional<PointRecord> find_point(const std::filesystem::path& store, const 
   return std::nullopt;
 }
 
-/// Reads the state of the tasks on rank 0 and tells it to all: 'd' done, 'c' done but to be continued, 'f'
-/// failed, ' ' missing, one letter per task.
+/// Reads the state of the tasks on rank 0 and broadcasts it: 'd' done, 'c' done but to be continued, 'f'
+/// failed, blank: missing; one letter per task.
 std::string read_status(std::span<const Task> tasks, const std::filesystem::path& store,
                         MPI_Comm communicator, int rank) {
   std::string status(tasks.size(), ' ');
@@ -123,7 +123,7 @@ PointRecord unfinished(const Task& task) {
   return point;
 }
 
-/// Computes one task, or one more segment of it (> 0); what goes wrong in it becomes a failed point.
+/// Computes one task, or one more segment of it (> 0); an error yields a failed point.
 PointRecord compute_point(const Task& task, const PointRecord* dependency, int segment) {
   PointRecord point = unfinished(task);
   const auto begin = Clock::now();
@@ -145,7 +145,7 @@ PointRecord compute_point(const Task& task, const PointRecord* dependency, int s
   } catch (const StateError& error) {
     point.status = PointStatus::failed;
     point.message = error.what();
-  } catch (const InputError& error) {  // a range or a style that only this point asks for
+  } catch (const InputError& error) {  // a range or a style that only this point uses
     point.status = PointStatus::failed;
     point.message = error.what();
   }
@@ -153,9 +153,9 @@ PointRecord compute_point(const Task& task, const PointRecord* dependency, int s
   return point;
 }
 
-/// Continues a point until it is as exact as wanted, storing it after every segment. A segment that fails
-/// leaves what is there.
-/// @param compute  a segment of the point
+/// Continues a point until it reaches the target accuracy, storing it after every segment. A segment that fails
+/// leaves the stored point unchanged.
+/// @param compute  computes a segment of the point
 PointRecord continue_point(const Task& task, PointRecord point, const std::filesystem::path& store,
                            const std::function<PointRecord(int segment)>& compute) {
   while (wants_more(point, task.precision)) {
@@ -165,12 +165,12 @@ PointRecord continue_point(const Task& task, PointRecord point, const std::files
       break;
     }
     point = join(point, segment);
-    if (!append_point(store, point)) break;  // another process went further
+    if (!append_point(store, point)) break;  // another process has stored more segments
   }
   return point;
 }
 
-/// Waits until the turn of a task is over: stored, or given up. False: the work is being stopped.
+/// Waits until a task is stored or given up. Returns false if the work is being stopped.
 bool wait_for(std::size_t task, SharedNumbers& shared) {
   while (shared.read(SharedNumbers::stop) == 0) {
     if (shared.read(SharedNumbers::of_task(task)) != 0) return true;
@@ -202,9 +202,9 @@ std::string format_result(const std::string& quantity, const Estimate& estimate)
   const double value = factor * estimate.value;
   const double error = factor * estimate.error;
   const std::string tail = unit.empty() ? "" : " " + unit;
-  // Errors below the digits of the value are those of a root search, not of a measurement.
+  // Errors below the digits of the value come from a root search, not from a measurement.
   if (!(error > 0.5e-6 * std::abs(value))) return fmt::format("{} = {:.7g}{}", quantity, value, tail);
-  // Two digits of the error, but no more than seven of the value: a lattice constant is known to any digit.
+  // Print two digits of the error, but at most seven of the value: a lattice constant is accurate to any digit.
   const int digits_of_value =
       6 - static_cast<int>(std::floor(std::log10(std::fmax(std::abs(value), 1e-300))));
   const int digits_of_error = 1 - static_cast<int>(std::floor(std::log10(error)));
@@ -237,15 +237,15 @@ std::string summarize(const PointRecord& point) {
 
 namespace {
 
-/// Points of this rank, or of the team that it leads.
+/// Counts the points of this rank, or of the team that it leads.
 struct Counts {
   int computed = 0, failed = 0, blocked = 0;
 };
 
-/// Computes what the leader of the team announces, until it dismisses the team.
+/// Computes the orders announced by the leader of the team, until it dismisses the team.
 void follow(std::span<const Task> tasks, const std::filesystem::path& store, const PointTeam& team) {
   while (const auto order = team.wait()) {
-    // What is thrown here the leader need not meet: it waits in the point for this rank. It ends all ranks.
+    // An exception here need not occur on the leader, which waits in the point for this rank. It terminates all ranks.
     const Task& task = tasks[static_cast<std::size_t>(order->task)];
     std::optional<PointRecord> dependency;
     if (!task.dependency.empty()) dependency = find_point(store, task.dependency);
@@ -254,10 +254,10 @@ void follow(std::span<const Task> tasks, const std::filesystem::path& store, con
   }
 }
 
-/// Takes tasks from the common queue of all leaders and works them off with the own team.
+/// Takes tasks from the common queue of all leaders and computes them with the team.
 class Leader {
  public:
-  /// @param status  of the tasks, as `read_status` tells it
+  /// @param status  of the tasks, as returned by `read_status`
   Leader(std::span<const Task> tasks, const std::string& status, std::vector<std::size_t> queue,
          const std::filesystem::path& store, const PointTeam& team)
       : tasks_(tasks),
@@ -273,7 +273,8 @@ class Leader {
     }
   }
 
-  /// @throws whatever keeps points from being stored; the other leaders stop then
+  /// Computes tasks until the queue is empty. @throws any error that prevents points from being stored; the other
+  /// leaders then stop
   void work() {
     try {
       while (shared_.read(SharedNumbers::stop) == 0) {
@@ -286,7 +287,7 @@ class Leader {
       throw;
     }
     finished_ = Clock::now();
-    // The first one goes on showing the progress of the others.
+    // Rank 0 continues to show the progress of the others.
     while (rank_ == 0 && shared_.read(SharedNumbers::stop) == 0 &&
            shared_.read(SharedNumbers::finished) < static_cast<long>(queue_.size())) {
       show("waiting for the last points");
@@ -296,9 +297,9 @@ class Leader {
   }
   [[nodiscard]] const Counts& counts() const { return counts_; }
   [[nodiscard]] double busy() const { return busy_; }  ///< s, in points
-  /// s of processor time of this rank in points, by protocol.
+  /// Returns the processor time (s) of this rank spent on points, by protocol.
   [[nodiscard]] const std::map<std::string, double>& processor_time() const { return processor_time_; }
-  /// s, waiting for other teams until now: this one has no more points.
+  /// Returns the time (s) spent waiting for other teams, including that since the last point of this team.
   [[nodiscard]] double waiting() const { return waiting_ + seconds_since(finished_); }
 
  private:
@@ -308,8 +309,8 @@ class Leader {
     progress_->update(before + static_cast<double>(shared_.read(SharedNumbers::finished)), remark);
   }
 
-  /// The point that a task needs: another team is computing it, or it is in the store, because tasks that
-  /// others need stand earlier in the queue. Nothing if it failed.
+  /// Returns the point that a task needs. Another team is computing it, or it is in the database, because tasks
+  /// that others depend on come earlier in the queue. Returns nothing if it failed.
   std::optional<PointRecord> needed_by(const Task& task, bool& stopped) {
     const auto place = std::find_if(queue_.begin(), queue_.end(),
                                     [&](std::size_t i) { return tasks_[i].key == task.dependency; });
@@ -323,11 +324,11 @@ class Leader {
   }
 
   void finish(std::size_t index) {
-    shared_.add(SharedNumbers::of_task(index), 1);  // whoever waits for it learns that its turn is over
+    shared_.add(SharedNumbers::of_task(index), 1);  // notifies waiting teams that the task is finished
     shared_.add(SharedNumbers::finished, 1);
   }
 
-  /// False if the work is being stopped.
+  /// Computes a task; returns false if the work is being stopped.
   bool work_on(std::size_t index) {
     const Task& task = tasks_[index];
     show(short_label(unfinished(task)));
@@ -383,7 +384,7 @@ class Leader {
   int rank_ = 0;
 };
 
-/// Rank 0 puts the store in order; a disk too full for that leaves it as it is.
+/// Normalises the database on rank 0; a full disk leaves it unchanged.
 void put_in_order(const std::filesystem::path& store, MPI_Comm communicator) {
   int rank = 0;
   MPI_Comm_rank(communicator, &rank);
@@ -396,8 +397,8 @@ void put_in_order(const std::filesystem::path& store, MPI_Comm communicator) {
   }
 }
 
-/// Counts the points on isotherms and isochores of a plan that have melted, on all ranks. A shock may melt,
-/// so points of the Hugoniot do not count.
+/// Counts the points on isotherms and isochores of a plan that have melted, on all ranks. Melting is expected in a
+/// shock, so points of the Hugoniot are not counted.
 int count_molten(std::span<const Task> tasks, const std::filesystem::path& store, MPI_Comm communicator) {
   int rank = 0;
   MPI_Comm_rank(communicator, &rank);
@@ -456,7 +457,7 @@ CampaignSummary run_campaign(std::span<const Task> tasks, const std::filesystem:
     try {
       leader.work();
     } catch (const std::exception& error) {
-      // The points finished so far are in the store: what stopped the work is no fault of the plan.
+      // The points finished so far are in the database: the error that stopped the work is not a fault of the plan.
       const bool defect = exit_code(error) == ExitCode::internal;
       code = static_cast<int>(defect ? ExitCode::internal : ExitCode::state);
       log::warning("the work stopped before its end: {}", error.what());
@@ -484,7 +485,7 @@ CampaignSummary run_campaign(std::span<const Task> tasks, const std::filesystem:
   summary.busy = all[0], summary.waiting = all[1], summary.elapsed = all[2];
   for (const Task& task : tasks) summary.processor_time[task.protocol] = 0.0;
   for (auto& [protocol, seconds] : summary.processor_time) {
-    // The ranks of a team work, or wait busily, as long as their leader.
+    // The ranks of a team compute, or wait in a busy loop, as long as their leader.
     const double own_seconds = ranks_per_point * processor_time[protocol];
     MPI_Allreduce(&own_seconds, &seconds, 1, MPI_DOUBLE, MPI_SUM, communicator);
   }

@@ -8,17 +8,17 @@
 
 namespace whipple::md {
 
-/// One protocol: its section of a plan becomes points.
+/// Describes one protocol, which turns its section of a plan into points.
 struct Protocol {
-  const char* name;  ///< in the store
-  int revision;      ///< raised when it changes what it computes: older points are then computed again
+  const char* name;  ///< as in the database
+  int revision;      ///< incremented when the computed results change, so that older points are recomputed
   void (*add)(const Plan& plan, TaskList& list);
 };
 
-/// All protocols, the ones that others depend on first.
+/// Returns all protocols, dependencies first.
 std::span<const Protocol> protocols();
 
-// Each is defined in the file of its protocol.
+// Each function is defined in the file of its protocol.
 void add_zero_pressure(const Plan& plan, TaskList& list);
 void add_lattice(const Plan& plan, TaskList& list);
 void add_coexistence(const Plan& plan, TaskList& list);

@@ -27,10 +27,10 @@ constexpr double least_accepted_share = 0.15;
 constexpr double largest_accepted_drift = 0.12;
 constexpr double largest_order_of_melt = 0.35;
 constexpr double least_order_of_crystal = 0.5;
-/// By which a start goes on from one that lost a phase, as long as nothing bounds it on the other side.
+/// Relative temperature step after a start that lost a phase, as long as there is no bound on the other side.
 constexpr double start_step = 0.04;
 constexpr int most_parts = 3;
-/// Estimates the relative growth of the volume in melting; fcc metals expand by 3 to 7 %.
+/// Estimated relative volume change on melting; fcc metals expand by 3 to 7 %.
 constexpr double melting_expansion = 0.05;
 constexpr std::int64_t share_interval = 200;
 
@@ -38,7 +38,7 @@ std::int64_t next_seed(std::int64_t seed, const std::string& what) {
   return seed_from(sha256(fmt::format("{} {}", seed, what)));
 }
 
-/// One cell with crystal below and melt above, brought to the pressure and to about the guessed temperature.
+/// Holds one cell with crystal below and melt above, at the pressure and about the guessed temperature.
 class TwoPhaseCell {
  public:
   TwoPhaseCell(const Potential& potential, double pressure, double guess, const CoexistencePlan& section,
@@ -52,7 +52,7 @@ class TwoPhaseCell {
       return fmt::format("npt temp {0:.17g} {0:.17g} {1:.17g} {2} {3:.17g} {3:.17g} {4:.17g}", temperature,
                          100 * dt, coupling, bars, 1000 * dt);
     };
-    // Crystal at the guess.
+    // Equilibrate the crystal at the guess.
     lammps.command("timestep {:.17g}", dt);
     lammps.command("velocity all create {:.17g} {} mom yes rot no dist gaussian", 2.0 * guess, seed);
     lammps.command("fix whole all {}", npt(guess, "iso"));
@@ -63,8 +63,8 @@ class TwoPhaseCell {
     lammps.command("variable is_crystal atom c_order[1]>{}", crystal_order);
     lammps.command("compute share all reduce ave v_is_crystal");
     lammps.command("variable share equal c_share");
-    // The upper half, stretched to the volume of a melt (a compressed one freezes again as it cools), melts
-    // at constant volume while the lower half rests.
+    // The upper half, stretched to the volume of a melt (a compressed one refreezes as it cools), melts at constant
+    // volume while the lower half is held fixed.
     lammps.command("variable middle equal 0.5*(zlo+zhi)");
     lammps.command("variable middle_now equal {:.17g}", lammps.variable("middle"));
     lammps.command("region upper block INF INF INF INF ${middle_now} INF units box");
@@ -91,7 +91,7 @@ class TwoPhaseCell {
     lammps.command("run 1000");
     lammps.command("unfix cool");
     melt_reading_ = lammps.variable("upper_share");
-    // Both halves together at the guess, then free at constant enthalpy.
+    // Both halves are first equilibrated at the guess, then released at constant enthalpy.
     const std::string couplings = fmt::format(
         "x {0:.17g} {0:.17g} {1:.17g} y {0:.17g} {0:.17g} {1:.17g} z {0:.17g} "
         "{0:.17g} {1:.17g}",
@@ -104,7 +104,7 @@ class TwoPhaseCell {
     log::detail("fraction of crystal by the order parameter: {:.3f} in the crystal, {:.3f} in the melt",
                 crystal_reading_, melt_reading_);
     lammps.command("run {}", section.size.equilibration_steps);
-    // Crystal layer by layer, one unit cell each.
+    // Crystal order in layers of one unit cell each.
     std::string flags;
     for (std::int64_t k = 0; k < layers_; ++k) {
       lammps.command("variable crystal_{0} atom v_is_crystal*(floor((z-zlo)/lz*{1})=={0})", k, layers_);
@@ -113,7 +113,7 @@ class TwoPhaseCell {
     lammps.command("compute layer_order all reduce ave{}", flags);
   }
 
-  /// Runs on and averages.
+  /// Continues the run and averages.
   CoexistenceRun run(std::int64_t steps) {
     Lammps& lammps = crystal_.lammps();
     std::string columns = "v_share";
@@ -126,7 +126,7 @@ class TwoPhaseCell {
     const auto normalised = [&](double s) {
       return (s - melt_reading_) / (crystal_reading_ - melt_reading_);
     };
-    // The first sample is taken before the run has its list of neighbours.
+    // The first sample is taken before the run has built its neighbour list.
     for (std::vector<double>& column : shares) column.erase(column.begin());
     for (double& s : shares[0]) s = normalised(s);
     const std::span<const double> t(temperature);
@@ -155,7 +155,7 @@ class TwoPhaseCell {
  private:
   std::int64_t layers_;
   Crystal crystal_;
-  double crystal_reading_ = 1.0;  // fraction that the order parameter finds in the hot crystal (about 0.5)
+  double crystal_reading_ = 1.0;  // fraction found by the order parameter in the hot crystal (about 0.5)
   double melt_reading_ = 0.0;     // and in the melt (about 0.05)
 };
 
@@ -166,8 +166,8 @@ bool melted(const CoexistenceRun& run) {
   return run.least_share < least_accepted_share || run.largest_order < least_order_of_crystal;
 }
 
-/// The temperature of crystal and melt in contact, and the fraction of crystal, from one cell, or from the
-/// next one where that lost a phase.
+/// Returns the temperature of crystal and melt in contact, and the crystal fraction, from one cell, or from the
+/// next one if that lost a phase.
 std::pair<double, double> find_coexistence(const Potential& potential, double pressure, double first_guess,
                                            const CoexistencePlan& section, double dt, std::int64_t seed,
                                            std::string& transcript) {
@@ -176,7 +176,7 @@ std::pair<double, double> find_coexistence(const Potential& potential, double pr
   for (std::int64_t attempt = 1; attempt <= section.attempts; ++attempt) {
     TwoPhaseCell cell(potential, pressure, start.next(), section, dt,
                       next_seed(seed, fmt::format("attempt {}", attempt)));
-    // A cell that still has both phases only needs more time; one that has lost a phase is of no use.
+    // A cell that still has both phases only needs more time; one that has lost a phase is discarded.
     for (int part = 1; part <= most_parts; ++part) {
       const CoexistenceRun run = cell.run(section.size.steps);
       const std::string reason = refusal(run);
@@ -207,7 +207,7 @@ std::pair<double, double> find_coexistence(const Potential& potential, double pr
   throw StateError(fmt::format("no coexistence found at {} GPa: {}", 1e-9 * pressure, report));
 }
 
-/// One run of the point.
+/// Computes one run of the point.
 ReplicaValues melting_point(const Potential& potential, double pressure, double first_guess,
                             const CoexistencePlan& section, double dt, std::int64_t seed,
                             std::string& transcript) {
@@ -284,13 +284,14 @@ ReplicaSet measure_coexistence(const Potential& potential, double pressure, doub
     throw InputError(fmt::format("coexistence is measured for fcc crystals, {} of {} is {}",
                                  potential.element(), potential.name(), word_of(potential.structure())));
   }
-  // Near zero pressure the step of the cold crystal serves; strongly compressed, the melt is hot as well.
+  // Near zero pressure the time step of the cold crystal is sufficient; under strong compression the melt is hot as
+  // well.
   const CompressedStart start_crystal = compressed_start(potential, pressure);
   const bool compressed = start_crystal.volume_ratio < 1.0;
   const double dt =
       time_step(potential, start_crystal.volume_ratio, compressed ? first_guess : 300.0, section.size);
-  // What a run remembers of its start would be common to all replicas: they begin where a run from the guess
-  // has ended, which takes no part in the mean.
+  // Memory of the start would be common to all replicas: they begin at the end of a run from the guess, which does
+  // not enter the mean.
   std::string search;
   const double start =
       find_coexistence(potential, pressure, first_guess, section, dt, next_seed(seed, "search"), search)

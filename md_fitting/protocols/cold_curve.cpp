@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::int64_t cells = 3;
 
-/// The axial ratio at which the stress of an hcp crystal of given volume is isotropic, which is that of least
-/// energy. Atoms of hcp sit on sites that symmetry fixes, whatever the ratio.
+/// Returns the axial ratio at which the stress of an hcp crystal of given volume is isotropic, which is that of
+/// minimum energy. The sites of hcp are fixed by symmetry for any ratio.
 double relax_axial_ratio(Crystal& crystal, double volume_per_cell) {
   Lammps& lammps = crystal.lammps();
   lammps.command("variable anisotropy equal c_virial[3]-0.5*(c_virial[1]+c_virial[2])");
@@ -84,7 +84,7 @@ void add_cold_curve(const Plan& plan, TaskList& list) {
                  try {
                    state = measure_cold(potential, structure, volume, result.transcript);
                  } catch (const StateError& error) {
-                   // A structure for comparison that does not exist at this volume is no reason to fail.
+                   // A structure used for comparison that does not exist at this volume is not an error.
                    if (own) throw;
                    result.message = error.what();
                    continue;

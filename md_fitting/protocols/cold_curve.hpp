@@ -8,15 +8,16 @@
 
 namespace whipple::md {
 
-/// A static crystal at one volume. Exact for the potential: no statistical error.
+/// Holds a static crystal at one volume. Exact for the potential: no statistical error.
 struct ColdState {
-  double pressure = 0.0;                  ///< Pa; of hcp: at the axial ratio of least energy
+  double pressure = 0.0;                  ///< Pa; for hcp at the axial ratio of minimum energy
   double specific_internal_energy = 0.0;  ///< J/kg
-  double axial_ratio = 0.0;               ///< c/a of hcp at least energy; 0 for cubic crystals
+  double axial_ratio = 0.0;               ///< c/a of hcp at minimum energy; 0 for cubic crystals
 };
 
+/// Computes the static crystal at a specific volume.
 /// @param structure fcc, bcc or hcp
-/// @param transcript the LAMMPS commands are added to it
+/// @param transcript the LAMMPS commands are appended to it
 /// @throws StateError if an hcp crystal has no energy minimum over the axial ratio near the ideal one.
 ColdState measure_cold(const Potential& potential, CrystalStructure structure, double specific_volume,
                        std::string& transcript);

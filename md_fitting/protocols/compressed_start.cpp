@@ -14,7 +14,7 @@ namespace whipple::md {
 
 CompressedStart compressed_start(const Potential& potential, double pressure) {
   constexpr std::int64_t cells = 3;
-  constexpr double small = 0.97;       // relative length that a barostat takes
+  constexpr double small = 0.97;       // relative length that a barostat can change safely
   constexpr double resolution = 1e-5;  // of the length
   const double a0 = potential.lattice_constant();
   const CompressedStart uncompressed{a0, 1.0};
@@ -26,7 +26,7 @@ CompressedStart compressed_start(const Potential& potential, double pressure) {
     return crystal.lammps().variable("virial") * metal::bar > pressure;
   };
   if (reaches(small)) return uncompressed;
-  // Beyond its least volume a potential extrapolates, or refuses.
+  // Below its smallest volume a potential extrapolates or fails.
   const double least_ratio = std::max(0.4, potential.least_volume_ratio());
   double low = std::cbrt(least_ratio);
   double high = small;

@@ -5,16 +5,16 @@
 
 namespace whipple::md {
 
-/// Where a run at constant pressure begins.
+/// Describes the initial crystal of a run at constant pressure.
 struct CompressedStart {
   double lattice_constant = 0.0;  ///< A, of the static crystal
-  double volume_ratio = 1.0;      ///< to the static crystal at zero pressure
+  double volume_ratio = 1.0;      ///< relative to the static crystal at zero pressure
 };
 
-/// Returns the static crystal at a pressure (Pa) where it is shorter than that at zero pressure by more than 3 %, and
-/// that at zero pressure otherwise: a barostat takes a crystal over small distances without harm, whereas a jump of
-/// 50 GPa heats and breaks it. Collective over the team of the point.
-/// @throws StateError if the crystal does not reach the pressure at the least volume of the potential, or V/V0 = 0.4
+/// Returns the static crystal at a pressure (Pa) if it is shorter than that at zero pressure by more than 3 %, and
+/// that at zero pressure otherwise: a barostat can change a crystal over small distances, whereas a jump of 50 GPa
+/// heats and destroys it. Collective over the team of the point.
+/// @throws StateError if the crystal does not reach the pressure at the smallest volume of the potential, or V/V0 = 0.4
 CompressedStart compressed_start(const Potential& potential, double pressure);
 
 }  // namespace whipple::md

@@ -16,7 +16,7 @@ namespace {
 constexpr double scaling_exponent = 0.325;
 constexpr std::size_t least_points = 3;
 
-/// Intercept and slope of the weighted line through y(x).
+/// Returns intercept and slope of the weighted line through y(x).
 std::array<double, 2> line(std::span<const double> x, std::span<const double> y, std::span<const double> w) {
   double s = 0.0, sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -49,7 +49,7 @@ CriticalPoint estimate_critical_point(std::span<const Saturation> points) {
     const double difference = point.liquid_density.value - point.vapour_density.value;
     if (!(difference > 0.0)) throw StateError("a melt is denser than its vapour");
     const double sigma = known_errors ? std::hypot(errors[2 * i], errors[2 * i + 1]) : 1.0;
-    // Of the difference to the power of 1/0.325, which is the straight line.
+    // Error of the difference to the power of 1/0.325, which is the straight line.
     const double stretched = sigma * std::pow(difference, 1.0 / scaling_exponent - 1.0) / scaling_exponent;
     difference_weight[i] = 1.0 / (stretched * stretched);
     mean_weight[i] = 1.0 / (sigma * sigma);

@@ -21,14 +21,14 @@ Crystal::Crystal(const Potential& potential, double lattice_constant, std::int64
   lammps_.command("create_box 1 box");
   lammps_.command("create_atoms 1 box");
   potential.apply(lammps_);
-  // A thin skin with a check at every step: hot, strongly compressed states move fast, and no atom may be
-  // missed.
+  // Use a thin skin with a check at every step: atoms in hot, strongly compressed states move fast, and no
+  // neighbour may be missed.
   lammps_.command("neighbor 1.0 bin");
   lammps_.command("neigh_modify every 1 delay 0 check yes");
   atoms_ = lammps_.atoms();
   lammps_.command("compute virial all pressure NULL virial");
   lammps_.command("compute displacement all msd com yes");
-  // Thermodynamic output keeps the computes current for the variables, also after `run 0`.
+  // Thermodynamic output keeps the computes current for the variables, including after `run 0`.
   lammps_.command("thermo_style custom step temp pe vol c_virial c_displacement[4]");
   lammps_.command("thermo_modify norm no");
   lammps_.command("variable energy equal pe/{:.17g}", atoms_);

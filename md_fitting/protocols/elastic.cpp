@@ -20,7 +20,7 @@ constexpr std::int64_t cells = 3;  // a perfect crystal has no size effect
 
 using Stress = std::array<double, 6>;  // Pa, tension positive: xx yy zz xy xz yz
 
-/// A crystal that can be strained.
+/// Holds a crystal that can be strained.
 class StrainedCrystal {
  public:
   StrainedCrystal(const Potential& potential, double a)
@@ -88,7 +88,7 @@ ElasticResult measure_elastic(const Potential& potential, double specific_volume
   std::vector<double> squares, c11, c12, c44;
   for (std::int64_t i = 1; i <= strains; ++i) {
     const double strain = largest_strain * static_cast<double>(i) / static_cast<double>(strains);
-    // The difference of both signs leaves terms of even order in the strain.
+    // The difference between both signs cancels terms of even order in the strain.
     const Stress longer = crystal.stretched(strain);
     const Stress shorter = crystal.stretched(-strain);
     const Stress right = crystal.sheared(strain);

@@ -19,7 +19,7 @@ namespace whipple::md {
 namespace {
 
 constexpr int most_parts = 10;
-/// Residual, as a fraction of the shock's heating, up to which a point counts as converged.
+/// Residual, as a fraction of the shock heating, up to which a point counts as converged.
 constexpr double accepted_residual = 0.02;
 
 }  // namespace
@@ -34,8 +34,8 @@ HugoniostatResult run_hugoniostat(const Potential& potential, const ReferenceSta
   const double dt = time_step(potential, ratio, guess.temperature, size);
   HugoniostatResult result;
 
-  // The centre of mass of the simulated crystal rests, that of the reference was corrected for it (equations
-  // 4 and 7): the thermostat needs the reference of a crystal of its own size.
+  // The centre of mass of the simulated crystal is at rest, which was corrected for in the reference (equations 4
+  // and 7): the thermostat needs the reference of a crystal of the simulated size.
   const double n = 4.0 * std::pow(static_cast<double>(size.cells), 3) * (potential.atoms_per_cell() / 4.0);
   const double modes = n / (n - 1.0);
   const ColdState rest = measure_cold(potential, structure, potential.static_volume(), result.transcript);
@@ -57,7 +57,7 @@ HugoniostatResult run_hugoniostat(const Potential& potential, const ReferenceSta
   lammps.command("timestep {:.17g}", dt);
   lammps.command("velocity all create {:.17g} {} mom yes rot no dist gaussian", 2.0 * guess.temperature,
                  seed);
-  // The temperatures of the command are placeholders: the fix sets its own from the residual.
+  // The temperatures of the command are placeholders: the fix sets the target from the residual.
   lammps.command("fix shock all nphug temp 1.0 1.0 {0:.17g} iso {1:.17g} {1:.17g} {2:.17g}", 100 * dt,
                  pressure / metal::bar, 1000 * dt);
   lammps.command("fix_modify shock e0 {:.17g} v0 {:.17g} p0 {:.17g}", n * reference_energy / electron_volt,
@@ -92,8 +92,7 @@ HugoniostatResult run_hugoniostat(const Potential& potential, const ReferenceSta
   result.temperature = series_mean(series[3]);
   result.converged = settled(result.residual_temperature, result.temperature.value);
 
-  // Energy and pressure of a crystal without the effect of its size, relative to the static one at the mean
-  // volume.
+  // Energy and pressure of a crystal without the size effect, relative to the static one at the mean volume.
   result.specific_volume = series_mean(series[2]);
   const double v = result.specific_volume.value;
   const ColdState cold = measure_cold(potential, structure, v, result.transcript);
@@ -103,9 +102,9 @@ HugoniostatResult run_hugoniostat(const Potential& potential, const ReferenceSta
   const Estimate mean_pressure = series_mean(series[1]);
   result.pressure = {cold.pressure + modes * (mean_pressure.value - cold.pressure), mean_pressure.error};
 
-  // Jump conditions (equation 9) at the imposed pressure, which the mean approaches with 1/t. The noise of
-  // the volume holds what the noise of the residual does at that pressure; the residual of a run that has not
-  // settled, read as heat at constant volume, is added.
+  // Jump conditions (equation 9) at the imposed pressure, which the mean approaches as 1/t. The noise of the volume
+  // includes the effect of the noise of the residual at that pressure; the residual of a run that has not
+  // converged, interpreted as heat at constant volume, is added.
   const double compression = reference.specific_volume.value - v;
   const double jump = cold.pressure + modes * (pressure - cold.pressure) - reference.pressure;
   if (!(compression > 0.0 && jump > 0.0)) throw StateError("the Hugoniostat did not compress the crystal");
@@ -128,7 +127,7 @@ void add_hugoniostat(const Plan& plan, TaskList& list) {
   if (!plan.hugoniostat) return;
   const RunSize size = plan.hugoniostat->size;
   for (const double pressure : plan.hugoniostat->pressure) {
-    // How far the shock compresses, from the static crystal at rest: enough to see the end of the table.
+    // Estimate the compression from the static crystal at zero pressure: sufficient to detect the end of the table.
     const Potential& potential = list.potential();
     const ReferenceState at_rest = static_reference(potential);
     try {

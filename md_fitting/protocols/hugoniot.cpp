@@ -11,14 +11,13 @@
 namespace whipple::md {
 namespace {
 
-/// Two runs give a slope worth more than the model's only if their temperatures differ by this fraction.
+/// Minimum relative temperature difference of two runs for which their slope is better than that of the model.
 constexpr double secant_share = 0.1;
 
-/// Estimates the relative error of dP/dT, one standard deviation: a guessed Grueneisen coefficient, or the noise of a
-/// secant.
+/// Relative error of dP/dT, one standard deviation: a guessed Grueneisen coefficient, or the noise of a secant.
 constexpr double slope_error = 0.15;
 
-/// dG/dT and the isochoric slopes of energy and pressure.
+/// Holds dG/dT and the isochoric slopes of energy and pressure.
 struct Slopes {
   double energy = 0.0;    ///< dE/dT at constant V, J/(kg K)
   double pressure = 0.0;  ///< dP/dT at constant V, Pa/K
@@ -32,7 +31,7 @@ struct Run {
   State state;
 };
 
-/// The final values as a function of the measured numbers E, P, E0, V0 (V is exact) and the slopes:
+/// Holds the final values as a function of the measured numbers E, P, E0, V0 (V is exact) and the slopes;
 /// differentiated numerically for the errors.
 struct Solution {
   std::array<double, 5> values;  ///< temperature, pressure, energy, shock velocity, particle velocity
@@ -68,7 +67,7 @@ HugoniotState solve_hugoniot(StateSource& source, const ReferenceState& referenc
   const double half = 0.5 * (reference_volume - specific_volume);
   Slopes slopes{search.specific_heat, search.gruneisen * search.specific_heat / specific_volume};
   if (!(slopes.residual(half) > 0.0)) {
-    // At compressions where the model's slope changes its sign only the energy part is a safe guide.
+    // At compressions where the slope of the model changes sign, only the energy part is reliable.
     slopes.pressure = 0.0;
   }
   const auto residual = [&](const State& state) {
@@ -102,7 +101,7 @@ HugoniotState solve_hugoniot(StateSource& source, const ReferenceState& referenc
     }
     former = run;
     const double change = std::abs(next - temperature);
-    // A step may not leave the region in which the slope was taken.
+    // A step may not leave the region in which the slope is valid.
     temperature = std::fmin(std::fmax(next, 0.4 * temperature), 2.5 * temperature);
     if (change < search.temperature_tolerance * temperature) break;
   }

@@ -34,7 +34,7 @@ HugoniotGuess guess_hugoniot(const Potential& potential, const ReferenceState& r
 }
 
 double least_guess_volume(const Potential& potential, const ReferenceState& reference) {
-  // A KIM model's cold curve ends somewhere, and (10) differentiates it.
+  // The cold curve of a KIM model has a finite range, and (10) differentiates it.
   return std::fmax(0.3 * reference.specific_volume.value, 1.005 * potential.least_known_volume());
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The points of the Hugoniot: `solve_hugoniot` on molecular dynamics.
+// Points of the Hugoniot: `solve_hugoniot` on molecular dynamics.
 #include "md_fitting/lammps/units.hpp"
 #include "md_fitting/protocols/catalogue.hpp"
 #include "md_fitting/protocols/hugoniot.hpp"

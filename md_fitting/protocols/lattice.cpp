@@ -20,7 +20,7 @@ LatticeResult measure_lattice(const Potential& potential) {
     crystal.evaluate();
     return crystal.lammps().variable("virial");  // bar
   };
-  // Secant search for zero pressure from the lattice sum's answer.
+  // Secant search for zero pressure, starting from the result of the lattice sum.
   double former = 1.001 * potential.lattice_constant();
   double former_pressure = pressure(former);
   double a = potential.lattice_constant();

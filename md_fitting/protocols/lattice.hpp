@@ -6,8 +6,8 @@
 
 namespace whipple::md {
 
-/// The static crystal at zero pressure, as LAMMPS computes it. No statistical errors: those given are of the
-/// root.
+/// Holds the static crystal at zero pressure as computed by LAMMPS. The stated errors are those of the root search;
+/// there are no statistical errors.
 struct LatticeResult {
   Estimate lattice_constant;  ///< m
   Estimate cohesive_energy;   ///< J/kg, negative

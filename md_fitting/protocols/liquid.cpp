@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The melt at given temperature and pressure.
+// Melt at given temperature and pressure.
 #include "md_fitting/lammps/units.hpp"
 #include "md_fitting/protocols/catalogue.hpp"
 #include "md_fitting/protocols/crystal.hpp"
@@ -8,7 +8,7 @@
 namespace whipple::md {
 namespace {
 
-/// Between a melt (below 0.1) and a crystal close to its melting point (about 0.5).
+/// Threshold between a melt (below 0.1) and a crystal close to its melting point (about 0.5).
 constexpr double largest_liquid_share = 0.25;
 
 TaskResult compute_liquid(const Potential& potential, const RunSize& size, std::int64_t seed, double pressure,
@@ -18,7 +18,7 @@ TaskResult compute_liquid(const Potential& potential, const RunSize& size, std::
   const Phase phase =
       measure_phase(potential, true, pressure, temperature, size, dt, seed, result.transcript);
   const double mass = potential.mass();
-  // Energies of a melt hold the kinetic part of 3N degrees of freedom (equation 3).
+  // Energies of a melt include the kinetic part of 3N degrees of freedom (equation 3).
   const double kinetic = 1.5 * metal::boltzmann * temperature;
   const auto energy = [&](const Estimate& e) {
     return Estimate{metal::specific_energy(e.value + kinetic, mass), metal::specific_energy(e.error, mass)};

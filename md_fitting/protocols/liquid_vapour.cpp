@@ -21,7 +21,8 @@ namespace {
 
 constexpr std::int64_t frame_steps = 200;
 constexpr std::int64_t pressure_interval = 10;
-/// A film that is whole has its largest density in its middle, but for noise.
+/// Minimum ratio of the density in the middle of the film to the largest density; an intact film has 1 except for
+/// noise.
 constexpr double least_centre_share = 0.75;
 /// Temperature at which the film is prepared, as a fraction of the final one.
 constexpr double prepared_share = 0.6;
@@ -32,7 +33,7 @@ constexpr double least_space = 6.0;  // A: on either side
 constexpr double least_vapour_atoms = 4.0;
 constexpr const char* vapour_atoms = "vapour_atoms";  // of one run, no result of the point
 
-/// Distances of all atoms from the centre of the film.
+/// Returns the distances of all atoms from the centre of the film.
 std::vector<double> distances_from_film(const std::vector<double>& positions, double period) {
   std::vector<double> z(positions.size() / 3);
   for (std::size_t i = 0; i < z.size(); ++i) z[i] = positions[3 * i + 2];
@@ -81,7 +82,7 @@ Interface find_interface(std::span<const double> profile, double step) {
   const double middle = vapour + 0.5 * difference;
   std::size_t place = 1;
   while (place < n && !falls_through(place, middle)) ++place;
-  // Both ends next to the middle: further away the noise of the plateaus passes 90 and 10 % as well.
+  // Take both ends next to the middle: further away the noise of the plateaus also crosses 90 and 10 %.
   std::size_t inner = place;
   while (inner > 1 && !falls_through(inner, nearly_liquid)) --inner;
   std::size_t outer = place;
@@ -95,7 +96,7 @@ Interface find_interface(std::span<const double> profile, double step) {
 
 namespace {
 
-/// One run of the point; the number of atoms in its vapour besides.
+/// Computes one run of the point, including the number of atoms in its vapour.
 ReplicaValues measure_film(const Potential& potential, double temperature, const LiquidVapourPlan& section,
                            std::int64_t seed, std::string& transcript) {
   const double mass = potential.mass();
@@ -103,8 +104,8 @@ ReplicaValues measure_film(const Potential& potential, double temperature, const
   const double dt = time_step(potential, 1.2, temperature, size);
   Crystal crystal(potential, 1.02 * potential.lattice_constant(), size.cells, size.cells, 2 * size.cells);
   Lammps& lammps = crystal.lammps();
-  // A melt without surface at zero pressure and so far below the critical temperature that it holds together;
-  // then the space beside it, and slow heating. A film that starts hot or dense tears as it expands.
+  // Start from a melt without surface at zero pressure, well below the critical temperature so that it is cohesive;
+  // then add the adjacent space and heat slowly. A film that starts hot or dense ruptures as it expands.
   const double cool = prepared_share * temperature;
   make_melt(crystal, cool, dt, seed);
   lammps.command("fix prepare all npt temp {0:.17g} {0:.17g} {1:.17g} iso 0.0 0.0 {2:.17g}", cool, 100 * dt,
@@ -127,7 +128,7 @@ ReplicaValues measure_film(const Potential& potential, double temperature, const
   lammps.command("fix integrate all nvt temp {0:.17g} {0:.17g} {1:.17g}", temperature, 100 * dt);
   lammps.command("run {} post no", size.equilibration_steps / 2);
 
-  // Places are kept, because where melt and vapour begin is known only from the mean profile.
+  // Keep the positions, because the boundary of melt and vapour is known only from the mean profile.
   const auto frames = std::max<std::int64_t>(16, size.steps / frame_steps);
   std::vector<std::vector<double>> places;
   std::vector<double> normal, surface;
@@ -135,7 +136,7 @@ ReplicaValues measure_film(const Potential& potential, double temperature, const
     const auto part = crystal.sample({"pxx", "pyy", "pzz"}, pressure_interval, frame_steps);
     for (std::size_t i = 1; i < part[0].size(); ++i) {
       normal.push_back(metal::bar * part[2][i]);
-      // Two surfaces share the stress that pulls along the film.
+      // Two surfaces carry the tangential stress along the film.
       surface.push_back(0.5 * period * metal::angstrom * metal::bar *
                         (part[2][i] - 0.5 * (part[0][i] + part[1][i])));
     }
@@ -182,7 +183,7 @@ ReplicaSet measure_liquid_vapour(const Potential& potential, double temperature,
   ReplicaSet set = run_replicas(section.replicas, seed, [&](std::int64_t own_seed, std::string& transcript) {
     return measure_film(potential, temperature, section, own_seed, transcript);
   });
-  // Judged by the mean: a choice among the runs would keep those with the denser vapour.
+  // Apply the criterion to the mean: selecting among the runs would keep those with the denser vapour.
   const double atoms = set.mean(vapour_atoms).value;
   set.values.erase(vapour_atoms);
   if (atoms < least_vapour_atoms) {

@@ -11,26 +11,27 @@
 
 namespace whipple::md {
 
-/// A film of melt between its own vapour, at constant volume and temperature, in independent runs. Results:
-/// liquid_density and vapour_density (kg/m^3) of the melt inside the film and of the vapour outside,
-/// vapour_pressure (Pa), the stress normal to the film, surface_energy (J/m^2), interface_width (m), over
-/// which the density falls from 90 to 10 %.
-/// @throws StateError if in too many runs film and vapour do not separate (too hot), or if the vapour holds
-/// too few atoms (too cold).
+/// Simulates a film of melt in equilibrium with its vapour, at constant volume and temperature, in independent
+/// runs. Results: liquid_density and vapour_density (kg/m^3) of the melt inside the film and of the vapour outside,
+/// vapour_pressure (Pa), the stress normal to the film, surface_energy (J/m^2), interface_width (m), over which the
+/// density falls from 90 to 10 %.
+/// @throws StateError if film and vapour do not separate in too many runs (too hot), or if the vapour contains too
+/// few atoms (too cold).
 ReplicaSet measure_liquid_vapour(const Potential& potential, double temperature,
                                  const LiquidVapourPlan& section, std::int64_t seed);
 
-/// Centre of a group of places in a period: the mean of their directions on a circle.
+/// Returns the centre of a group of positions in a period: the mean of their directions on a circle.
 /// @returns 0 ... period
 double circular_mean(std::span<const double> places, double period);
 
-/// The two plateaus of a density profile and what lies between, in the coordinate of the profile.
+/// Describes the interface between the two plateaus of a density profile, in the coordinate of the profile.
 struct Interface {
-  double place = 0.0;  ///< where the density is half way
+  double place = 0.0;  ///< position where the density is half way
   double width = 0.0;  ///< from 90 to 10 %
 };
+/// Finds the interface in a density profile.
 /// @param profile density over the distance from the centre of the film, in equal steps
-/// @throws StateError if the profile has no two plateaus.
+/// @throws StateError if the profile does not have two plateaus.
 Interface find_interface(std::span<const double> profile, double step);
 
 }  // namespace whipple::md

@@ -17,7 +17,7 @@
 namespace whipple::md {
 namespace {
 
-/// A search run takes a quarter of the steps: its noise moves the next temperature, not the result.
+/// Divisor of the steps for search runs, whose noise affects the next temperature but not the result.
 constexpr std::int64_t search_share = 4;
 
 }  // namespace
@@ -45,7 +45,7 @@ State NvtStateSource::state(double specific_volume, double temperature, Effort e
   const double cold_energy = lammps.variable("energy");
   const double cold_virial = lammps.variable("virial");
   lammps.command("timestep {:.17g}", dt);
-  // Half of the kinetic energy of the perfect crystal becomes potential energy within a vibration.
+  // Half of the kinetic energy of the perfect crystal is converted to potential energy within a vibration.
   lammps.command("velocity all create {:.17g} {} mom yes rot no dist gaussian", 2.0 * temperature, seed);
   lammps.command("fix integrate all nve");
   couple_to_bath(lammps, temperature, dt, seed);
@@ -64,8 +64,7 @@ State NvtStateSource::state(double specific_volume, double temperature, Effort e
   state.solid = std::sqrt(last_displacement) < melting_displacement * neighbour &&
                 state.crystal_share > solid_share_limit;
 
-  // Equations 3 to 5: kinetic part of 3N degrees of freedom; the potential part of a crystal is carried by 3N
-  // - 3.
+  // Equations 3 to 5: kinetic part of 3N degrees of freedom; the potential part of a crystal has 3N - 3.
   const double n = crystal.atoms();
   const double modes = state.solid ? n / (n - 1.0) : 1.0;
   const double kinetic_energy = 1.5 * metal::boltzmann * temperature;  // eV

@@ -11,14 +11,14 @@
 
 namespace whipple::md {
 
-/// A melt is made from a crystal at this multiple of the temperature at which it is wanted.
+/// Factor on the target temperature at which a crystal is melted to prepare a melt.
 inline constexpr double overheating = 2.5;
 
-/// Melts a crystal at constant volume by overheating and leaves the melt at the temperature, with the time
-/// step dt (ps).
+/// Melts a crystal at constant volume by overheating, then brings the melt to the temperature, with the time step
+/// dt (ps).
 void make_melt(Crystal& crystal, double temperature, double dt, std::int64_t seed);
 
-/// One phase alone at constant pressure and temperature.
+/// Holds one phase at constant pressure and temperature.
 struct Phase {
   Estimate volume;    ///< A^3 per atom
   Estimate enthalpy;  ///< eV per atom, without the kinetic part
@@ -26,11 +26,12 @@ struct Phase {
   double crystal_share = 0.0;
 };
 
-/// @param liquid     a melt, made by `overheating` at constant volume; otherwise a crystal
+/// Measures one phase in a separate cell.
+/// @param liquid     a melt, prepared by `overheating` at constant volume; otherwise a crystal
 /// @param pressure   Pa
-/// @param size       cells along each edge, steps to settle and steps that are averaged
+/// @param size       cells along each edge, equilibration steps and averaged steps
 /// @param dt         ps
-/// @param transcript the LAMMPS commands are added to it
+/// @param transcript the LAMMPS commands are appended to it
 Phase measure_phase(const Potential& potential, bool liquid, double pressure, double temperature,
                     const RunSize& size, double dt, std::int64_t seed, std::string& transcript);
 

@@ -19,7 +19,7 @@ namespace {
 /// Fraction of slipped atoms below which the compression is elastic.
 constexpr double least_slipped_share = 0.05;
 constexpr int frames = 60;
-/// Length that the front runs through, as a fraction of the crystal: the surface behind must not matter.
+/// Distance travelled by the front, as a fraction of the crystal, so that the rear surface has no effect.
 constexpr double run_share = 0.75;
 constexpr std::size_t parts = 5;
 constexpr double velocity_unit = metal::angstrom / metal::picosecond;  // m/s
@@ -33,7 +33,7 @@ double slope(std::span<const double> x, std::span<const double> y) {
   return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
 
-/// Where a shock of given particle velocity leads to.
+/// Estimates the state behind a shock of given particle velocity.
 HugoniotGuess guess_at_velocity(const Potential& potential, const ReferenceState& reference,
                                 double velocity) {
   double larger = reference.specific_volume.value;
@@ -53,7 +53,7 @@ HugoniotGuess guess_at_velocity(const Potential& potential, const ReferenceState
   return guess_hugoniot(potential, reference, smaller);
 }
 
-/// The layers of a crystal by the places of its atoms before the shock.
+/// Assigns atoms to layers by their positions before the shock.
 class Layers {
  public:
   Layers(const std::vector<double>& positions, double spacing) : index_(positions.size() / 3) {
@@ -64,7 +64,7 @@ class Layers {
   }
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] std::size_t of(std::size_t atom) const { return index_[atom]; }
-  /// Means of one component of a per-atom vector.
+  /// Returns the layer means of one component of a per-atom vector.
   [[nodiscard]] std::vector<double> mean(const std::vector<double>& vectors, std::size_t component) const {
     std::vector<double> sum(count_), number(count_);
     for (std::size_t i = 0; i < index_.size(); ++i) {
@@ -144,7 +144,7 @@ PistonResult measure_piston(const Potential& potential, const ReferenceState& re
 
   Crystal crystal(potential, a, section.size.cells, section.size.cells, section.length);
   Lammps& lammps = crystal.lammps();
-  // Layers in the middle of their slices: no thermal motion carries an atom around to the other end.
+  // Centre the layers in their slices: no thermal motion moves an atom across the periodic boundary.
   lammps.command("displace_atoms all move 0 0 {:.17g} units box", 0.5 * spacing);
   lammps.command("timestep {:.17g}", dt);
   lammps.command("velocity all create {:.17g} {} mom yes rot no dist gaussian", 2.0 * reference_temperature,
@@ -173,7 +173,7 @@ PistonResult measure_piston(const Potential& potential, const ReferenceState& re
     if (place < 0.0) continue;
     if (place > 0.95 * static_cast<double>(layers.count())) break;
     time.push_back(static_cast<double>(frame * frame_steps) * dt * metal::picosecond);
-    // The distance in the material before the shock: its rate is Us, whatever the layers do behind.
+    // Distance in the material ahead of the shock: its rate is Us, independent of the motion behind.
     front.push_back((place + 0.5) * spacing * metal::angstrom);
   }
   if (front.size() < frames / 2) throw StateError("no shock front was seen to run through the crystal");
@@ -181,11 +181,11 @@ PistonResult measure_piston(const Potential& potential, const ReferenceState& re
   result.shock_velocity = late_slope(time, front);
   const double shock = result.shock_velocity.value;
   if (!(shock > particle_velocity)) throw StateError("the shock front does not run ahead of the piston");
-  // Jump of momentum (equation 9).
+  // Momentum jump condition (equation 9).
   result.pressure = {reference.pressure + shock * particle_velocity / v0,
                      result.shock_velocity.error * particle_velocity / v0};
 
-  // Behind the front: away from the mirror, which heats its neighbours, and from the front itself.
+  // Average behind the front, away from the mirror, which heats adjacent layers, and from the front.
   const double reach = front.back() / metal::angstrom / spacing;
   const auto first = static_cast<std::size_t>(0.2 * reach);
   const auto last = static_cast<std::size_t>(0.8 * reach);
@@ -256,7 +256,7 @@ void add_piston(const Plan& plan, TaskList& list) {
                          size_settings(section.size),
                          list.first_key("zero_pressure_volume")};
     request.settings["length"] = std::to_string(section.length);
-    request.settings.erase("steps");  // the way of the front decides
+    request.settings.erase("steps");  // the run length is set by the travel of the front
     list.add(request, [&potential, section, velocity](std::int64_t seed, const PointRecord* zero_pressure) {
       const ReferenceState reference = reference_state(*zero_pressure);
       const PistonResult shock = measure_piston(potential, reference, zero_pressure->condition("temperature"),

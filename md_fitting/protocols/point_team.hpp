@@ -7,15 +7,15 @@
 
 namespace whipple::md {
 
-/// The ranks on which the calling rank's simulations run: its own alone, unless a PointTeam says otherwise.
+/// Returns the communicator for the simulations of the calling rank: the rank alone, unless a PointTeam exists.
 MPI_Comm point_communicator();
 
-/// Ranks that compute one point together: the first of each, its leader, takes points from the queue and
-/// talks to the store, the others follow it. While a team lives, simulations run on its ranks.
+/// Groups ranks that compute one point together: the first rank of each team, its leader, takes points from the
+/// queue and accesses the database; the others follow it. While a team exists, simulations run on its ranks.
 class PointTeam {
  public:
-  /// Splits the ranks into teams of neighbours. Collective.
-  /// @throws InputError on every rank if the ranks are no multiple of those of a team
+  /// Splits the ranks into teams of consecutive ranks. Collective.
+  /// @throws InputError on every rank if the number of ranks is not a multiple of the team size
   PointTeam(MPI_Comm communicator, int ranks_per_point);
   PointTeam(const PointTeam&) = delete;
   PointTeam& operator=(const PointTeam&) = delete;
@@ -25,16 +25,16 @@ class PointTeam {
   /// Returns the communicator of all leaders; null on the others.
   [[nodiscard]] MPI_Comm leaders() const { return leaders_; }
 
-  /// One point, or a further segment of it, that the team computes.
+  /// Identifies a point, or a further segment of it, for the team to compute.
   struct Order {
     long task = 0;
     long segment = 0;
   };
-  /// Leader: tells the others what they compute with it now.
+  /// Announces to the followers the order that they compute with the leader. Leader only.
   void announce(const Order& order) const;
-  /// Leader: there is nothing more to do.
+  /// Dismisses the followers at the end of the campaign. Leader only.
   void dismiss() const;
-  /// Follower: waits for an order; nothing if dismissed.
+  /// Waits for an order; returns nothing if dismissed. Followers only.
   [[nodiscard]] std::optional<Order> wait() const;
 
  private:

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What quantum nuclei add to the classical ones at a volume and a temperature, from the vibrations of the
-// crystal.
+// Quantum corrections to classical nuclei at a volume and a temperature, from the vibrations of the crystal.
 #include <fmt/format.h>
 
 #include <array>
@@ -16,7 +15,7 @@
 namespace whipple::md {
 namespace {
 
-/// Of the volumes beside the point, for derivatives: V (1 -+ step) and V (1 -+ 2 step).
+/// Relative spacing of the volumes adjacent to the point, for derivatives: V (1 -+ step) and V (1 -+ 2 step).
 constexpr double volume_step = 0.01;
 
 double mean_of(const std::vector<double>& frequencies, double (*function)(double)) {
@@ -25,7 +24,8 @@ double mean_of(const std::vector<double>& frequencies, double (*function)(double
   return sum / static_cast<double>(frequencies.size());
 }
 
-/// -df/dV by four values beside the point; the error is the difference to the derivative by the two nearest.
+/// Returns -df/dV from the four values adjacent to the point; the error is the difference from the two-point
+/// derivative.
 Estimate negative_slope(const std::array<double, 5>& f, double volume) {
   const double near = -(f[3] - f[1]) / (2.0 * volume_step * volume);
   const double far = -(f[4] - f[0]) / (4.0 * volume_step * volume);
@@ -36,7 +36,7 @@ Estimate negative_slope(const std::array<double, 5>& f, double volume) {
 TaskResult measure(const Potential& potential, const QuantumPlan& section, double volume,
                    double temperature) {
   TaskResult result;
-  const double per_mass = 3.0 / (potential.mass() * metal::dalton);  // three vibrations of an atom
+  const double per_mass = 3.0 / (potential.mass() * metal::dalton);  // three vibrations per atom
   std::array<double, 5> free_energy{}, zero_point{}, logarithm{};
   for (std::size_t i = 0; i < free_energy.size(); ++i) {
     const double here = volume * (1.0 + volume_step * (static_cast<double>(i) - 2.0));

@@ -24,8 +24,8 @@ double weighted_error(double n, double first, double m, double second) {
 
 bool of_replicas(const PointRecord& point) { return point.provenance.contains("replicas"); }
 
-/// One standard error above the stated error of n replicas, over it: a point that ends as soon as its runs
-/// happen to agree would be worse than its target.
+/// Returns the ratio of the error plus its standard error to the stated error of n replicas: a point that stopped
+/// as soon as its runs agreed by chance would miss its target.
 double uncertain(const PointRecord& point, const std::string& quantity) {
   const auto runs = point.blocks.find(quantity);
   if (!of_replicas(point) || runs == point.blocks.end()) return 1.0;
@@ -64,10 +64,10 @@ PointRecord join(const PointRecord& point, const PointRecord& segment) {
   for (auto& [name, means] : joined.blocks) {
     const auto more = segment.blocks.find(name);
     if (more != segment.blocks.end()) means.insert(means.end(), more->second.begin(), more->second.end());
-    // Each block is a run of its own: all together are one larger set.
+    // Each block is an independent run: together they form one larger set.
     if (of_replicas(joined)) joined.results[name] = replica_mean(means);
   }
-  // The correlation of the errors, of energy and what was measured with it, is that of the joint covariance.
+  // The correlation of the errors, of energy and the quantity measured with it, is that of the joint covariance.
   if (joined.results.contains("error_correlation")) {
     const std::string partner = joined.results.contains("pressure") ? "pressure" : "specific_volume";
     const std::string energy = "specific_internal_energy";

@@ -19,9 +19,9 @@
 namespace whipple::md {
 namespace {
 
-/// A run has failed when its tension has fallen below this fraction of the largest.
+/// Fraction of the maximum tension below which a run counts as failed.
 constexpr double failed_share = 0.5;
-/// The tension is averaged over this volume strain: far less than what the failure takes.
+/// Volume strain over which the tension is averaged: much less than the failure strain.
 constexpr double window_strain = 0.004;
 constexpr double part_strain = 0.02;
 constexpr std::int64_t interval = 5;
@@ -45,9 +45,8 @@ ReplicaValues stretch(const Potential& potential, double temperature, const Spal
   }
   const double initial_volume = lammps.variable("volume");  // A^3 per atom
 
-  // Every edge grows at one constant rate and every atom moves with its place from the beginning: a uniform
-  // expansion without a force that drives it. Temperature and pressure are those of the motion relative to
-  // it.
+  // Every edge grows at one constant rate and every atom initially moves with its position: a uniform expansion
+  // without a driving force. Temperature and pressure are those of the motion relative to it.
   const double rate = section.strain_rate * metal::picosecond / 3.0;  // 1/ps, of each edge
   for (const char axis : {'x', 'y', 'z'}) {
     lammps.command("variable flow_{0} atom {1:.17g}*({0}-0.5*({0}lo+{0}hi))", axis, rate);
@@ -70,7 +69,7 @@ ReplicaValues stretch(const Potential& potential, double temperature, const Spal
   double strain = 0.0;
   while (strain < section.largest_strain) {
     const auto part = crystal.sample({"tension", "relative_temperature", "volume"}, interval, steps);
-    // The first sample of a part is the last of the one before.
+    // The first sample of a part is the last of the previous one.
     for (std::size_t k = 0; k < 3; ++k)
       history[k].insert(history[k].end(), part[k].begin() + 1, part[k].end());
     strain = history[2].back() / initial_volume - 1.0;

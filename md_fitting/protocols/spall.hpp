@@ -11,15 +11,14 @@
 
 namespace whipple::md {
 
-/// The largest tension of a crystal that expands uniformly and without exchange of heat, from zero pressure:
-/// spall_strength (Pa), spall_temperature (K) and spall_specific_volume (m^3/kg) where it is reached, and
-/// specific_volume before, of independent runs.
-/// @throws StateError if too many runs end without a result: the crystal melted before the tension, or did
-/// not fail.
+/// Measures the maximum tension of a crystal in uniform adiabatic expansion from zero pressure: spall_strength
+/// (Pa), spall_temperature (K) and spall_specific_volume (m^3/kg) at the maximum, and the initial specific_volume,
+/// from independent runs.
+/// @throws StateError if too many runs end without a result: the crystal melted before the maximum, or did not fail.
 ReplicaSet measure_spall(const Potential& potential, double temperature, const SpallPlan& section,
                          std::int64_t seed);
 
-/// The largest mean over `window` neighbouring samples and where its window begins.
+/// Holds the largest mean over `window` consecutive samples and the first index of its window.
 struct Peak {
   double value = 0.0;
   std::size_t first = 0;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t least_blocks = 16;
 
-/// Means of blocks of one length; what is left over at the beginning is dropped.
+/// Returns means of blocks of one length; leftover samples at the beginning are dropped.
 std::vector<double> means_of_length(std::span<const double> series, std::size_t length) {
   const std::size_t blocks = series.size() / length;
   series = series.last(blocks * length);
@@ -28,7 +28,7 @@ std::vector<double> means_of_length(std::span<const double> series, std::size_t 
   return means;
 }
 
-/// Standard error of the mean from blocks of one length.
+/// Returns the standard error of the mean from blocks of one length.
 double error_with_blocks(std::span<const double> series, std::size_t length) {
   const std::vector<double> means = means_of_length(series, length);
   const std::size_t blocks = means.size();
@@ -39,19 +39,19 @@ double error_with_blocks(std::span<const double> series, std::size_t length) {
 }
 
 constexpr double window_in_times = 5.0;
-/// An alternating series has a mean better than its samples tell, but not without limit.
+/// Lower limit: an alternating series has a mean better than its samples suggest, but not without limit.
 constexpr double least_time = 0.05;
 
-/// Mean product of deviations that are `lag` samples apart, over all of them.
+/// Returns the mean product of deviations that are `lag` samples apart, over all of them.
 double autocovariance(std::span<const double> deviations, std::size_t lag) {
   return std::inner_product(deviations.begin(), deviations.end() - static_cast<std::ptrdiff_t>(lag),
                             deviations.begin() + static_cast<std::ptrdiff_t>(lag), 0.0) /
          static_cast<double>(deviations.size());
 }
 
-/// Period (samples) of a series whose variance is mostly that of a vibration: half a period later the
-/// deviations have turned round. Zero: it is none. The first two sign changes of the autocovariance are half
-/// a period apart.
+/// Returns the period (samples) of a series whose variance is mostly that of a vibration, whose deviations change
+/// sign after half a period; zero for other series. The first two sign changes of the autocovariance are half a
+/// period apart.
 double vibration_period(std::span<const double> deviations, double variance) {
   constexpr std::size_t longest_lag = 256;
   double former = variance;
@@ -70,7 +70,7 @@ double vibration_period(std::span<const double> deviations, double variance) {
   return 0.0;
 }
 
-/// Length of about 1/16 of a series that holds whole periods, so that a vibration leaves nothing in the
+/// Returns a length of about 1/16 of a series that contains whole periods, so that a vibration cancels in the
 /// means.
 std::size_t length_of_whole_periods(std::size_t samples, double period) {
   const double periods = std::fmax(1.0, std::round(static_cast<double>(samples / least_blocks) / period));
@@ -176,9 +176,9 @@ double error_correlation(std::span<const double> first, std::span<const double> 
     yy += (y[b] - mean_y) * (y[b] - mean_y);
     xy += (x[b] - mean_x) * (y[b] - mean_y);
   }
-  // A constant series, up to the rounding of its mean, has no error that another could share.
+  // A constant series, up to the rounding of its mean, has no error to be correlated.
   if (xx <= 1e-28 * n * mean_x * mean_x || yy <= 1e-28 * n * mean_y * mean_y) return 0.0;
-  return std::clamp(xy / std::sqrt(xx * yy), -1.0, 1.0);  // within rounding by Cauchy and Schwarz
+  return std::clamp(xy / std::sqrt(xx * yy), -1.0, 1.0);  // within rounding by the Cauchy-Schwarz inequality
 }
 
 }  // namespace whipple::md

@@ -13,7 +13,7 @@
 namespace whipple::md {
 namespace {
 
-/// Provenance that all points of a plan share.
+/// Returns the provenance common to all points of a plan.
 std::map<std::string, std::string> common_settings(const Plan& plan, const Potential& potential) {
   std::map<std::string, std::string> settings = {
       {"element", potential.element()},
@@ -35,9 +35,9 @@ std::map<std::string, std::string> common_settings(const Plan& plan, const Poten
   return settings;
 }
 
-/// Everything that the numbers of a point depend on, as text.
+/// Returns everything on which the numbers of a point depend, as text.
 std::string identity(const Task& task) {
-  // Names and places change no number; everything else does.
+  // Names and file locations change no number; all other entries may.
   static const std::set<std::string> without_effect = {
       "potential",         "potential_file",    "potential_source", "static_specific_volume",
       "density_table_end", "validity_pressure", "validity_reason"};
@@ -149,8 +149,7 @@ std::string with_validity(std::string message, const PointRecord& point) {
 
 std::string structure_remark(double crystal_share, bool solid, double displacement) {
   constexpr double lindemann = 0.2;  // crystals melt at 0.15, overheated ones without surfaces a little above
-  constexpr double whole =
-      0.9;  // a cavity or a stacking fault takes more than a tenth of a few hundred atoms
+  constexpr double whole = 0.9;      // a cavity or stacking fault involves more than a tenth of the atoms
   if (!solid) return fmt::format("the crystal melted (fraction of crystal {:.2f})", crystal_share);
   if (crystal_share < whole) {
     return fmt::format("the crystal has defects or a cavity (fraction of crystal {:.2f})", crystal_share);

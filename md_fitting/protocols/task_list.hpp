@@ -12,39 +12,39 @@
 
 namespace whipple::md {
 
-/// Describes a point that a protocol wants measured, as far as it differs from the other points of the plan.
+/// Describes a point requested by a protocol, as far as it differs from the other points of the plan.
 struct PointRequest {
   std::map<std::string, double> conditions;     ///< SI; units by `unit_of`
-  std::map<std::string, std::string> settings;  ///< sizes, steps and choices on which the numbers depend
-  std::string dependency;                       ///< key of the point that is needed first; empty: none
-  Precision precision{};                        ///< no part of the key
+  std::map<std::string, std::string> settings;  ///< sizes, steps and choices that affect the numbers
+  std::string dependency;                       ///< key of the point that is required first; empty: none
+  Precision precision{};                        ///< not part of the key
 };
 
-/// Collects the tasks of a plan: each protocol adds its own.
+/// Collects the tasks of a plan, to which each protocol adds points.
 class TaskList {
  public:
-  /// @param seed       of this point, made from its key
-  /// @param dependency the finished point that was asked for; null if none was
+  /// @param seed       of this point, derived from its key
+  /// @param dependency the requested finished point; null if none was requested
   using Compute = std::function<TaskResult(std::int64_t seed, const PointRecord* dependency)>;
 
   /// @param potential must outlive the tasks
   TaskList(const Plan& plan, const Potential& potential);
 
-  /// The points that follow belong to this protocol.
+  /// Assigns the points that follow to a protocol.
   void begin_protocol(const std::string& name, int revision);
 
   [[nodiscard]] const Potential& potential() const { return potential_; }
-  /// Notes an error of the plan.
+  /// Records an error in the plan.
   void fault(const std::string& text);
-  /// Notes an error unless the potential covers the volume ratio.
+  /// Records an error unless the potential covers the volume ratio.
   void require_range(double volume_ratio);
-  /// Adds a point, unless the plan asked for the same one before. Returns its key. Notes an error if its box
-  /// is narrower than the cutoff: atoms would interact with their own images.
+  /// Adds a point, unless the plan already contains it. Returns its key. Records an error if its box is narrower
+  /// than the cutoff, since atoms would interact with their periodic images.
   std::string add(const PointRequest& request, Compute compute);
-  /// Key of the first point of a protocol; empty: there is none yet.
+  /// Returns the key of the first point of a protocol; empty if there is none yet.
   [[nodiscard]] std::string first_key(const std::string& protocol) const;
 
-  /// @throws InputError with all faults, if any.
+  /// Returns the tasks. @throws InputError with all faults, if any.
   std::vector<Task> take();
 
  private:
@@ -59,20 +59,20 @@ class TaskList {
   std::string faults_;
 };
 
-/// The settings of a run as they enter the key of a point.
+/// Returns the settings of a run that enter the key of a point.
 std::map<std::string, std::string> size_settings(const RunSize& size);
 
-/// Translates a section's target to points whose segments have the steps of `size`, `replicas` times.
+/// Converts the target of a section to points whose segments have the steps of `size`, `replicas` times.
 Precision precision_of(const std::string& quantity, bool relative, const Target& target, const RunSize& size,
                        std::int64_t replicas = 1);
 
-/// The remark of a point whose crystal did not survive, or holds defects or a cavity; empty for a crystal.
+/// Returns the remark for a point whose crystal has melted or contains defects or a cavity; empty for an intact
+/// crystal.
 /// @param crystal_share of the atoms, in the nearest minimum of the energy
-/// @param displacement  root mean square, over the distance of nearest neighbours
+/// @param displacement  root mean square, over the nearest-neighbour distance
 std::string structure_remark(double crystal_share, bool solid, double displacement = 0.0);
 
-/// Adds to the remark of a finished point that its pressure is beyond the validity of its potential, if it
-/// is.
+/// Adds a remark to a finished point whose pressure is beyond the validity of its potential.
 std::string with_validity(std::string message, const PointRecord& point);
 
 }  // namespace whipple::md

@@ -20,28 +20,27 @@ struct TaskResult {
   std::string message;     ///< remark, e.g. that the crystal melted
   std::string transcript;  ///< LAMMPS commands
   std::map<std::string, std::vector<double>>
-      blocks{};  ///< means over parts of the averaged time, of some results
+      blocks{};  ///< means over parts of the averaged time, for some results
 };
 
-/// One point of a plan: what it is, what it depends on, and how it is computed.
+/// Describes one point of a plan: its identity, its dependency and its computation.
 struct Task {
   std::string key;
   std::string protocol;
   std::map<std::string, double> conditions;
   std::map<std::string, std::string> provenance;
-  std::string dependency;  ///< key of the point that must be finished before; empty: none
-  Precision precision{};   ///< whether one segment is enough
-  /// @param dependency the finished point of that key; null if there is none
+  std::string dependency;  ///< key of the point that must be finished first; empty: none
+  Precision precision{};   ///< decides whether one segment is enough
+  /// @param dependency the finished point with that key; null if there is none
   std::function<TaskResult(const PointRecord* dependency)> compute;
-  /// One more independent run; only with a precision. @param segment 1, 2, ...
+  /// Computes one more independent run; only with a precision. @param segment 1, 2, ...
   std::function<TaskResult(const PointRecord* dependency, int segment)> extend;
 };
 
-/// All points of a plan, those that others depend on first. The key of each is the hash of everything that
-/// its numbers depend on: tables of the potential, protocol and its revision, conditions, sizes, seed,
-/// release of LAMMPS, ranks of a point and the key of the point it depends on. The potential must outlive
-/// the tasks.
-/// @throws InputError for states outside the range of the potential, all at once.
+/// Returns all points of a plan, dependencies first. The key of each is the hash of everything on which its numbers
+/// depend: tables of the potential, protocol and its revision, conditions, sizes, seed, LAMMPS release, ranks per
+/// point and the key of the point on which it depends. The potential must outlive the tasks.
+/// @throws InputError listing all states outside the range of the potential.
 std::vector<Task> make_tasks(const Plan& plan, const Potential& potential);
 
 }  // namespace whipple::md

@@ -15,19 +15,19 @@
 namespace whipple::md {
 namespace {
 
-/// ln[sinh(x/2)/(x/2)]: quantum less classical free energy of an oscillator over k T.
+/// Returns ln[sinh(x/2)/(x/2)]: quantum minus classical free energy of an oscillator over k T.
 double excess_free_energy(double x) {
   if (x < 0.02) return x * x / 24.0 * (1.0 - x * x / 120.0);
   return 0.5 * x + std::log1p(-std::exp(-x)) - std::log(x);
 }
 
-/// (x/2) coth(x/2) - 1, the same of the energy.
+/// Returns (x/2) coth(x/2) - 1, the same for the energy.
 double excess_energy(double x) {
   if (x < 0.02) return x * x / 12.0 * (1.0 - x * x / 60.0);
   return 0.5 * x / std::tanh(0.5 * x) - 1.0;
 }
 
-/// [(x/2)/sinh(x/2)]^2 - 1, the same of the heat capacity over k.
+/// Returns [(x/2)/sinh(x/2)]^2 - 1, the same for the heat capacity over k.
 double excess_heat_capacity(double x) {
   if (x < 0.02) return -x * x / 12.0 * (1.0 - x * x / 20.0);
   const double decay = std::exp(-x);
@@ -43,7 +43,7 @@ std::vector<double> vibration_frequencies(const ForceConstants& constants) {
   for (std::int64_t i = 0; i < period; ++i) {
     cosines.push_back(std::cos(std::numbers::pi * static_cast<double>(i) / static_cast<double>(n)));
   }
-  // Of the eigenvalues, eV/(A^2 g/mol), to the square of an angular frequency.
+  // Converts the eigenvalues, eV/(A^2 g/mol), to squared angular frequencies.
   const double to_square =
       metal::electron_volt / (metal::angstrom * metal::angstrom) / (constants.mass * metal::dalton);
   std::vector<double> frequencies;
@@ -62,7 +62,7 @@ std::vector<double> vibration_frequencies(const ForceConstants& constants) {
           dynamical += cosines[static_cast<std::size_t>(phase)] *
                        Eigen::Map<const Eigen::Matrix3d>(constants.matrices[site].data());
         }
-        if (translation) continue;  // all atoms move alike
+        if (translation) continue;  // all atoms move together
         const Eigen::Matrix3d symmetric = 0.5 * (dynamical + dynamical.transpose());
         const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(symmetric, Eigen::EigenvaluesOnly);
         for (const double value : solver.eigenvalues()) {

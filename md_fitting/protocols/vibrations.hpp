@@ -9,28 +9,28 @@
 
 #include "md_fitting/lammps/potential.hpp"
 
-/// Vibrations of a crystal about its sites, and what their quanta change in the thermodynamics of classical
+/// Computes vibrations of a crystal about its sites, and the quantum corrections to the thermodynamics of classical
 /// nuclei (docs/theory/molecular_dynamics.md, "Quantum nuclei").
 namespace whipple::md {
 
-/// Force constants of a periodic crystal of n x n x n cubic cells with one atom in the primitive cell (fcc or
-/// bcc).
+/// Holds the force constants of a periodic crystal of n x n x n cubic cells with one atom in the primitive cell
+/// (fcc or bcc).
 struct ForceConstants {
   std::int64_t cells = 0;
   double mass = 0.0;  ///< g/mol
-  /// Site of each atom, from that of the displaced one, in halves of the lattice constant.
+  /// Site of each atom relative to that of the displaced one, in halves of the lattice constant.
   std::vector<std::array<std::int64_t, 3>> sites;
   /// d^2 U/(du_i(displaced) du_k(atom)), eV/A^2, row by row.
   std::vector<std::array<double, 9>> matrices;
 };
 
-/// Returns the angular frequencies (1/s) of all 3 N - 3 vibrations of the crystal, N the number of its sites:
-/// the square roots of the eigenvalues of its dynamical matrix at all wave vectors that the period admits. No
-/// particular order.
+/// Returns the angular frequencies (1/s) of all 3 N - 3 vibrations of the crystal, N the number of its sites: the
+/// square roots of the eigenvalues of its dynamical matrix at all wave vectors compatible with the periodicity. The
+/// order is unspecified.
 /// @throws StateError if the square of a frequency is negative: the crystal is unstable.
 std::vector<double> vibration_frequencies(const ForceConstants& constants);
 
-/// What quantum oscillators have beyond classical ones, J and J/K per vibration.
+/// Holds the excess of quantum over classical oscillators, J and J/K per vibration.
 struct QuantumExcess {
   double free_energy = 0.0;
   double energy = 0.0;
@@ -43,7 +43,7 @@ QuantumExcess quantum_excess(std::span<const double> frequencies, double tempera
 /// Measures the force constants by moving one atom of the crystal (both signs of each axis).
 /// @param specific_volume m^3/kg
 /// @param displacement    A
-/// @param transcript      takes the LAMMPS commands
+/// @param transcript      the LAMMPS commands are appended to it
 ForceConstants measure_force_constants(const Potential& potential, double specific_volume, std::int64_t cells,
                                        double displacement, std::string& transcript);
 

@@ -77,7 +77,7 @@ void WorkerSource::compute(std::span<const double> volume_ratios) const {
   if (log::level() != log::Level::verbose) program.emplace_back("--quiet");
   const int code = process::run_alone(program, {{"OMP_NUM_THREADS", "1"}});
   std::filesystem::remove(plan, ignored);
-  // A point that failed is in the store with its message.
+  // A point that failed is in the database with its message.
   if (code != 0 && code != static_cast<int>(ExitCode::state)) {
     throw InputError(fmt::format("whipple-md ended with code {} for potential '{}' of {}", code,
                                  constants_.potential, constants_.element));
@@ -105,7 +105,7 @@ bool WorkerSource::find(const std::vector<PointRecord>& points, double volume_ra
         cold = true;
         continue;
       }
-      constexpr double whole = 0.9;  // fraction of crystal: a cavity or a fault takes more than a tenth
+      constexpr double whole = 0.9;  // crystal fraction: a cavity or a fault involves more than a tenth
       if (point.result("solid").value < 0.5 || point.result("crystal_share").value < whole) {
         throw StateError(fmt::format("{}: {}", point.label(), point.message));
       }

@@ -12,12 +12,12 @@
 
 namespace whipple::md {
 
-/// Isochores from a store; what it lacks whipple-md computes as a process of its own. What is in the store
-/// costs nothing but its reading.
+/// Provides isochores from a database; missing points are computed by a separate whipple-md process. Points in the
+/// database are only read.
 class WorkerSource final : public eos::IsochoreSource {
  public:
-  /// Asks whipple-md for the lattice, by which the potential's tables are recognised in the store.
-  /// @throws InputError if the potential cannot be used, or the store holds two different tables of its name
+  /// Runs whipple-md for the lattice, whose point identifies the tables of the potential in the database.
+  /// @throws InputError if the potential cannot be used, or if the database contains two different tables of its name
   WorkerSource(const eos::SimulatedConstants& constants, const std::filesystem::path& store);
 
   [[nodiscard]] double static_volume() const override { return static_volume_; }
@@ -27,7 +27,7 @@ class WorkerSource final : public eos::IsochoreSource {
  private:
   [[nodiscard]] std::string plan_of(std::span<const double> volume_ratios) const;
   void compute(std::span<const double> volume_ratios) const;
-  /// The isochore if the store has all of it. @throws StateError if one of its points failed or melted
+  /// Finds the isochore if the database contains all its points. @throws StateError if one of them failed or melted
   [[nodiscard]] bool find(const std::vector<PointRecord>& points, double volume_ratio,
                           eos::SimulatedIsochore& isochore) const;
   [[nodiscard]] bool mine(const PointRecord& point) const;
@@ -37,13 +37,13 @@ class WorkerSource final : public eos::IsochoreSource {
   double static_volume_ = 0.0, molar_mass_ = 0.0;
 };
 
-/// Returns the store of a material without one of its own: $XDG_CACHE_HOME/whipple/md, or ~/.cache/whipple/md, by
-/// element and potential.
+/// Returns the default database of a material: $XDG_CACHE_HOME/whipple/md, or ~/.cache/whipple/md, by element and
+/// potential.
 /// @throws InputError if neither variable is set
 std::filesystem::path default_store(const eos::SimulatedConstants& constants);
 
-/// Makes the source of a crystal from its store, or the default one (`eos::set_isochore_source`).
-/// @throws InputError if the store has no absolute path, or as `WorkerSource` does
+/// Creates the source of a crystal from its database, or the default one (`eos::set_isochore_source`).
+/// @throws InputError if the database has no absolute path, or as `WorkerSource` does
 std::unique_ptr<eos::IsochoreSource> worker_source(const eos::SimulatedConstants& constants);
 
 }  // namespace whipple::md

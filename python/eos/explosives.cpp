@@ -6,7 +6,7 @@
 namespace whipple::python {
 namespace {
 
-/// Detonation products with the material that owns their equation of state.
+/// Holds detonation products with the material that owns their equation of state.
 struct Detonation {
   explicit Detonation(const Material& explosive) : material(explosive), products(*material.eos) {}
   Material material;

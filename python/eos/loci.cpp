@@ -16,7 +16,7 @@ namespace {
 
 constexpr double unknown = eos::State::unknown;
 
-/// Stores that a point has no state.
+/// Returns a function that marks a point as having no state.
 template <class Kind>
 auto refusal(Kind& result) {
   return [&result](std::size_t i) {
@@ -24,7 +24,7 @@ auto refusal(Kind& result) {
   };
 }
 
-/// @throws InputError if states are those of another material
+/// Checks that states are of this material. @throws InputError if they are of another material
 void require_same(const Material& material, const States& states) {
   if (states.restored) {
     throw InputError(
@@ -90,7 +90,7 @@ Isentropes isentrope(const Material& material, const OptionalNumbers& density,
         static_cast<const std::function<void(std::size_t)>*>(nullptr));
     return result;
   }
-  // The library integrates from the start to each density in its order, to one side at a time.
+  // The library integrates from the start to each density in the given order, on one side at a time.
   const std::span<const double> densities = points.column(0);
   if (!std::ranges::all_of(densities, [](double rho) { return rho > 0 && std::isfinite(rho); })) {
     throw StateError("the densities of an isentrope are finite and above zero");
@@ -131,10 +131,10 @@ Releases release(const Material& material, const States& start, const Numbers& p
   return result;
 }
 
-/// Two states at each point, such as solidus and liquidus.
+/// Holds two states at each point, such as solidus and liquidus.
 using Pair = std::pair<States, States>;
 
-/// Return what marks point i as refused in both.
+/// Returns a function that marks point i as refused in both.
 auto refusal(Pair& result) {
   return [&](std::size_t i) {
     refusal(result.first)(i);
@@ -190,7 +190,7 @@ Shocks single_shock(const Material& material, const eos::ShockState& shock) {
   return shocks;
 }
 
-/// Thresholds by name; None where the model does not go so far, or is there at rest already.
+/// Returns thresholds by name; None if the range of the model is too small, or the phase exists already at rest.
 py::dict thresholds(const Material& material, double pressure) {
   std::optional<eos::ShockMelting> melting;
   eos::ReleaseThresholds release;
@@ -238,7 +238,7 @@ Impact impact(const Material& projectile, const Material& target, const Numbers&
   return result;
 }
 
-/// Mixtures over an array of points.
+/// Holds mixtures over an array of points.
 struct Mixtures {
   States state;
   std::vector<States> components;
@@ -284,7 +284,7 @@ Mixtures mixture(const std::vector<std::pair<Material, double>>& parts, const Op
 
 using eos::experiments::Experiment;
 
-/// An experiment with the curve of a model at its points.
+/// Holds an experiment with the curve of a model at its points.
 struct ComparedExperiment : Experiment {
   eos::experiments::Comparison comparison;
 };

@@ -17,7 +17,7 @@
 namespace whipple::python {
 namespace {
 
-/// What a batch evaluation gives: arrays of one shape.
+/// Holds the result of a batch evaluation: arrays of one shape.
 struct Evaluation {
   Numbers pressure, temperature, sound_speed, melted_fraction, vaporised_fraction;
   Shape shape;
@@ -36,7 +36,7 @@ struct Evaluation {
 };
 
 py::tuple packed(const Evaluation& evaluation) {
-  Evaluation copy = evaluation;  // its columns are those of the same arrays
+  Evaluation copy = evaluation;  // its columns refer to the same arrays
   py::list columns;
   for (const Numbers* column : copy.columns()) columns.append(*column);
   return py::make_tuple(py::tuple(py::cast(evaluation.shape)), columns);
@@ -58,14 +58,14 @@ Evaluation unpacked(const py::tuple& pack) {
   return result;
 }
 
-/// A copy with arrays of its own.
+/// Returns a copy with separate arrays.
 Evaluation copy_of(const Evaluation& evaluation) {
   Evaluation copy = evaluation;
   for (Numbers* column : copy.columns()) *column = Numbers(column->attr("copy")());
   return copy;
 }
 
-/// Evaluates points one by one where some of a batch have no state, and makes those NaN.
+/// Evaluates points one by one where some points of a batch have no state, and sets those to NaN.
 void skip_points_out_of_range(const eos::EquationOfState& eos, const eos::Batch& batch) {
   for (std::size_t i = 0; i < batch.density.size(); ++i) {
     const eos::Batch one{batch.density.subspan(i, 1),           batch.specific_internal_energy.subspan(i, 1),
@@ -130,7 +130,7 @@ States states(const Material& material, const OptionalNumbers& density, const Op
 }
 
 /// Collects the sources of a table and of the tables in it.
-/// @param name  of the table; empty: the file
+/// @param name  of the table; empty: top level of the file
 void add_sources(py::dict& sources, const std::string& name, const py::handle& item) {
   const std::string prefix = name.empty() ? "" : name + ".";
   if (py::isinstance<py::dict>(item)) {
@@ -153,7 +153,7 @@ py::dict sources(const Material& material) {
 
 States reference(const Material& material) { return {material.eos, {}, {material.reference}}; }
 
-/// The file of a material of the library, by its key, its name or its entry in the list, or a path.
+/// Returns the file of a library material by its key, its name or its entry in the list, or of a path.
 std::filesystem::path file_of(const py::object& name) {
   if (py::isinstance<LibraryMaterial>(name)) return name.cast<const LibraryMaterial&>().file;
   const auto path = name.cast<std::filesystem::path>();
@@ -204,7 +204,7 @@ Material tabulated(const Material& material, double error,
   return with_eos(material, std::make_shared<eos::Table>(std::move(table.data)));
 }
 
-/// Passes the messages of the libraries to Python's module logging, under the name "whipple".
+/// Forwards the messages of the libraries to Python's module logging, under the name "whipple".
 void pass_messages_to_python() {
   log::set_sink([](log::Kind kind, const std::string& message) {
     if (Py_IsInitialized() == 0) return;
@@ -216,7 +216,7 @@ void pass_messages_to_python() {
   });
 }
 
-/// Raises an input error as Python's, with the places of its faults.
+/// Raises an input error as a Python exception, with the locations of its faults.
 void raise(const InputError& error, const py::handle& kind) {
   py::list faults;
   for (const InputFault& fault : error.faults()) {
@@ -230,7 +230,7 @@ void raise(const InputError& error, const py::handle& kind) {
 }
 
 void add_errors(py::module_& module) {
-  // Lives as long as the process, like the translator that refers to it.
+  // Exists as long as the process, like the translator that refers to it.
   static const py::handle input_error =
       py::exception<InputError>(module, "InputError", PyExc_ValueError).release();
   py::register_exception_translator([](std::exception_ptr thrown) {
@@ -367,7 +367,7 @@ void add_material(py::module_& module, py::class_<Material>& material) {
           [](const py::object& self, double error, const std::optional<std::pair<double, double>>& densities,
              const std::optional<std::pair<double, double>>& temperatures,
              const std::optional<std::filesystem::path>& file) {
-            // Its pickle builds the table again.
+            // Unpickling rebuilds the table.
             const py::object again =
                 py::module_::import("operator")
                     .attr("methodcaller")("table", error, py::arg("densities") = densities,
@@ -392,7 +392,7 @@ void add_library(py::module_& module) {
       .def_property_readonly(
           "key", [](const LibraryMaterial& m) { return with_paths(m.file.stem().string()); },
           "The name that `material` takes.")
-      // What cannot be read is listed with the reason, which names its file.
+      // An unreadable file is listed with the reason, which includes its name.
       .def_property_readonly(
           "name", [](const LibraryMaterial& m) { return with_paths(m.name); }, "Name of the material.")
       .def_property_readonly(

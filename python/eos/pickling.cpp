@@ -19,7 +19,7 @@ py::object copied(const py::object& self) {
   return copy;
 }
 
-/// Reads a material of a pickle again.
+/// Rereads a material of a pickle.
 py::object restored_material(const std::filesystem::path& file,
                              const std::map<std::string, std::string>& changes,
                              const std::string& constants) {
@@ -52,8 +52,8 @@ py::object material_of_file(Material material,
   py::dict keys;
   for (const auto& [key, value] : changes) keys[py::str(key)] = value;
   const std::filesystem::path file = std::filesystem::absolute(material.file);
-  const py::bytes constants(material.constants());  // a comment of theirs is the path
-  // A function of Python: those of extension modules cannot be pickled.
+  const py::bytes constants(material.constants());  // one of their comments contains the path
+  // Use a Python function: those of extension modules cannot be pickled.
   const py::object function = py::module_::import("whipple").attr("_restored_material");
   return with_recipe(std::move(material), function, py::make_tuple(file, keys, constants));
 }

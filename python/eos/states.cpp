@@ -38,7 +38,7 @@ constexpr Property properties[] = {
      "Volume over that of the material without its pores, without unit."},
 };
 
-/// A view of one member of all states: no copy, owned by the Python object that holds the states.
+/// Returns a view of one member of all states: not a copy, owned by the Python object that holds the states.
 py::object view(const py::object& self, double eos::State::* member) {
   const States& s = self.cast<const States&>();
   Shape strides(s.shape.size());
@@ -55,7 +55,7 @@ py::object further(const States& s, std::size_t place) {
   return read_only(Numbers(s.shape, s.further[place].data()));
 }
 
-/// Length of arrays of a shape, as len() of numpy has it.
+/// Returns the length of arrays of a shape, following len() of numpy.
 py::ssize_t length_of(const Shape& shape) {
   if (shape.empty()) throw py::type_error("a single state has no length");
   return shape.front();
@@ -68,7 +68,7 @@ py::object phases(const States& s) {
   return number_or_array(array);
 }
 
-/// Some quantities of the first states as a table.
+/// Formats some quantities of the first states as a table.
 std::string table_text(const States& s) {
   constexpr std::size_t most_rows = 20;
   std::vector<std::vector<std::string>> rows = {
@@ -84,7 +84,7 @@ std::string table_text(const States& s) {
   return text;
 }
 
-/// The states at an index or slice of numpy.
+/// Returns the states at an index or slice of numpy.
 template <class Kind>
 Kind subset(const Kind& s, const py::object& index) {
   const py::module_ numpy = py::module_::import("numpy");

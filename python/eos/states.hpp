@@ -19,71 +19,71 @@
 #include "eos/equation_of_state.hpp"
 #include "src/core/base/error.hpp"
 
-/// Points of numpy arrays and the states computed of them, for the bindings of this folder.
+/// Provides points of numpy arrays and the states computed from them, for the bindings of this folder.
 namespace whipple::python {
 
 namespace py = pybind11;
 
-/// Any sequence of numbers that numpy converts without losing a part of them, as doubles side by side: no complex
-/// numbers, no masked values.
+/// Holds any sequence of numbers that numpy converts without loss, as contiguous doubles: no complex numbers, no
+/// masked values.
 class Numbers : public py::array_t<double, py::array::c_style | py::array::forcecast> {
  public:
   using array_t::array_t;
 };
 /// Converts an argument.
-/// @throws InputError for complex numbers and masked values; returns nothing if numpy has no numbers of it
+/// @throws InputError for complex numbers and masked values; returns nothing if numpy cannot convert it to numbers
 std::optional<Numbers> numbers_of(const py::handle& argument);
 using OptionalNumbers = std::optional<Numbers>;
 using Shape = std::vector<py::ssize_t>;
 
-/// The same numbers as an array that cannot be written, or a number if there is one.
+/// Returns the same numbers as a read-only array, or a number if there is one.
 py::object read_only(const py::array& array);
 
-/// Arrays of one shape.
+/// Holds arrays of one shape.
 struct Points {
-  std::vector<Numbers> columns;  ///< in the order given, without those that were not given
+  std::vector<Numbers> columns;  ///< in the given order, omitting absent ones
   Shape shape;
   std::size_t size = 1;
 
-  /// Values of all points of a column.
+  /// Returns the values of all points of a column.
   [[nodiscard]] std::span<const double> column(std::size_t place) const {
     return {columns[place].data(), size};
   }
 };
 
-/// Brings arrays to their common shape by the rules of numpy.
+/// Broadcasts arrays to their common shape by the rules of numpy.
 /// @throws ValueError of numpy if there is none
 Points broadcast(std::initializer_list<OptionalNumbers> given);
 
-/// A number if the shape is that of one, else the array itself.
+/// Returns a number if the shape is scalar, otherwise the array.
 py::object number_or_array(const py::array& array);
 
-/// Names of states that were read from a pickle.
+/// Holds names of states that were read from a pickle.
 struct RestoredNames {
   std::string model;
   std::set<std::string> phases;
 };
 
-/// States of an equation of state over an array of points. Each property is an array on these states, without a copy.
+/// Holds states of an equation of state over an array of points. Each property is an array view of these states,
+/// without a copy.
 struct States {
-  std::shared_ptr<const eos::EquationOfState> eos;  ///< owns the names of phases
+  std::shared_ptr<const eos::EquationOfState> eos;  ///< owns the phase names
   Shape shape;
   std::vector<eos::State> states;
-  /// What the points have besides a state: velocities of shocks, Riemann velocities.
+  /// Further columns in addition to the state: shock velocities, Riemann velocities.
   std::vector<std::vector<double>> further = {};
-  std::shared_ptr<const RestoredNames> restored =
-      {};  ///< of a pickle; these states have no equation of state
+  std::shared_ptr<const RestoredNames> restored = {};  ///< from a pickle, without equation of state
 
   [[nodiscard]] std::string model() const { return eos ? std::string(eos->model()) : restored->model; }
-  /// The only state.
+  /// Returns the only state.
   /// @throws InputError if there are several
   [[nodiscard]] const eos::State& single() const;
 };
 struct Shocks : States {};      ///< further: shock velocity, particle velocity
 struct Isentropes : States {};  ///< further: Riemann velocity
-struct Releases : States {};    ///< further: Riemann velocity, 1 where the end is in equilibrium
+struct Releases : States {};    ///< further: Riemann velocity, 1 if the end is in equilibrium
 
-/// What meets at an interface, over an array of velocities.
+/// Holds the states on both sides of an interface, over an array of velocities.
 struct Impact {
   Shape shape;
   std::vector<double> pressure, velocity;
@@ -91,7 +91,7 @@ struct Impact {
   std::vector<double> right_shock_velocity;
 };
 
-/// A result of points with room for its further columns.
+/// Creates a result of points with space for its further columns.
 template <class Kind>
 Kind make(std::shared_ptr<const eos::EquationOfState> eos, const Points& points, std::size_t further) {
   Kind result;
@@ -102,13 +102,13 @@ Kind make(std::shared_ptr<const eos::EquationOfState> eos, const Points& points,
   return result;
 }
 
-/// Numbers as an array of a shape, or as a number.
+/// Returns numbers as an array of a shape, or as a number.
 py::object array_of(const Shape& shape, const std::vector<double>& values);
 
 /// Declares the classes of states above.
 void add_states(py::module_& module);
 
-/// Gives Python the chance to end a long loop by Ctrl-C; called without the interpreter's lock.
+/// Lets Python interrupt a long loop on Ctrl-C; called without the interpreter's lock.
 void check_signals();
 
 /// Computes a result for each of the points, without the interpreter's lock.
@@ -155,7 +155,7 @@ States states_of(std::shared_ptr<const eos::EquationOfState> eos, const Points& 
 
 }  // namespace whipple::python
 
-/// Arguments of functions: `whipple::python::Numbers` by `numbers_of`.
+/// Converts function arguments to `whipple::python::Numbers` by `numbers_of`.
 template <>
 struct pybind11::detail::type_caster<whipple::python::Numbers> {
   PYBIND11_TYPE_CASTER(whipple::python::Numbers, const_name("numpy.ndarray[numpy.float64]"));
