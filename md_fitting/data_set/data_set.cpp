@@ -261,8 +261,7 @@ std::vector<PointRecord> read_store(const std::filesystem::path& path) {
 
 std::vector<PointRecord> select(std::span<const PointRecord> points, std::string_view protocol) {
   const auto revision = [](const PointRecord& point) {
-    const auto entry = point.provenance.find("revision");
-    return entry == point.provenance.end() ? 0 : std::stoi(entry->second);
+    return point.provenance.contains("revision") ? static_cast<int>(point.origin_number("revision")) : 0;
   };
   const auto wanted = [&](const PointRecord& point) { return point.done() && point.protocol == protocol; };
   std::map<std::map<std::string, double>, int> newest;  // by conditions

@@ -1,14 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "md_fitting/data_set/run_cost.hpp"
 
+#include <fmt/format.h>
+
+#include <charconv>
 #include <cmath>
+#include <string>
+#include <system_error>
+
+#include "src/core/base/error.hpp"
 
 namespace whipple::md {
 
 RunShape run_shape(const std::map<std::string, std::string>& provenance) {
   const auto number = [&](const char* name, double otherwise) {
     const auto entry = provenance.find(name);
-    return entry == provenance.end() ? otherwise : std::stod(entry->second);
+    if (entry == provenance.end()) return otherwise;
+    const std::string& text = entry->second;
+    double value = 0.0;
+    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || rest != text.data() + text.size())
+      throw InputError(
+          fmt::format("the provenance entry '{}' of a point is \"{}\", not a number", name, text));
+    return value;
   };
   const double cells = number("cells", 0.0);
   return {.cells = cells,

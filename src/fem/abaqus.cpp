@@ -376,7 +376,9 @@ class AbaqusReader {
     if (step == 0 || last < first || (last - first) / step >= data_.elements.size()) {
       fail(fmt::format("the range {} to {} by {} is not one of elements", first, last, step));
     }
-    for (std::uint64_t tag = first; tag <= last; tag += step) members.push_back(element(tag));
+    const std::uint64_t count =
+        (last - first) / step + 1;  // not a bound of `tag`, which may be the last number there is
+    for (std::uint64_t i = 0; i < count; ++i) members.push_back(element(first + i * step));
   }
   std::uint32_t element(std::uint64_t tag) const {
     const auto found = element_.find(tag);

@@ -136,7 +136,7 @@ class VtuReader {
       const std::string word = attribute(array, "offset");
       std::size_t offset = 0;
       const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), offset);
-      if (code != std::errc{} || offset > appended_.size())
+      if (code != std::errc{} || end != word.data() + word.size() || offset > appended_.size())
         fail(fmt::format("the offset \"{}\" is not in the appended data", word));
       bytes = unpacked(appended_.substr(offset), is_raw_, widest * most);
     } else {

@@ -179,7 +179,7 @@ void RunDirectory::remove_partial_files() const {
 void RunDirectory::require_free_space(std::uint64_t bytes) const {
   std::error_code error;
   const fs::space_info space = fs::space(path_, error);
-  if (error) fail(path_, "ask for free space", error.value());
+  if (error) fail(path_, "determine the free space", error.value());
   if (space.available < bytes) {
     throw InputError(fmt::format("{}: needs about {}, but the disk has {} left", path_.string(),
                                  format_bytes(static_cast<double>(bytes)),

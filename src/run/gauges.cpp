@@ -111,7 +111,7 @@ std::vector<std::uint64_t> nearest(const std::vector<cases::Gauge>& gauges,
   parallel::maximum(simulation.communicator(), number);
   std::vector<std::uint64_t> ids(gauges.size(), 0);
   for (std::size_t g = 0; g < gauges.size(); ++g) {
-    if (gauges[g].moving()) ids[g] = static_cast<std::uint64_t>(-number[g]);
+    if (gauges[g].moving() && std::isfinite(number[g])) ids[g] = static_cast<std::uint64_t>(-number[g]);
   }
   return ids;
 }

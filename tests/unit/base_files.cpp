@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Files that are written as a whole or not at all, and locks on them; where messages go.
+#include <fcntl.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -72,6 +74,12 @@ TEST(WriteTextAtomically, LeavesFilesAndLinksOfOthersAlone) {
 
 TEST(WriteTextAtomically, WritesIntoWhatIsNoFileAsItIs) {
   EXPECT_NO_THROW(write_text_atomically("/dev/null", "text"));
+  const TemporaryFolder folder;
+  // A link below /dev to a file, such as /dev/stdout of a redirected program: written to, not replaced.
+  const int file = ::open((folder.path() / "output").c_str(), O_CREAT | O_WRONLY, 0600);
+  write_text_atomically(fmt::format("/dev/fd/{}", file), "text");
+  ::close(file);
+  EXPECT_EQ(read_text(folder.path() / "output"), "text");
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
   try {
     write_text_atomically("/dev/full", "text");

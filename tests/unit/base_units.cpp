@@ -107,6 +107,7 @@ TEST(Units, UnknownUnitIsNamed) {
 TEST(Units, TextWithoutNumberIsRefusedWithAnExample) {
   EXPECT_EQ(message_of("fast", "m/s"),
             "'fast' is not a number with a unit: expected for example \"1.5 m/s\"");
+  EXPECT_EQ(message_of("+-5 m", "m"), "'+-5 m' is not a number with a unit: expected for example \"1.5 m\"");
   EXPECT_EQ(message_of("", "m/s"), "'' is not a number with a unit: expected for example \"1.5 m/s\"");
   EXPECT_EQ(message_of("half", ""), "'half' is not a number: expected for example \"1.5\"");
 }

@@ -182,7 +182,9 @@ void append_text(const fs::path& path, std::string_view text) {
 
 void write_text_atomically(const fs::path& path, std::string_view text) {
   std::error_code ignored;
-  if (fs::is_other(fs::status(path, ignored))) return write_text(path, 0, text, path);
+  // A device has no former content; /dev/stdout may be a link to a file, behind whose content the text belongs.
+  const bool is_device = fs::is_other(fs::status(path, ignored)) || path.string().starts_with("/dev/");
+  if (is_device) return write_text(path, O_APPEND, text, path);
   PartialFile partial(path);
   write_text(partial.path(), O_NOFOLLOW, text, path);
   partial.publish();

@@ -143,7 +143,7 @@ double parse_quantity(std::string_view text, std::string_view si_unit) {
   const char* begin = text.data();
   const char* end = begin + text.size();
   while (begin != end && *begin == ' ') ++begin;
-  if (begin != end && *begin == '+') ++begin;
+  if (begin != end && *begin == '+' && !std::string_view(begin + 1, end).starts_with('-')) ++begin;
   double value = 0.0;
   const auto [rest, status] = std::from_chars(begin, end, value);
   if (status != std::errc() || !std::isfinite(value)) {

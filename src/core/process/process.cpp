@@ -205,6 +205,7 @@ int run_process(const std::vector<std::string>& arguments, const Environment& en
   forwarding.release();
 
   const int status = wait_for(pid, arguments.front(), supervision);
+  child = 0;  // its number may belong to another process from now on
   if (WIFEXITED(status)) return WEXITSTATUS(status);
   const int signal = WTERMSIG(status);
   if (signal == last_forwarded || supervision.may_be_killed) return 128 + signal;

@@ -13,8 +13,8 @@
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/parallel/threads.hpp"
 #include "src/material/fluid.hpp"
-#include "src/solver/carriers/domains.hpp"
 #include "src/solver/accounts.hpp"
+#include "src/solver/carriers/domains.hpp"
 
 namespace whipple::run {
 namespace {
@@ -73,7 +73,8 @@ void tell(const Moment& moment, double expanded) {
             ledger.momentum_error(totals), ledger.outflow.mass);
   for (const solver::Account& account : solver::accounts) {
     const double count = ledger.*account.sum;
-    if (account.shown == solver::Shown::limiter && count > 0.0) log::info("{}: {:.0f} times", account.meaning, count);
+    if (account.shown == solver::Shown::limiter && count > 0.0)
+      log::info("{}: {:.0f} times", account.meaning, count);
   }
   // For bodies that have come to rest, the remaining unresolved energy is not motion of fragments.
   const bool at_rest = totals.kinetic_energy < nearly_at_rest * ledger.initial.kinetic_energy;
