@@ -6,7 +6,7 @@ set -euo pipefail
 usage() {
   cat <<'TEXT'
 usage: scripts/install_deps.sh [--dev] [--kim] [--paraview] [--list]
-  --dev        also clang-format-19 and clang-tidy-19 (scripts/lint.sh, format check of scripts/test.sh)
+  --dev        also clang-tidy-19 (scripts/lint.sh)
   --kim        also the models of OpenKIM (250 MB): more interatomic potentials for `whipple md`
   --paraview   also ParaView with its Python interface and a virtual screen (tests of the output files)
   --list       print the packages and whether each is installed; install nothing
@@ -21,11 +21,12 @@ packages=(
   libcli11-dev libspdlog-dev libfmt-dev libtomlplusplus-dev libudunits2-dev nlohmann-json3-dev
   libgtest-dev libgmock-dev libbenchmark-dev
   python3-numpy python3-h5py python3-matplotlib python3-dev pybind11-dev
+  clang-format-19
 )
 list=false
 for argument in "$@"; do
   case $argument in
-    --dev) packages+=(clang-format-19 clang-tidy-19) ;;
+    --dev) packages+=(clang-tidy-19) ;;
     --kim) packages+=(openkim-models) ;;
     --paraview) packages+=(paraview python3-paraview xvfb xauth) ;;
     --list) list=true ;;

@@ -22,7 +22,7 @@ if ((${#files[@]} == 0)); then
   mapfile -t files < <(git ls-files --cached --others --exclude-standard -- '*.cpp' '*.hpp' '*.inl')
 fi
 if ! command -v clang-format-19 >/dev/null; then
-  echo "lint.sh: clang-format-19 is missing: scripts/install_deps.sh --dev" >&2
+  echo "lint.sh: clang-format-19 is missing: scripts/install_deps.sh" >&2
   exit 2
 fi
 

@@ -62,12 +62,8 @@ stage build
 configured=$(cmake --preset "$preset" 2>&1) || { echo "$configured"; exit 1; }
 cmake --build --preset "$preset" --parallel "$(nproc)"
 
-if command -v clang-format-19 >/dev/null; then
-  stage format
-  check format scripts/lint.sh --format-only
-else
-  note skipped "format (clang-format-19 is missing: scripts/install_deps.sh --dev)"
-fi
+stage format
+check format scripts/lint.sh --format-only
 
 stage tests
 log=build/$preset/test.log
