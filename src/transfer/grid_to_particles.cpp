@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <vector>
 
 #include "src/core/base/error.hpp"
@@ -129,6 +130,10 @@ template <bool affine, bool planar>
 
 constexpr auto particle_kind = BlockGrid::Points::particles;
 
+/// Sums of velocities alone need so many registers with cubic functions that wide ones lose.
+template <class Shape>
+constexpr Widest widest_of_sums = std::is_same_v<Shape, CubicBSpline> ? Widest::narrow : Widest::wide;
+
 /// Calls gather(kernels, slot, sum of the slot, gradients of its particles) for the slots of a stretch.
 template <class Shape, Widest widest, class Gather>
 void for_each_slot(const BlockGrid& grid, const Stretch& stretch, Gather&& gather) {
@@ -177,7 +182,7 @@ void update_velocities(const RelaxedUpdate& update, Particles& particles, BlockG
   const auto& [functions, dt, relaxation, wanted, acceleration] = update;
   const bool with_gradient = wanted == Gradients::of_grid_velocity;
   const bool radial = Planar<Shape> && grid.geometry().is_axisymmetric();
-  for_each_slot<Shape, Widest::narrow>(
+  for_each_slot<Shape, widest_of_sums<Shape>>(
       grid, stretch,
       [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance& balance, Matrix3* gradients) {
         const auto take = [&](std::size_t place, std::size_t p, const VelocityUpdate<>& sums) WHIPPLE_INLINE {
@@ -286,7 +291,7 @@ void gather_first(Wanted wanted, const ShapeFunctions& functions, const Particle
                   const Stretch& stretch, std::span<Vector3> velocity) {
   const bool radial = grid.geometry().is_axisymmetric();
   with_shape(functions.kind, [&]<class Shape>(Shape) {
-    for_each_slot<Shape, Widest::narrow>(
+    for_each_slot<Shape, widest_of_sums<Shape>>(
         grid, stretch, [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance&, Matrix3* gradients) {
           const auto take = [&](std::size_t place, std::size_t p, const ValueAndGradient<>& sums)
                                 WHIPPLE_INLINE {

@@ -10,13 +10,13 @@ namespace whipple::transfer {
 /// The widest registers that a kernel is compiled for.
 enum class Widest { narrow, wide };
 
-/// Calls f(Kernels{}) with the set in use. Wide registers are for what gains by them: not for rows of nodes in a plane,
-/// which are too short, nor for GIMP, whose weights cost more than its sums (docs/decisions/0022_the_step_as_a_sweep.md).
+/// Calls f(Kernels{}) with the set in use. Rows of nodes in a plane are too short for wide registers.
+/// @tparam widest  what the kernel gains by (docs/decisions/0022_the_step_as_a_sweep.md)
 template <class Shape, Widest widest = Widest::wide, class Function>
 void with_kernels(Function&& f) {
   if (kernel_set() == KernelSet::plain) return f(plain::Kernels{});
 #if WHIPPLE_WIDE_KERNELS
-  if constexpr (!Planar<Shape> && !Sized<Shape> && widest == Widest::wide) {
+  if constexpr (!Planar<Shape> && widest == Widest::wide) {
     if (kernel_set() == KernelSet::wide) return f(wide::Kernels{});
   }
 #endif

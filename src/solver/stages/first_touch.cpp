@@ -22,7 +22,8 @@ void ContactStage::foresee_touches(double accurate_step) {
   const contact::FirstTouches::Outcome seen = first_touches_->end_step(state_.communicator);
   state_.run.touched = first_touches_->words();
   const double begin = state_.run.time - state_.run.time_step;
-  const bool too_long = state_.run.time_step > small_step_ratio * state_.setup.time.first_step * accurate_step;
+  const bool too_long =
+      state_.run.time_step > small_step_ratio * state_.setup.time.first_step * accurate_step;
   state_.run.first_touch = seen.hard && too_long ? state_.run.time
                            : seen.next < 1e300   ? begin + seen.next
                                                  : 1e300;
