@@ -390,8 +390,7 @@ class ModelReader {
 
   const std::set<Id>& members(const Block& block, const std::map<Id, std::set<Id>>& sets, Id number) const {
     const auto set = sets.find(number);
-    if (set == sets.end()) fail(block, fmt::format("there is no set {}", number));
-    if (set->second.empty()) fail(block, fmt::format("the set {} is empty", number));
+    if (set == sets.end() || set->second.empty()) fail(block, fmt::format("there is no set {}", number));
     return set->second;
   }
 

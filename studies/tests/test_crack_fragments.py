@@ -10,7 +10,7 @@ import unittest
 import numpy as np
 
 from studies import commands
-from studies.crack_fragments import crack_fragments, mott
+from studies.crack_fragments import crack_fragments, fields_in_cases, mott
 
 
 class Mott(unittest.TestCase):
@@ -56,6 +56,15 @@ class Rows(unittest.TestCase):
         self.assertEqual(len(names), len(set(names)))
         for row in crack_fragments.ROWS:
             self.assertTrue(row.case.is_file())
+
+    def test_every_row_of_other_cases_differs_by_the_fields_alone(self):
+        names = [row.name for row in fields_in_cases.ROWS]
+        self.assertEqual(len(names), len(set(names)))
+        for row in fields_in_cases.ROWS:
+            self.assertTrue(row.file.is_file())
+            none, fields = (row.words(kind) for kind in fields_in_cases.FIELDS)
+            self.assertEqual(len(none), len(fields))
+            self.assertEqual(sum(a != b for a, b in zip(none, fields)), len(row.bodies))
 
 
 class Runs(unittest.TestCase):
