@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Mechanical threshold stress: the published formula, its closed integral, the number of steps, and the path as a state.
-#include "src/material/strength/mechanical_threshold.hpp"
-
 #include <gtest/gtest.h>
 
 #include <array>
@@ -9,6 +7,7 @@
 #include <random>
 
 #include "src/material/material_file.hpp"
+#include "src/material/strength/mechanical_threshold_model.hpp"
 #include "src/material/update.hpp"
 
 namespace whipple {

@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
 #include <utility>
 
 #include "src/core/base/error.hpp"
 #include "src/core/base/parameter_table.hpp"
 #include "src/material/strength/radial_return.hpp"
-#include "src/material/strength/strength.hpp"
 #include "src/material/strength/thermal_barrier.hpp"
 
 namespace whipple::strength {
@@ -61,28 +54,34 @@ struct MechanicalThreshold {
         real("pressure_coefficient", &P::pressure_coefficient, "1/Pa", range::non_negative(),
              "A: relative rise of G with p/eta^(1/3)")
             .optional(),
-        real("melting_temperature", &P::melting_temperature, "K", range::positive(), "T_m: the end"),
-        real("boltzmann_per_volume", &P::boltzmann_per_volume, "Pa/K", range::positive(), "k/b^3"),
+        real("melting_temperature", &P::melting_temperature, "K", range::positive(),
+             "T_m: no strength at and above it"),
+        real("boltzmann_per_volume", &P::boltzmann_per_volume, "Pa/K", range::positive(),
+             "k/b^3: Boltzmann's constant over the cube of the Burgers vector"),
         real("athermal_stress", &P::athermal_stress, "Pa", range::non_negative(), "sigma_a"),
         real("hardening", &P::hardening, "Pa", range::positive(), "a0 of theta_0, initial rate of hardening"),
         real("hardening_by_log_rate", &P::hardening_by_log_rate, "Pa", range::non_negative(),
-             "a1, of ln(rate in 1/s)")
+             "a1: rise of theta_0 with ln(rate in 1/s)")
             .optional(),
         real("hardening_by_root_rate", &P::hardening_by_root_rate, "Pa", range::non_negative(),
-             "a2, of the root of the rate in 1/s")
+             "a2: rise of theta_0 with the root of the rate in 1/s")
             .optional(),
         real("hardening_by_temperature", &P::hardening_by_temperature, "Pa/K", range::non_negative(),
-             "a3: fall of theta_0 with T")
+             "a3: fall of theta_0 with temperature")
             .optional(),
-        real("last_hardening", &P::last_hardening, "Pa", range::non_negative(), "theta_IV, at saturation")
+        real("last_hardening", &P::last_hardening, "Pa", range::non_negative(),
+             "theta_IV: rate of hardening at saturation")
             .optional(),
         real("hardening_shape", &P::hardening_shape, "", range::positive(), "alpha"),
         real("saturation", &P::saturation, "Pa", range::positive(), "sigma_es0: of sigma_e at 0 K"),
-        real("saturation_energy", &P::saturation_energy, "", range::positive(), "g_es, over G b^3"),
+        real("saturation_energy", &P::saturation_energy, "", range::positive(),
+             "g_es: activation energy of saturation over G b^3"),
         real("saturation_rate", &P::saturation_rate, "1/s", range::positive(), "rate_es"),
-        real("initial_threshold", &P::initial_threshold, "Pa", range::non_negative(), "sigma_e of the temper")
+        real("initial_threshold", &P::initial_threshold, "Pa", range::non_negative(),
+             "sigma_e of the temper: 0 annealed")
             .optional(),
-        real("intrinsic_threshold", &P::intrinsic_threshold, "Pa", range::non_negative(), "sigma_i")
+        real("intrinsic_threshold", &P::intrinsic_threshold, "Pa", range::non_negative(),
+             "sigma_i: of the lattice and its solutes, at 0 K")
             .optional(),
     };
     table = with_part(std::move(table), &P::intrinsic, ThermalBarrier::parameters("intrinsic", "sigma_i"));
@@ -177,74 +176,6 @@ struct MechanicalThreshold {
     }
     return {athermal_stress + at.stiffness * stress, at.stiffness * slope};
   }
-};
-
-class MechanicalThresholdModel final : public Strength {
- public:
-  /// @throws InputError if the constants contradict one another
-  explicit MechanicalThresholdModel(const MechanicalThreshold& constants) : constants_(constants) {
-    constants.require_consistent();
-  }
-
-  [[nodiscard]] std::string_view model() const override { return MechanicalThreshold::name; }
-  [[nodiscard]] std::optional<double> initial_threshold() const override {
-    return constants_.initial_threshold;
-  }
-  void shear_modulus(const State& state, std::span<double> modulus) const override {
-    for (std::size_t i = 0; i < modulus.size(); ++i) modulus[i] = modulus_of(state, i);
-  }
-  void plastic_increment(const State& state, std::span<const double> trial, std::span<const double> modulus,
-                         std::span<const double> solid_fraction, double dt,
-                         std::span<double> increment) const override {
-    for (std::size_t i = 0; i < increment.size(); ++i) {
-      const double solid = molten(state, i) ? 0.0 : solid_fraction[i];
-      // Y is never below its part without activation: it spares most elastic points the formula.
-      if (trial[i] <= solid * constants_.athermal_stress) {
-        increment[i] = 0.0;
-        continue;
-      }
-      const MechanicalThreshold::Condition at =
-          constants_.condition(state.temperature[i], modulus[i] / solid_fraction[i]);
-      const auto flow = [&](double x) { return constants_.flow(state.threshold[i], x, dt, at); };
-      increment[i] =
-          radial_return(trial[i], modulus[i], solid, constants_.least_flow(state.threshold[i], at), flow);
-    }
-  }
-  void advance_threshold(const State& state, std::span<const double> increment, double dt,
-                         std::span<double> threshold) const override {
-    for (std::size_t i = 0; i < increment.size(); ++i) {
-      if (!(increment[i] > 0.0) || molten(state, i)) continue;
-      threshold[i] = constants_
-                         .threshold(threshold[i], increment[i], constants_.log_rate(increment[i] / dt),
-                                    constants_.condition(state.temperature[i], modulus_of(state, i)))
-                         .value;
-    }
-  }
-  void flow_stress(const State& state, std::span<const double> rate,
-                   std::span<double> stress) const override {
-    for (std::size_t i = 0; i < stress.size(); ++i) {
-      const double flow = constants_
-                              .flow(state.threshold[i], no_strain, no_strain / std::max(rate[i], 1e-300),
-                                    constants_.condition(state.temperature[i], modulus_of(state, i)))
-                              .value;
-      stress[i] = molten(state, i) ? 0.0 : flow;
-    }
-  }
-  [[nodiscard]] std::string constants() const override {
-    MechanicalThreshold copy = constants_;
-    return fmt::format("model = \"{}\"\n{}", MechanicalThreshold::name,
-                       to_toml(whipple::bind(MechanicalThreshold::parameters(), copy)));
-  }
-
- private:
-  static constexpr double no_strain = 1e-30;
-  [[nodiscard]] bool molten(const State& state, std::size_t i) const {
-    return state.temperature[i] >= constants_.melting_temperature;
-  }
-  [[nodiscard]] double modulus_of(const State& state, std::size_t i) const {
-    return constants_.modulus(state.density[i], state.pressure[i], state.temperature[i]);
-  }
-  MechanicalThreshold constants_;
 };
 
 }  // namespace whipple::strength
