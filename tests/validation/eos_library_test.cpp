@@ -417,7 +417,9 @@ TEST(LibraryAll, ShocksGetFasterAndStrongerFromSoundOn) {
     const bool ramps = material.eos->initial_distension() > 1.0 || material.reference.gruneisen == 0.0;
     // The heat of crushed pores expands foams more than the shock compresses them (docs/theory/equations_of_state.md).
     const bool turns = material.eos->initial_distension() > 1.0 + 2.0 / material.reference.gruneisen;
-    EXPECT_NEAR(before.shock_velocity / material.reference.sound_speed, 1.0, 0.003);
+    if (material.eos->initial_distension() < 1.5) {  // fabrics and foams are crushed by waves of 1 m/s
+      EXPECT_NEAR(before.shock_velocity / material.reference.sound_speed, 1.0, 0.003);
+    }
     for (const double up : {50.0, 200.0, 500.0, 1000.0, 1500.0}) {
       const ShockState shock = hugoniot.at_particle_velocity(up);
       EXPECT_GT(shock.state.pressure, before.state.pressure) << up;
