@@ -93,7 +93,7 @@ class Measures:
             from report import measured_history  # takes numpy and matplotlib
             return measured_history.measure(self.folder / "gauges.csv", of, expectation.table)
         if kind in tension.KINDS:
-            return tension.measure(expectation.measure, self.folder, expectation.place)
+            return tension.measure(expectation.measure, self.folder, expectation.place, expectation.travel)
         if kind == "piece_exponent":
             from report import pieces  # takes numpy
             return pieces.exponent_of_run(self.folder, of, self.report)

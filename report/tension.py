@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measures of a test of fracture, as the laboratory takes them: of a bar that is pulled from its plane of symmetry, x = 0.
+"""Measures of tests of fracture, as the laboratory takes them: of a bar that is pulled from its plane of symmetry, x = 0, and
+of a plate that a punch shears between itself and a die, which lies at a plane.
 
 Force: of the plane on the bar (history.csv). Section: moving tracers from the axis to the surface, in the plane (gauges.csv).
 The bar is torn when the force over the section that is left has fallen to half of its greatest value: in a deep neck the
@@ -39,7 +40,7 @@ def at(time, times, values):
 
 
 def forces(folder):
-    """Times (s) and pull of the plane x = 0 on the bar (N), means over `AVERAGE`."""
+    """Times (s) and force of the plane on the bodies along -x (N), means over `AVERAGE`: pull of x = 0, push of x_upper."""
     history = columns(folder / "history.csv", lambda name: name in ("time", "wall_impulse_x"))
     times, impulses = history.get("time", []), history.get("wall_impulse_x", [])
     if not times or not impulses:
@@ -128,19 +129,44 @@ def peak_stress(folder, radius):
     return max(pulls, default=math.nan) / (math.pi * radius**2)
 
 
-def measure(name, folder, place):
-    """The measure `name`: KIND.TRACERS, or elongation.TRACERS.GAUGE. BadExpectation: it names no tracers, or none that are there."""
+def shear_strength(folder, radius, thickness):
+    """Greatest force on the die over the area of the cut through the plate, 2 pi R t (Pa)."""
+    return max(forces(folder)[1], default=math.nan) / (2 * math.pi * radius * thickness)
+
+
+def shear_stroke(folder, mark, thickness):
+    """Path of the punch over the thickness when the force has fallen to half of its greatest value; NaN if it never does."""
+    times, pushes = forces(folder)
+    table = columns(folder / "gauges.csv", lambda name: name in ("time", f"{mark}.x"))
+    if not pushes or not table.get(f"{mark}.x"):
+        return math.nan
+    greatest = pushes.index(max(pushes))
+    cut = next((t for t, push in zip(times[greatest:], pushes[greatest:]) if push < 0.5 * pushes[greatest]), math.nan)
+    places = table[f"{mark}.x"]
+    return (at(cut, table["time"], places) - places[0]) / thickness if math.isfinite(cut) else math.nan
+
+
+def measure(name, folder, place, travel=None):
+    """The measure `name`: KIND.TRACERS, elongation.TRACERS.GAUGE, or, of a punch with a gauge, shear_strength.GAUGE and
+    shear_stroke.GAUGE. BadExpectation: it names no tracers or gauge, or none that are there."""
     kind, *of = name.split(".")
+    of_gauge = kind in ("shear_strength", "shear_stroke")
     if len(of) != (2 if kind == "elongation" else 1):
-        raise BadExpectation(f"measure {name!r}: expected {kind}.TRACERS{'.GAUGE' if kind == 'elongation' else ''}")
+        raise BadExpectation(f"measure {name!r}: expected {kind}."
+                             f"{'TRACERS.GAUGE' if kind == 'elongation' else 'GAUGE' if of_gauge else 'TRACERS'}")
     if kind == "peak_stress":
         return peak_stress(folder, place)
     table, names = section_of(folder, of[0])
-    for part, there in ((f"{of[0]}_1, {of[0]}_2, ...", names), (of[-1], kind != "elongation" or f"{of[-1]}.x" in table)):
+    needed = [(of[-1], f"{of[-1]}.x" in table)] if of_gauge or kind == "elongation" else []
+    for part, there in needed + ([] if of_gauge else [(f"{of[0]}_1, {of[0]}_2, ...", names)]):
         if table and not there:
             raise BadExpectation(f"measure {name!r}: {folder / 'gauges.csv'} has no {part}")
+    if kind == "shear_strength":
+        return shear_strength(folder, place, travel)
+    if kind == "shear_stroke":
+        return shear_stroke(folder, of[0], travel)
     return {"elongation": elongation, "neck_strain": neck_strain, "failure_strain": failure_strain,
             "failure_triaxiality": failure_triaxiality}[kind](folder, *of)
 
 
-KINDS = ("peak_stress", "elongation", "neck_strain", "failure_strain", "failure_triaxiality")
+KINDS = ("peak_stress", "elongation", "neck_strain", "failure_strain", "failure_triaxiality", "shear_strength", "shear_stroke")

@@ -72,6 +72,16 @@ class Bar(unittest.TestCase):
         for kind in ("failure_strain", "failure_triaxiality"):
             self.assertTrue(math.isnan(self.measure(kind)))
 
+    def test_punch(self):
+        # The same force and path, of a punch of 3 mm through 2 mm: cut at the break, after exp(0.2) - 1 of 10 mm.
+        strength = tension.measure("shear_strength.mark", self.folder, 3e-3, 2e-3)
+        self.assertAlmostEqual(strength / (FORCE / (2 * math.pi * 3e-3 * 2e-3)), 1.0, places=9)
+        self.assertAlmostEqual(tension.measure("shear_stroke.mark", self.folder, None, 2e-3),
+                               5 * math.expm1(RATE * BREAK), delta=10 * RATE * tension.AVERAGE)
+        text = (self.folder / "history.csv").read_text().splitlines()
+        (self.folder / "history.csv").write_text("\n".join(text[:150]) + "\n")
+        self.assertTrue(math.isnan(tension.measure("shear_stroke.mark", self.folder, None, 2e-3)))
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -58,6 +58,7 @@ constexpr Law laws[] = {
      "athermal_stress = '65 MPa'\nthermal_hardening = '890 MPa'\nthermal_coefficient = '0.0028 1/K'\n"
      "rate_coefficient = '0.000115 1/K'\nhardening_coefficient = '0 MPa'\n"},
     {"preston_tonks_wallace", "strength", "base = 'copper_ofhc_ptw_mie_gruneisen'\nfailure = []\n"},
+    {"mechanical_threshold", "strength", "base = 'copper_ofhc_annealed_mts_mie_gruneisen'\nfailure = []\n"},
     {"tensile_pressure", "failure",
      "[[failure]]\nmodel = 'tensile_pressure'\nsource = 'time only'\nspall_strength = '1.4 GPa'\n"},
     {"tuler_butcher", "failure",

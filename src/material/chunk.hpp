@@ -89,8 +89,10 @@ struct Chunk {
   auto view(Array& array) {
     return std::span(array.data(), size);
   }
-  strength::State strength_state(Lanes& at_density) {
-    return {view(at_density), view(pressure), view(temperature), view(plastic_strain)};
+  /// @param threshold  lane of the threshold stress, or one that no model reads
+  strength::State strength_state(Lanes& at_density, std::size_t threshold) {
+    return {view(at_density), view(pressure), view(temperature), view(plastic_strain),
+            view(history[threshold])};
   }
   /// Lanes of a history field.
   template <std::size_t components>

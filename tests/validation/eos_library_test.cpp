@@ -415,11 +415,17 @@ TEST(LibraryAll, ShocksGetFasterAndStrongerFromSoundOn) {
     ShockState before = hugoniot.at_particle_velocity(1.0);
     // Crushing pores are slower than sound; a pressure without energy may be concave (ceramics with K2 < 0).
     const bool ramps = material.eos->initial_distension() > 1.0 || material.reference.gruneisen == 0.0;
-    EXPECT_NEAR(before.shock_velocity / material.reference.sound_speed, 1.0, 0.003);
+    // The heat of crushed pores expands foams more than the shock compresses them (docs/theory/equations_of_state.md).
+    const bool turns = material.eos->initial_distension() > 1.0 + 2.0 / material.reference.gruneisen;
+    if (material.eos->initial_distension() < 1.5) {  // fabrics and foams are crushed by waves of 1 m/s
+      EXPECT_NEAR(before.shock_velocity / material.reference.sound_speed, 1.0, 0.003);
+    }
     for (const double up : {50.0, 200.0, 500.0, 1000.0, 1500.0}) {
       const ShockState shock = hugoniot.at_particle_velocity(up);
       EXPECT_GT(shock.state.pressure, before.state.pressure) << up;
-      EXPECT_GT(shock.state.density, before.state.density) << up;
+      if (!turns) {
+        EXPECT_GT(shock.state.density, before.state.density) << up;
+      }
       if (!ramps) {
         EXPECT_GT(shock.state.temperature, before.state.temperature) << up;
         EXPECT_GT(shock.shock_velocity, before.shock_velocity) << up;

@@ -48,9 +48,9 @@ void mask_to_solids(const Chunk& chunk, std::span<Lanes, 6> tensors) {
 }
 
 /// Modulus and elastic trial of a chunk with solids.
-void find_trial(const Step& step, Chunk& chunk) {
+void find_trial(const EosStrength& model, const Step& step, Chunk& chunk) {
   Kinematics& motion = chunk.motion;
-  step.material.strength->shear_modulus(chunk.strength_state(chunk.old_density),
+  step.material.strength->shear_modulus(chunk.strength_state(chunk.old_density, model.threshold_stress),
                                         chunk.view(chunk.solid_modulus));
   for (std::size_t k = 0; k < chunk.size; ++k) {
     motion.modulus[k] = chunk.solid_modulus[k] * chunk.solid_fraction[k];
@@ -62,10 +62,11 @@ void find_trial(const Step& step, Chunk& chunk) {
 }
 
 /// Increments of the plastic strain. @param modulus  that the return sees
-void find_increment(const Step& step, Chunk& chunk, Lanes& modulus) {
-  step.material.strength->plastic_increment(
-      chunk.strength_state(chunk.old_density), chunk.view(chunk.motion.trial), chunk.view(modulus),
-      chunk.view(chunk.solid_fraction), step.settings.time_step, chunk.view(chunk.increment));
+void find_increment(const EosStrength& model, const Step& step, Chunk& chunk, Lanes& modulus) {
+  step.material.strength->plastic_increment(chunk.strength_state(chunk.old_density, model.threshold_stress),
+                                            chunk.view(chunk.motion.trial), chunk.view(modulus),
+                                            chunk.view(chunk.solid_fraction), step.settings.time_step,
+                                            chunk.view(chunk.increment));
 }
 
 /// Books the fraction of the plastic work per volume (J/m^3) that does not become heat (eq. 24).
@@ -114,7 +115,7 @@ void return_with_back_stress(const EosStrength& model, const Step& step, Chunk& 
   Kinematics& motion = chunk.motion;
   Lanes shifted_modulus;
   shift_by_back_stress(step, chunk, back_stress, shifted_modulus);
-  find_increment(step, chunk, shifted_modulus);
+  find_increment(model, step, chunk, shifted_modulus);
   const double work_before = chunk.report.plastic_work;
   for (std::size_t k = 0; k < chunk.size; ++k) {
     const double increment = chunk.increment[k];
@@ -182,19 +183,27 @@ void viscous_deviator(const EosStrength&, const Step& in, Chunk& out) {
 }
 
 void elastic_trial(const EosStrength& model, const Step& in, Chunk& out) {
-  any_solid(out) ? find_trial(in, out) : no_deviator(model, in, out);
+  any_solid(out) ? find_trial(model, in, out) : no_deviator(model, in, out);
 }
 
 void elastic_trial_and_strain(const EosStrength& model, const Step& in, Chunk& out) {
-  any_solid(out) ? find_trial(in, out) : strain_alone(model, in, out);
+  any_solid(out) ? find_trial(model, in, out) : strain_alone(model, in, out);
 }
 
-void return_radially(const EosStrength&, const Step& in, Chunk& out) {
+void return_radially(const EosStrength& model, const Step& in, Chunk& out) {
   if (!any_solid(out)) return;
-  find_increment(in, out, out.motion.modulus);
+  find_increment(model, in, out, out.motion.modulus);
   const double work = return_to_surface(out);
   out.report.plastic_work += work;
   out.report.dissipation += work;
+}
+
+void return_radially_and_harden(const EosStrength& model, const Step& in, Chunk& out) {
+  if (!any_solid(out)) return;
+  return_radially(model, in, out);
+  in.material.strength->advance_threshold(out.strength_state(out.old_density, model.threshold_stress),
+                                          out.view(out.increment), in.settings.time_step,
+                                          out.view(out.history[model.threshold_stress]));
 }
 
 void store_cold_work(const EosStrength& model, const Step& in, Chunk& out) {

@@ -34,6 +34,13 @@ const HistoryField strain_field = {"strain", "1",
                                    Rank::symmetric_tensor, Convection::corotated};
 const HistoryField cold_work_field = {"stored_cold_work", "J/kg", "plastic work that did not become heat"};
 
+const HistoryField threshold_stress_field = {"threshold_stress",
+                                             "Pa",
+                                             "flow stress at 0 K by dislocations, of mechanical_threshold",
+                                             Rank::scalar,
+                                             Convection::kept,
+                                             0.0,
+                                             {.lower = 0.0}};
 const HistoryField burn_fraction_field = {"burn_fraction",
                                           "1",
                                           "of an explosive: 0 unreacted, 1 burnt to products",
@@ -70,8 +77,8 @@ bool is_brittle(const Material& material) { return material.strength->brittle() 
 }  // namespace
 
 std::vector<HistoryField> EosStrength::fields() {
-  return {damage_field,    distension_field,    back_stress_field,  strain_field,
-          cold_work_field, burn_fraction_field, lighting_time_field};
+  return {damage_field,    distension_field,    back_stress_field,   strain_field,
+          cold_work_field, burn_fraction_field, lighting_time_field, threshold_stress_field};
 }
 
 EosStrength::EosStrength(const Material& material) : burn(material.burn) {
@@ -85,6 +92,10 @@ EosStrength::EosStrength(const Material& material) : burn(material.burn) {
   if (material.strength->kinematic_modulus() > 0.0) back_stress = declare(back_stress_field);
   if (any_criterion(material, [](const auto& c) { return c.needs_strain(); })) strain = declare(strain_field);
   if (material.stores_cold_work()) stored_cold_work = declare(cold_work_field);
+  if (const std::optional<double> initial = material.strength->initial_threshold()) {
+    threshold_stress = declare(threshold_stress_field);
+    initial_threshold_ = *initial;
+  }
   if (burn != nullptr) {
     burn_fraction = declare(burn_fraction_field);
     lighting_time = declare(lighting_time_field);
@@ -102,6 +113,7 @@ std::vector<EosStrength::Part> EosStrength::parts_of(const Material& material, E
   using namespace parts;
   const bool integrates = energy == Energy::integrated, has_phases = material.eos->has_phases();
   const bool stores = stored_cold_work != undeclared, kinematic = back_stress != undeclared;
+  const bool threshold = threshold_stress != undeclared;
   const bool brittle = is_brittle(material), damages = softens(material), strained = strain != undeclared;
   const bool viscous = material.strength->viscosity() > 0.0;
   std::vector<Part> all;
@@ -117,7 +129,7 @@ std::vector<EosStrength::Part> EosStrength::parts_of(const Material& material, E
     if (kinematic) {
       take(stores ? return_kinematically_and_store : return_kinematically);
     } else {
-      take(return_radially);
+      take(threshold ? return_radially_and_harden : return_radially);
       take_if(stores, store_cold_work);
     }
   } else {
@@ -174,9 +186,14 @@ double EosStrength::sound_speed(const Material& material, const eos::State& stat
 
 void EosStrength::start(const eos::State& state, MaterialPoints& points, std::size_t begin,
                         std::size_t end) const {
-  if (distension == undeclared) return;
-  std::vector<double>& values = points.history.scalar(distension_field.name);
-  for (std::size_t i = begin; i < end; ++i) values[i] = state.distension;
+  if (distension != undeclared) {
+    std::vector<double>& values = points.history.scalar(distension_field.name);
+    for (std::size_t i = begin; i < end; ++i) values[i] = state.distension;
+  }
+  if (threshold_stress != undeclared) {
+    std::vector<double>& values = points.history.scalar(threshold_stress_field.name);
+    for (std::size_t i = begin; i < end; ++i) values[i] = initial_threshold_;
+  }
 }
 
 void EosStrength::void_share(const Chunk& chunk, Lanes& share) const {

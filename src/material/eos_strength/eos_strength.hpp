@@ -39,13 +39,15 @@ class EosStrength final : public Constitutive {
   /// First lanes of the history fields; of a field that is not declared: a lane that nobody else uses.
   static constexpr std::size_t undeclared = most_history - 1;
   std::size_t damage = undeclared, distension = undeclared, back_stress = undeclared, strain = undeclared,
-              stored_cold_work = undeclared, burn_fraction = undeclared, lighting_time = undeclared;
+              stored_cold_work = undeclared, burn_fraction = undeclared, lighting_time = undeclared,
+              threshold_stress = undeclared;
 
  private:
   using Share = void (*)(const EosStrength& model, const Chunk& chunk, Lanes& share);
 
   std::vector<Part> parts_of(const Material& material, Energy energy) const;
 
+  double initial_threshold_ = 0.0;  // Pa, of materials with the field
   std::vector<Part> from_grid_, integrated_;
   Share share_ = nullptr;  ///< null: that of `Constitutive`
 };

@@ -77,7 +77,8 @@ void grow_voids(const EosStrength& model, const Step& in, Chunk& out) {
   Lanes rate, flow, equivalent, before;
   if (criterion.returns_deviator()) {
     for (std::size_t k = 0; k < out.size; ++k) rate[k] = out.increment[k] / dt;
-    in.material.strength->flow_stress(out.strength_state(out.density), out.view(rate), out.view(flow));
+    in.material.strength->flow_stress(out.strength_state(out.density, model.threshold_stress), out.view(rate),
+                                      out.view(flow));
     for (std::size_t k = 0; k < out.size; ++k) {
       flow[k] *= 1.0 - out.melted[k];
       before[k] = equivalent[k] = std::sqrt(1.5 * tensor(out.motion.deviator, k).squared_norm());

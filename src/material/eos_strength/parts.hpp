@@ -30,6 +30,8 @@ void elastic_trial(const EosStrength& model, const Step& in, Chunk& out);
 void elastic_trial_and_strain(const EosStrength& model, const Step& in, Chunk& out);
 /// Radial return with isotropic hardening.
 void return_radially(const EosStrength& model, const Step& in, Chunk& out);
+/// The same, and advances the threshold stress (eq. 31).
+void return_radially_and_harden(const EosStrength& model, const Step& in, Chunk& out);
 /// Adds the part of the plastic work of `return_radially` that does not become heat to the cold work (eq. 24).
 void store_cold_work(const EosStrength& model, const Step& in, Chunk& out);
 /// Radial return with a back stress (eq. 16).

@@ -7,6 +7,7 @@
 #include "src/material/strength/holmquist_johnson_cook.hpp"
 #include "src/material/strength/johnson_cook.hpp"
 #include "src/material/strength/johnson_holmquist_2.hpp"
+#include "src/material/strength/mechanical_threshold_model.hpp"
 #include "src/material/strength/none.hpp"
 #include "src/material/strength/power_law.hpp"
 #include "src/material/strength/preston_tonks_wallace.hpp"
@@ -43,6 +44,7 @@ const Catalogue<ModelEntry>& catalogue() {
                                              entry<SteinbergGuinan, SteinbergGuinanModel>(),
                                              entry<ZerilliArmstrong, ZerilliArmstrongModel>(),
                                              entry<PrestonTonksWallace, PrestonTonksWallaceModel>(),
+                                             entry<MechanicalThreshold, MechanicalThresholdModel>(),
                                              entry<HolmquistJohnsonCook, HolmquistJohnsonCookModel>(),
                                              entry<RiedelHiermaierThoma, RiedelHiermaierThomaModel>(),
                                              entry<JohnsonHolmquist2, JohnsonHolmquist2Model>(),

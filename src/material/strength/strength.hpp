@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,6 +15,7 @@ struct State {
   std::span<const double> pressure;        ///< Pa, positive in compression
   std::span<const double> temperature;     ///< K
   std::span<const double> plastic_strain;  ///< equivalent plastic strain
+  std::span<const double> threshold = {};  ///< Pa, of models with an `initial_threshold`; no other reads it
 
   [[nodiscard]] std::size_t size() const { return density.size(); }
 };
@@ -36,6 +38,13 @@ class Strength {
   /// Slope H of the back stress over the plastic strain in uniaxial tension (Pa), linear kinematic hardening;
   /// 0: none (docs/theory/material.md, eq. 16).
   [[nodiscard]] virtual double kinematic_modulus() const { return 0.0; }
+
+  /// Threshold stress (Pa) of an undisturbed point, of a model that hardens by a state of its own, which follows the path
+  /// of rate and temperature (docs/theory/material.md, eq. 31); none: the plastic strain is all that hardens.
+  [[nodiscard]] virtual std::optional<double> initial_threshold() const { return std::nullopt; }
+  /// Advances the threshold stress over the increments that `plastic_increment` has found from the same state.
+  virtual void advance_threshold(const State& /*state*/, std::span<const double> /*increment*/, double /*dt*/,
+                                 std::span<double> /*threshold*/) const {}
 
   /// Viscosity of a fluid without deviatoric strength (Pa s): s = 2 eta dev D; 0: none.
   [[nodiscard]] virtual double viscosity() const { return 0.0; }

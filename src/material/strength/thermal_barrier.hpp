@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <string>
+
+#include "src/core/base/parameter_table.hpp"
+#include "src/material/strength/radial_return.hpp"
+
+namespace whipple::strength {
+
+/// A barrier that dislocations pass by thermal activation: of a threshold stress, the stress at 0 K, it leaves the fraction
+///   S = [1 - (kT/(g0 b^3 G) ln(rate_0/rate))^(1/q)]^(1/p)   in [0, 1].
+struct ThermalBarrier {
+  double energy = 1.0;  ///< g0, over G b^3
+  double rate = 1e7;    ///< rate_0, 1/s, of the attempts
+  double p = 1.0, q = 1.0;
+
+  /// @param name  first part of the keys  @param of  the threshold stress, for the meanings
+  static ParameterTable<ThermalBarrier> parameters(const std::string& name, const std::string& of) {
+    using P = ThermalBarrier;
+    return {
+        real(name + "_energy", &P::energy, "", range::positive(),
+             "g0: activation energy of " + of + " over G b^3")
+            .optional(),
+        real(name + "_rate", &P::rate, "1/s", range::positive(), "rate_0: of the attempts to pass " + of)
+            .optional(),
+        real(name + "_p", &P::p, "", range::positive(), "p of the profile of " + of).optional(),
+        real(name + "_q", &P::q, "", range::positive(), "q of the profile of " + of).optional(),
+    };
+  }
+  /// Compute S and its slope by ln(rate). @param thermal  kT/(b^3 G)
+  [[nodiscard]] FlowStress passed(double thermal, double log_rate) const {
+    const double per_log = thermal / energy, work = per_log * (std::log(rate) - log_rate);
+    if (!(work > 0.0)) return {1.0, 0.0};
+    const double root = std::pow(work, 1.0 / q), left = 1.0 - root;
+    if (!(left > 0.0)) return {0.0, 0.0};
+    const double fraction = std::pow(left, 1.0 / p);
+    return {fraction, fraction / (p * left) * root / (q * work) * per_log};
+  }
+};
+
+}  // namespace whipple::strength
