@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """From measured runs to numbers with bands: what docs/generated/results holds of a run."""
+import copy
 import math
 import re
+import types
 
 from studies.validation import bands, execution, provenance
 from studies.validation.bands import clean
@@ -110,8 +112,8 @@ RECORDED_KEYS = ("revision", "dirty", "program", "executable", "source", "parame
 
 
 def comparable(records):
-    """Names of the variants that one program computed: those of the program that computed most grids, of the latest of
-    equal ones. Others say nothing about the dependence on the grid."""
+    """Names of the variants that one program computed: of the one that computed most grids; of equal ones the present
+    program, else that of the finest grid. Others say nothing about the dependence on the grid."""
     groups = []
     for name in records:
         group = next((g for g in groups if provenance.is_same_program(records[g[0]]["source"], records[name]["source"])), None)
@@ -121,7 +123,8 @@ def comparable(records):
             group.append(name)
     here = provenance.digest_of_sources()
     return max(groups, default=[], key=lambda group: (
-        sum(name in GRIDS for name in group), provenance.is_same_program(records[group[0]]["source"], here)))
+        sum(name in GRIDS for name in group), provenance.is_same_program(records[group[0]]["source"], here),
+        max((GRIDS.index(name) for name in group if name in GRIDS), default=-1)))
 
 
 GRIDS = ("coarse", "normal", "fine")
@@ -134,6 +137,24 @@ def can_be_renewed(stored, run, records):
         (e.name, e.measure) in known_measures for e in run.expectations)
 
 
+def with_bands_of_one_program(run, entry):
+    """A stored entry that cannot be compared with what is expected now, with the bands of what one program computed."""
+    entry = copy.deepcopy(entry)
+    used = comparable(entry["records"])
+    entry["apart"] = sorted(set(entry["records"]) - set(used))
+    grids = [name for name in entry["cells"] if name in used and name in run.cell_size]
+    moved = [name for name in used if name not in GRIDS]
+    for q in entry["quantities"]:
+        if q["class"] == "identity":
+            continue
+        values = {name: known(value) for name, value in q["values"].items()}
+        former = types.SimpleNamespace(kind=q["kind"], value=known(q["expected"]), tolerance=known(q["tolerance"]))
+        samples = [values[name] for name in (["normal"] if "normal" in used else []) + moved]
+        q.update(quantity_study(former, [(run.cells(name), values[name]) for name in grids], samples if moved else [],
+                                known(q.get("u_input"))))
+    return entry
+
+
 def run_study(case, run, collected, stored=None):
     """Return the stored entry of a run; None if nothing was run. `collected`: by name of run, from collect();
     `stored`: the entry as it is, whose marks are renewed if its variants are not here but all that is expected was measured.
@@ -141,7 +162,7 @@ def run_study(case, run, collected, stored=None):
     measures, records = collected[run.name]
     if all(isinstance(of_run, StoredMeasures) for of_run in measures.values()) and not (
             stored and can_be_renewed(stored, run, records)):
-        return None
+        return with_bands_of_one_program(run, stored) if stored else None
     grids = [name for name in GRIDS if name in measures]
     used = comparable(records)
     moved = [name for name in used if name not in GRIDS]

@@ -16,8 +16,8 @@ CLASSES_OF_PHYSICS = {"experiment": "Experiments", "exact": "Exact solutions", "
 INTRODUCTION = """# Results
 
 Cases compared with experiments, exact solutions and other codes. Every number has an uncertainty band
-([uncertainty](../theory/uncertainty.md)) and refers to the finest grid; "not converged" is not agreement, and a single
-grid is never converged. A run agrees if all of its quantities do; one that differs decides. All cases use one set of
+([uncertainty](../theory/uncertainty.md)) and refers to the finest grid of those that one program computed; "not
+converged" is not agreement, and a single grid is never converged. A run agrees if all of its quantities do; one that differs decides. All cases use one set of
 numerical parameters. What was found, with the known causes of differences: [findings](../manual/findings.md). Equations
 of state from atoms: [six metals](results_md.md). Written by `scripts/results.py --write`
 ([how](../manual/expected_results.md)).

@@ -122,7 +122,7 @@ TEST(Handler, AnswersTenThousandDamagedQuestions) {
   for (int n = 0; n < 10000; ++n) {
     const bool has_key = random(2) == 0;
     const Response answer =
-        handler.answer({.changes = random(2) == 0,
+        handler.handle({.changes = random(2) == 0,
                      .target = damaged(targets[random(targets.size())]),
                      .host = "127.0.0.1:1",
                      .origin = {},
