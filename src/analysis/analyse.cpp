@@ -93,13 +93,13 @@ Start start_of(const Run& run, const Snapshot& first, const Options& options) {
   double count = 0.0;
   for (std::size_t i = 0; i < first.size(); ++i) {
     if (first.body[i] != frame.projectile) continue;
-    start.projectile_mass += frame.copies() * first.mass[i];
+    start.projectile_mass += frame.images() * first.mass[i];
     start.projectile_radius =
         std::max(start.projectile_radius,
                  frame.radius(first.position[i]) + 0.5 * run.bodies[frame.projectile].spacing);
     count += 1.0;
   }
-  start.particle_mass = count > 0.0 ? start.projectile_mass / (frame.copies() * count) : 0.0;
+  start.particle_mass = count > 0.0 ? start.projectile_mass / (frame.images() * count) : 0.0;
   for (std::size_t i = 0; i < first.size(); ++i) {
     if (frame.radius(first.position[i]) < 0.25 * start.projectile_radius)
       start.near_axis.push_back(first.id[i]);

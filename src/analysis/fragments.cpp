@@ -64,6 +64,7 @@ Fragment sum_up(std::span<const std::uint32_t> members, const Written& fields, c
     // A fragment within the linking length of its image is connected to it: half of the fragment was in the model.
     if (2.0 * to_plane[p] >= link) {
       fragment.copies *= 2.0;
+      if (frame.cuts[p].axis != frame.axis) fragment.forward *= 2.0;
       continue;
     }
     fragment.mass *= 2.0;
@@ -216,8 +217,8 @@ Table fragment_distribution(const std::vector<Fragment>& fragments) {
   double number = 0.0, mass = 0.0;
   for (std::size_t i = 0; i < fragments.size(); ++i) {
     if (!fragments[i].debris) continue;
-    number += fragments[i].copies;
-    mass += fragments[i].copies * fragments[i].mass;
+    number += fragments[i].forward;
+    mass += fragments[i].forward * fragments[i].mass;
     const auto next = std::find_if(fragments.begin() + static_cast<std::ptrdiff_t>(i) + 1, fragments.end(),
                                    [](const Fragment& f) { return f.debris; });
     if (next != fragments.end() && next->mass == fragments[i].mass) continue;  // one row per mass
@@ -247,10 +248,10 @@ Quantities fragment_measures(const std::vector<Fragment>& fragments, double proj
   double number = 0.0, mass = 0.0, resolved = 0.0;
   for (const Fragment& f : fragments) {
     if (!f.debris) continue;
-    debris.emplace_back(f.mass, f.copies);
-    number += f.copies;
-    if (f.particles >= 8) resolved += f.copies;
-    mass += f.copies * f.mass;
+    debris.emplace_back(f.mass, f.forward);
+    number += f.forward;
+    if (f.particles >= 8) resolved += f.forward;
+    mass += f.forward * f.mass;
   }
   const double largest = debris.empty() ? 0.0 : debris.front().first;
   // Masses are multiples of the particle mass; a minimum smaller by half a particle mass approximates the sum over

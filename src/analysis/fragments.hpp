@@ -15,6 +15,7 @@ struct Fragment {
   std::size_t particles = 0;  ///< in the model
   std::size_t intact = 0;     ///< number of these that have not failed
   double mass = 0.0;          ///< of the whole fragment; a fragment cut by mirror planes is completed
+  double forward = 1.0;       ///< how many of its copies fly the same way along the axis, itself included
   double copies = 1.0;        ///< number of such fragments in the full problem
   Vector3 position = Vector3::Zero(), velocity = Vector3::Zero();
   double temperature = 0.0;      ///< mass-weighted mean, K; NaN if not written

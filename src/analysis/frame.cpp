@@ -132,7 +132,8 @@ Frame find_frame(const Run& run, const Snapshot& first, std::optional<int> axis,
     const std::optional<double>& plane = run.mirror_planes[static_cast<std::size_t>(a)];
     const auto& faces = run.walls[static_cast<std::size_t>(a)];
     const bool slice = faces[0] && faces[1] && faces[0]->holds && faces[1]->holds;
-    const bool flown_at = a == frame.axis && !at_rest && faces[frame.sign > 0.0 ? 1 : 0];
+    const std::optional<Run::Wall>& ahead_of_flight = faces[frame.sign > 0.0 ? 1 : 0];
+    const bool flown_at = a == frame.axis && !at_rest && ahead_of_flight && ahead_of_flight->holds;
     if (plane && !slice && !flown_at) frame.cuts.push_back({a, *plane});
     if (a == frame.axis) {
       // The projectile flies against this face: it is a wall, not the mirror plane of a half model.

@@ -129,7 +129,9 @@ void Body::check(const Case& setup, const Faults& faults) const {
   if (driven && shape != nullptr) {
     const std::array<bool, 3> guided = guided_axes(setup);
     for (std::size_t a = 0; a < 3; ++a) {
-      if (!guided[a] || velocity[static_cast<int>(a)] == 0.0) continue;
+      const bool of_section =
+          setup.domain.is_planar() && (a == 2 || (a == 1 && setup.geometry.is_axisymmetric()));
+      if (!guided[a] || of_section || velocity[static_cast<int>(a)] == 0.0) continue;
       faults.add("driven",
                  fmt::format("a 'driven' body that touches a symmetry plane normal to {0} is not moved along "
                              "{0}: expected a velocity of 0 there",

@@ -159,7 +159,7 @@ Balance Contact::apply(grid::BlockGrid& grid, double dt, FirstTouches& touches, 
     std::vector<Meeting> meetings;
     std::vector<std::uint8_t> by_impulses;  // of each side
     std::vector<Stop> stops;
-    Pressing pressing(settings_.friction);
+    Pressing pressing;
     for (std::size_t i = 0; i < grid::nodes_per_block; ++i) {
       at_node.go_to(i);
       meetings.clear();

@@ -103,7 +103,7 @@ Vector3 axis_of(const Lanes* sums, bool planar) {
 
 constexpr std::size_t lanes_of_directions = 2, lanes_of_part = 2;
 
-/// Decides whether damage has a ridge at a node (docs/theory/cracks.md, K4).
+/// Decides whether damage has a ridge at a node (docs/theory/cracks.md, 4).
 /// @param sums  squares of the directions, then mass and sum of the directions, and of the places, of each part
 /// @param tolerance  m: distance that is round-off
 /// @param bit   bit(part): of its field
@@ -228,7 +228,7 @@ void Cracks::find_in(std::size_t number, const Particles& particles, const Eleme
     });
   };
 
-  // (K1) damage of the nodes, only where it is not zero
+  // (1) damage of the nodes, only where it is not zero
   Nodes damaged(grid.slots(), 0);
   visit(
       Nodes(grid.slots(), ~std::uint64_t{0}), [&](std::uint32_t p) { return particles.failed[p] != 0; },
@@ -266,7 +266,7 @@ void Cracks::find_in(std::size_t number, const Particles& particles, const Eleme
   if (grid.is_shared()) grid.borrow_from_owners(damage.of);
   join(candidates);
 
-  // (K2) directions to the crack
+  // (2) directions to the crack
   visit(damaged, every, [&](std::uint32_t p) {
     return [&, p](const Place& place) {
       direction_[p] +=
@@ -286,7 +286,7 @@ void Cracks::find_in(std::size_t number, const Particles& particles, const Eleme
     }
   });
 
-  // (K3), (K4) axes and sides
+  // (3), (4) axes and sides
   const std::size_t parts = 1 + fields_.sectors();
   Values sums;
   sums.lay_out(candidates, lanes_of_directions + lanes_of_part * parts);

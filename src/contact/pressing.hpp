@@ -15,9 +15,6 @@ namespace whipple::contact {
 /// keep what they were apart by; they need other impulses.
 class Pressing {
  public:
-  /// @param friction  Coulomb's coefficient
-  explicit Pressing(double friction) : friction_(friction) {}
-
   /// theta (4.2): fraction of the step in which two fields touch.
   /// @param normal  unit vector from a to b
   /// @param open    m, distance of their surfaces; <= 0: they touch
@@ -27,9 +24,6 @@ class Pressing {
   /// Begins with a node where these fields meet; they must outlive `apply`.
   void begin(std::span<Side> sides);
   /// Two of them, numbers of the sides, touch for a fraction of the step above 0.
-  void add(std::size_t a, std::size_t b, const Vector3& normal, double share) {
-    add(a, b, normal, share, friction_);
-  }
   /// @param friction  Coulomb's coefficient of the two
   void add(std::size_t a, std::size_t b, const Vector3& normal, double share, double friction);
   /// Changes velocities, increments and relaxations of the fields that press, and accounts for what that takes.
@@ -69,7 +63,6 @@ class Pressing {
   double drag(Pair& pair);
   std::size_t leader(std::size_t side) const;
 
-  double friction_;
   std::span<Side> sides_;
   std::vector<Pair> pairs_;
   std::vector<Former> former_;      // of each side

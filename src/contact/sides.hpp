@@ -13,7 +13,7 @@
 namespace whipple::contact {
 
 /// The sides that meet at the nodes of a contact slot: each body is one, or two at a crack of its own. Fields of a body on the
-/// same side of a crack move as one (docs/theory/cracks.md, K5).
+/// same side of a crack move as one (docs/theory/cracks.md, 5).
 class Sides {
  public:
   /// @param cracks  of bodies whose fields divide; null: of none

@@ -181,9 +181,11 @@ void RunDirectory::require_free_space(std::uint64_t bytes) const {
   const fs::space_info space = fs::space(path_, error);
   if (error) fail(path_, "determine the free space", error.value());
   if (space.available < bytes) {
-    throw InputError(fmt::format("{}: needs about {}, but the disk has {} left", path_.string(),
-                                 format_bytes(static_cast<double>(bytes)),
-                                 format_bytes(static_cast<double>(space.available))));
+    throw InputError(fmt::format(
+        "{}: needs about {} for checkpoints, but the disk has {} left: make room, then repeat a new "
+        "run with --force",
+        path_.string(), format_bytes(static_cast<double>(bytes)),
+        format_bytes(static_cast<double>(space.available))));
   }
 }
 

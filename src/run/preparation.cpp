@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -49,6 +51,15 @@ void require_memory(const cases::Case& setup, MPI_Comm communicator) {
       "{}: the particles of all bodies take up to {}, and there are {}: enlarge 'domain.cell_size' or reduce "
       "'per_cell', or take more machines",
       setup.file.string(), format_bytes(needed), format_bytes(available)));
+}
+
+void require_disk(const solver::Simulation& simulation, const io::RunDirectory& directory, int count,
+                  const io::Ranks& ranks) {
+  std::array<double, 1> bytes = {0.0};  // of the points, which a checkpoint holds
+  for (const solver::Carrier* carrier : simulation.carriers())
+    bytes[0] += static_cast<double>(carrier->bytes());
+  parallel::sum(simulation.communicator(), bytes);
+  ranks.on_root([&] { directory.require_free_space(static_cast<std::uint64_t>(count * bytes[0])); });
 }
 
 }  // namespace whipple::run

@@ -136,6 +136,7 @@ int begin(const RunOptions& options, MPI_Comm communicator) {
   log::info("{}: {}", setup.title.empty() ? directory.name() : setup.title, directory.path().string());
   for (const std::string& remark : cases::remarks(setup)) log::warning("{}", remark);
   solver::Simulation simulation(setup, communicator);
+  require_disk(simulation, directory, 3, ranks);
   Runner runner(simulation, observers_of(simulation, directory, options, ranks), options.wall_time);
   runner.begin();
   return run_with_controls(runner, directory, ranks, replay ? &*replay : nullptr);
@@ -161,6 +162,7 @@ int go_on(const RunOptions& options, MPI_Comm communicator) {
                             provenance(setup, options.program, ranks.count()));
     });
   }
+  require_disk(simulation, directory, 1, ranks);
   Runner runner(simulation, observers_of(simulation, directory, options, ranks), options.wall_time);
   runner.resume(checkpoint.values);
   log::info("restarted from {} at step {}, t = {:.6g} s", checkpoint.path.string(), simulation.state().step,

@@ -54,9 +54,9 @@ inline constexpr auto accounts = [] {
     {"conducted_heat", "J", &S::conducted_heat, always, "internal energy conducted between particles in shocks",
      "conduction inside shocks", "moved between particles", {}},
     {"contact_heat", "J", &S::contact_heat, always, "kinetic energy lost by normal impulses of contact",
-     "normal impulses between bodies and at walls", "internal energy", {}},
+     "normal impulses between bodies, faces of cracks and at walls", "internal energy", {}},
     {"friction_heat", "J", &S::friction_heat, always, "kinetic energy lost by friction",
-     "friction between bodies and at walls", "internal energy", {}},
+     "friction between bodies, faces of cracks and at walls", "internal energy", {}},
     {"contact_impulse", "N s", &S::contact_impulse, always, "sum of the normal impulses of contact", {}, {}, {}},
     {"friction_impulse", "N s", &S::friction_impulse, always, "sum of the tangential impulses of contact", {}, {}, {}},
     {"converted_mass", "kg", &S::converted_mass, of_elements, "mass of elements that became particles", {}, {}, {}},
@@ -102,6 +102,10 @@ inline constexpr auto accounts = [] {
   });
 }();
 // clang-format on
+
+/// Every sum of the ledger is an account; a new one that is not would be neither added up, saved nor shown.
+static_assert(sizeof(Ledger) == 2 * sizeof(Totals) + sizeof(BodyOutflow) + 2 * sizeof(Vector3) +
+                                    (accounts.size() + 3) * sizeof(double));
 
 /// Calls f(name, number) for every number of the ledger.
 template <class L, class Function>

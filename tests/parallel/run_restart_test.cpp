@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
 
@@ -173,6 +174,17 @@ TEST_F(Run, KilledAndRestartedGivesBitwiseTheSameHistory) {
   EXPECT_EQ(first_difference(history("killed"), history("whole")), "");
   EXPECT_EQ(first_difference(gauges("killed"), gauges("whole")), "");
   EXPECT_TRUE(newest_checkpoint("killed") == newest_checkpoint("whole"));
+  for (const char* run : {"whole", "killed"}) {  // columns.json describes the columns of history.csv
+    const auto columns = nlohmann::json::parse(text(folder_ / run / "columns.json"));
+    std::string head;
+    for (const auto& column : columns) {
+      const auto unit = column.at("unit").get<std::string>();
+      head += (head.empty() ? "" : ",") + column.at("name").get<std::string>() +
+              (unit.empty() ? "" : " [" + unit + "]");
+    }
+    const std::string table = history(run);
+    EXPECT_EQ(head, table.substr(0, table.find('\n'))) << run;
+  }
   // The index names the same snapshots.
   EXPECT_EQ(first_difference(text(folder_ / "killed" / "debris.particles.hdf.series"),
                              text(folder_ / "whole" / "debris.particles.hdf.series")),

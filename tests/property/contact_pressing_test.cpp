@@ -41,11 +41,11 @@ struct Trial {
       sides.push_back({.node = &after[s], .mass = mass[s]});
       after[s].motion.set_heat(0.0);
     }
-    Pressing pressing(friction);
+    Pressing pressing;
     pressing.begin(sides);
     for (const Meeting& m : meetings) {
       const double share = Pressing::share(sides[m.a], sides[m.b], m.normal, m.open, dt);
-      if (share > 0.0) pressing.add(m.a, m.b, m.normal, share);
+      if (share > 0.0) pressing.add(m.a, m.b, m.normal, share, friction);
     }
     balance = {};
     pressing.apply(balance);

@@ -124,7 +124,8 @@ TEST(HeatingViscosity, IsStoredAsTheModeOfTheUpdateSaysWhateverThePointsHold) {
   for (const HeatingViscosity mode : {HeatingViscosity::not_distinguished, HeatingViscosity::whole}) {
     MaterialPoints points = points_of(material, 1);
     points.heating_viscosity.assign(1, -7.0);
-    update_material(material, points, 0, 1, std::span(&gradient, 1), {.time_step = 1e-9, .heating = mode});
+    update_material(material, points, 0, 1, std::span(&gradient, 1),
+                    {.time_step = 1e-9, .cell_size = 1e-3, .heating = mode});
     EXPECT_GT(points.artificial_viscosity[0], 0.0);
     EXPECT_EQ(points.heating_viscosity[0],
               mode == HeatingViscosity::whole ? points.artificial_viscosity[0] : -7.0);

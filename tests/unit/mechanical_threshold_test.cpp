@@ -60,6 +60,29 @@ MechanicalThreshold hy100() {
   return c;
 }
 
+TEST(MechanicalThreshold, ABarrierNeedsAllOfItsConstantsAndItsThreshold) {
+  MechanicalThreshold c = hy100();
+  EXPECT_NO_THROW(c.require_consistent());
+  c.intrinsic.q = 0.0;
+  EXPECT_THROW(c.require_consistent(), InputError);
+  c = hy100();
+  c.intrinsic_threshold = 0.0;
+  EXPECT_THROW(c.require_consistent(), InputError);
+  c.intrinsic = {};
+  EXPECT_NO_THROW(c.require_consistent());
+}
+
+// With theta_IV, (31) hardens on beyond saturation at a slope between 0 and theta_IV.
+TEST(MechanicalThreshold, HardensOnBeyondSaturationWithALastHardening) {
+  const MechanicalThreshold c = hy100();
+  const auto at = c.condition(600.0, c.modulus(c.reference_density, 0.0, 600.0));
+  const double slow = c.log_rate(1e-3), end = c.saturation_of(slow, at);
+  const auto beyond = c.threshold(3.0 * end, 1e-3, slow, at);
+  EXPECT_GT(beyond.slope, 0.0);
+  EXPECT_LT(beyond.slope, c.last_hardening);
+  EXPECT_NEAR(beyond.value, 3.0 * end + 1e-3 * beyond.slope, 1e-6 * end);
+}
+
 /// A point at constant temperature, at rest, that is strained.
 struct Point {
   MechanicalThresholdModel model;

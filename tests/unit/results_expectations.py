@@ -284,19 +284,21 @@ def a_run_is_compared(case, work):
                            ("gauge.rear.x", True), ("wall_speed.wall", True), ("front_velocity.wall", False)):
         require(measured.depends_on_frame(measure) == moves, measure)
     require(study["across"] == {"coarse": 2.0, "normal": 4.0, "fine": 8.0}, str(study["across"]))
-    results = {"cases": {"made_up": {"title": case.title, "expected": "", "overrides": {}, "no_variants": [],
+    results = {"cases": {"made_up": {"title": case.title, "overrides": {}, "no_variants": [],
                                      "runs": [study]}}}
-    text = page.body(results, "-", {("made_up", "only")})
+    def pages(stale):
+        return "\n".join(page.pages(results, "-", stale).values())
+    text = pages({("made_up", "only")})
     for words in ("| quantity | 2 mm | 1 mm | 0.5 mm | order | limit |", "**differs**", "Not current",
-                  "scripts/results.py made_up:only --band --run", "**Experiments**, one line each: 1, of which 1 differs", "0 of 1 hold",
+                  "scripts/results.py made_up:only --band --run", "## Experiments", "1 runs: 1 **differs**.", "0 of 1 hold",
                   "of 5 quantities 4 have three grids; 4 are converged",
                   f"of {len(records)} computations {len(records)} with the set - (**other values than now**)."):
         require(words in text, f"{words!r} is not in the page:\n{text}")
     study["decided_by"] = "finer"
-    text = page.body(results, "-", set())
+    text = pages(set())
     require("Experiments" not in text and "finer cells decides: finer" in text, "another run stands for the experiment")
     study["decided_by"] = ""
-    text = page.body(results, "-", set())
+    text = pages(set())
     require(text.count("a reason") == 2, "the cause is given where there is no agreement")
     found = comparison.sensitivities(results)
     require(found["fastest particle"][0]["cells"] == [4.0, 8.0], str(found))

@@ -148,6 +148,8 @@ TEST_P(CracksInDimension, DoNotPressBeforeTheyTouch) {
   EnergyWatch watch;
   run_to(faces.simulation(), 2.4e-6, std::ref(watch));
   run_to(early.simulation(), 2.4e-6);
+  for (const std::uint32_t body : {0U, 1U})
+    EXPECT_LT(faces.deviation(body, -speed), 1e-9 * std::abs(speed)) << body;
   EXPECT_LT(faces.deviation(2, speed), 1e-9 * std::abs(speed));
   EXPECT_GT(early.deviation(2, speed), 0.1 * std::abs(speed));
   run_to(faces.simulation(), 4e-6, std::ref(watch));
@@ -163,6 +165,7 @@ TEST(Cracks, FacesRubOnOneAnother) {
     EnergyWatch watch;
     run_to(halves.simulation(), 1.5e-6, std::ref(watch));
     EXPECT_LT(watch.worst, 1e-12);
+    EXPECT_LT(halves.simulation().state().ledger.momentum_error(halves.simulation().totals()), 1e-12);
     return halves.simulation().state().ledger;
   };
   const auto smooth = ledger_with("crack_friction = 0.0"), rough = ledger_with("crack_friction = 0.2"),

@@ -50,7 +50,11 @@ void require_room_for_mpirun() {
 }
 
 void let_mpi_start_alone() {
-  if (std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr) ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  if (std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr) return;
+  ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  // Isolated processes share one session directory: one that ends removes it while another begins, which aborts. A
+  // process without peers needs none.
+  ::setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
 }
 
 }  // namespace whipple

@@ -84,8 +84,9 @@ struct MechanicalThreshold {
              "sigma_i: of the lattice and its solutes, at 0 K")
             .optional(),
     };
-    table = with_part(std::move(table), &P::intrinsic, ThermalBarrier::parameters("intrinsic", "sigma_i"));
-    return with_part(std::move(table), &P::forest, ThermalBarrier::parameters("forest", "sigma_e"));
+    table =
+        with_part(std::move(table), &P::intrinsic, ThermalBarrier::parameters("intrinsic", "sigma_i", false));
+    return with_part(std::move(table), &P::forest, ThermalBarrier::parameters("forest", "sigma_e", true));
   }
   /// Slower flow has the stress of this rate (1/s), the slowest of the tests behind the published constants.
   static constexpr double least_rate = 1e-4;
@@ -101,6 +102,12 @@ struct MechanicalThreshold {
   void require_consistent() const {
     if (modulus_of(1.0, melting_temperature) <= 0.0) {
       throw InputError("'modulus_drop' leaves no shear modulus below 'melting_temperature'");
+    }
+    if (intrinsic.given() != (intrinsic_threshold > 0.0 ? 4 : 0)) {
+      throw InputError(
+          "'intrinsic_threshold' and 'intrinsic_energy', '_rate', '_p' and '_q' belong together: expected "
+          "all "
+          "of them or none");
     }
     if (last_hardening > hardening) throw InputError("'last_hardening' is above 'hardening'");
   }
@@ -138,7 +145,7 @@ struct MechanicalThreshold {
     return saturation * std::exp(at.thermal / saturation_energy * (log_rate - std::log(saturation_rate)));
   }
   /// sigma_e after a plastic strain x at constant rate and temperature, and its slope by x at constant rate. The
-  /// hardening is linearised about its beginning and solved exactly: of second order in x, never beyond saturation.
+  /// hardening is linearised about its beginning and solved exactly: of second order in x, without theta_IV never beyond saturation.
   [[nodiscard]] FlowStress threshold(double before, double x, double log_rate, const Condition& at) const {
     const double initial = std::max(0.0, hardening + hardening_by_log_rate * log_rate +
                                              hardening_by_root_rate * std::exp(0.5 * log_rate) -
@@ -154,12 +161,12 @@ struct MechanicalThreshold {
     if (slope < 0.0 && after < end) return {std::min(before, end), 0.0};  // softens to saturation
     return {after, slope * std::exp(path)};
   }
-  /// A lower bound of Y for all strains of a step: the stress of the slowest flow, softened to its saturation.
+  /// Returns a lower bound of Y for all strains of a step: the stress of the slowest flow, softened to its saturation.
   [[nodiscard]] double least_flow(double before, const Condition& at) const {
     const double slowest = std::log(least_rate);
-    const double stress =
-        forest.passed(at.thermal, slowest).value * std::min(before, saturation_of(slowest, at)) +
-        intrinsic.passed(at.thermal, slowest).value * intrinsic_threshold;
+    double stress = forest.passed(at.thermal, slowest).value * std::min(before, saturation_of(slowest, at));
+    if (intrinsic_threshold > 0.0)
+      stress += intrinsic.passed(at.thermal, slowest).value * intrinsic_threshold;
     return athermal_stress + at.stiffness * stress;
   }
   /// Y of the solid and its slope by x at the plastic strain x reached in dt from the threshold `before`.

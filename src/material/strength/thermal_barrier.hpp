@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "src/core/base/parameter_table.hpp"
 #include "src/material/strength/radial_return.hpp"
@@ -12,22 +13,31 @@ namespace whipple::strength {
 /// A barrier that dislocations pass by thermal activation: of a threshold stress, the stress at 0 K, it leaves the fraction
 ///   S = [1 - (kT/(g0 b^3 G) ln(rate_0/rate))^(1/q)]^(1/p)   in [0, 1].
 struct ThermalBarrier {
-  double energy = 1.0;  ///< g0, over G b^3
-  double rate = 1e7;    ///< rate_0, 1/s, of the attempts
-  double p = 1.0, q = 1.0;
+  double energy = 0.0;  ///< g0, over G b^3; 0, as of all constants: there is no barrier
+  double rate = 0.0;    ///< rate_0, 1/s, of the attempts
+  double p = 0.0, q = 0.0;
 
   /// @param name  first part of the keys  @param of  the threshold stress, for the meanings
-  static ParameterTable<ThermalBarrier> parameters(const std::string& name, const std::string& of) {
+  /// @param required  whether there always is that barrier
+  static ParameterTable<ThermalBarrier> parameters(const std::string& name, const std::string& of,
+                                                   bool required) {
     using P = ThermalBarrier;
-    return {
+    ParameterTable<P> table = {
         real(name + "_energy", &P::energy, "", range::positive(),
-             "g0: activation energy of " + of + " over G b^3")
-            .optional(),
-        real(name + "_rate", &P::rate, "1/s", range::positive(), "rate_0: of the attempts to pass " + of)
-            .optional(),
-        real(name + "_p", &P::p, "", range::positive(), "p of the profile of " + of).optional(),
-        real(name + "_q", &P::q, "", range::positive(), "q of the profile of " + of).optional(),
-    };
+             "g0: activation energy of " + of + " over G b^3"),
+        real(name + "_rate", &P::rate, "1/s", range::positive(), "rate_0: of the attempts to pass " + of),
+        real(name + "_p", &P::p, "", range::positive(), "p of the profile of " + of),
+        real(name + "_q", &P::q, "", range::positive(), "q of the profile of " + of)};
+    if (required) return table;
+    ParameterTable<P> optional;
+    for (auto& parameter : table) optional.push_back(std::move(parameter).optional("none without " + of));
+    return optional;
+  }
+  /// Returns how many of its constants are given: 0 or 4.
+  [[nodiscard]] int given() const {
+    int count = 0;
+    for (const double constant : {energy, rate, p, q}) count += constant > 0.0 ? 1 : 0;
+    return count;
   }
   /// Compute S and its slope by ln(rate). @param thermal  kT/(b^3 G)
   [[nodiscard]] FlowStress passed(double thermal, double log_rate) const {

@@ -3,27 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <array>
-
 #include "src/core/base/log.hpp"
-#include "src/core/parallel/mpi.hpp"
-#include "src/io/ranks.hpp"
 #include "src/run/checkpointing.hpp"
 #include "src/run/restart.hpp"
 
 namespace whipple::run {
 
 namespace fs = std::filesystem;
-
-/// A checkpoint holds the state of all carriers.
-void Checkpoints::begin(const Moment& moment) {
-  std::array<double, 1> bytes = {0.0};
-  for (const solver::Carrier* carrier : moment.simulation.carriers())
-    bytes[0] += static_cast<double>(carrier->bytes());
-  parallel::sum(moment.simulation.communicator(), bytes);
-  const io::Ranks ranks(moment.simulation.communicator());
-  ranks.on_root([&] { directory_.require_free_space(static_cast<std::uint64_t>(bytes[0])); });
-}
 
 void Checkpoints::after_step(const Moment& moment) {
   if (!moment.is_last() && !moment.requests.checkpoint && !moment.requests.stop()) return;

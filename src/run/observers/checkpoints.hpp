@@ -15,8 +15,6 @@ class Checkpoints : public RunObserver {
  public:
   explicit Checkpoints(const io::RunDirectory& directory) : directory_(directory) {}
 
-  /// @throws InputError if the disk has no room for a checkpoint
-  void begin(const Moment& moment) override;
   void after_step(const Moment& moment) override;
   void end(const Moment& moment, Outcome& outcome) override;
 
