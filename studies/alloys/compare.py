@@ -5,11 +5,13 @@
 usage: compare.py [--write | --check]
 
 Prints the table as Markdown. --write stores it as docs/generated/alloy_tests.md, --check fails if that file is another one.
-Computed from the constants alone, at a point, at 1e-3 1/s, room temperature and without heat by plastic work:
-yield: flow stress at a plastic strain of 0.2 %; ultimate: the greatest of Y exp(-ep), where a bar necks (Considere), or where
-its damage breaks it before; shear strength: the greatest Y/sqrt(3) up to the failure strain in shear; fracture strain: that of
-the damage set at the triaxiality of the row; reduction of area: ln(A0/A) against the failure strain at a triaxiality of 0.4,
-the mean of a neck. What needs a run (elongation, notches) or a law that the library does not have (toughness) is said so.
+Computed from the constants alone, at a point, at 1e-3 1/s, room temperature and without heat by plastic work. Laws with a rate have
+their factor 1 + C ln(rate/reference rate), that of the failure strain with D4; it is 1 below the reference rate, as in the program.
+yield: flow stress at a plastic strain of 0.2 %; ultimate: the greatest of Y exp(-ep), where a bar necks (Considere), or where its
+damage breaks it before (no damage there: up to a strain of 2.0); shear strength: Y/sqrt(3) at the failure strain in shear (no
+damage there: at a strain of 1.0); fracture strain: that of the damage set at the triaxiality of the row; reduction of area:
+ln(A0/A) against the failure strain at a triaxiality of 0.4, the mean of a neck. What needs a run (elongation, notches) or a law
+that the library does not have (toughness) is said so.
 """
 import argparse
 import csv
@@ -21,6 +23,7 @@ import tomllib
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 LIBRARY, TESTS, PAGE = ROOT / "eos/materials", ROOT / "studies/alloys/tests.csv", ROOT / "docs/generated/alloy_tests.md"
 RATE, ROOM = 1e-3, 300.0  # 1/s, K
+UNDAMAGED_TENSION, UNDAMAGED_SHEAR = 2.0, 1.0  # plastic strains up to which materials without damage there are followed
 STRESS_UNITS = {"Pa": 1e-6, "MPa": 1.0, "GPa": 1e3}
 OTHER_UNITS = {"K": 1.0, "1/s": 1.0, "1/K": 1.0, "1/GPa": 1e-3, "MPa/K": 1.0, "g/cm^3": 1e3, "g/mol": 1e-3}
 
@@ -47,8 +50,13 @@ def number(value):
     return float(text) * (STRESS_UNITS | OTHER_UNITS)[unit]
 
 
+def rate_factor(constants, coefficient):
+    """Factor of RATE: 1 at and below the reference rate, for the logarithm would soften slow flow without bound."""
+    return 1.0 + constants.get(coefficient, 0.0) * math.log(max(1.0, RATE / constants.get("reference_rate", 1.0)))
+
+
 class Law:
-    """Flow stress (MPa) at 1e-3 1/s and room temperature, over the plastic strain."""
+    """Flow stress (MPa) at RATE and room temperature, over the plastic strain."""
 
     def __init__(self, table):
         self.model = table.get("model", "none")
@@ -60,7 +68,8 @@ class Law:
     def johnson_cook(self, strain):
         c = self.c
         hot = max(0.0, (ROOM - c["reference_temperature"]) / (c["melting_temperature"] - c["reference_temperature"]))
-        return (c["yield_stress"] + c["hardening_coefficient"] * strain ** c["hardening_exponent"]) * (1 - hot ** c["thermal_exponent"])
+        hard = c["yield_stress"] + c["hardening_coefficient"] * strain ** c["hardening_exponent"]
+        return hard * rate_factor(c, "rate_coefficient") * (1 - hot ** c["thermal_exponent"])
 
     def steinberg_guinan(self, strain):
         c = self.c
@@ -72,7 +81,7 @@ class Law:
 
 
 class Damage:
-    """Failure strain at 1e-3 1/s (rate term below its reference left at 1) and room temperature, over the triaxiality."""
+    """Failure strain at RATE and room temperature, over the triaxiality."""
 
     def __init__(self, material):
         sets = [t for t in material.get("failure", []) if t["model"] == "johnson_cook_damage"]
@@ -84,13 +93,13 @@ class Damage:
         if c is None or not c.get("least_triaxiality", -math.inf) <= triaxiality <= c.get("greatest_triaxiality", math.inf):
             return None
         hot = max(0.0, (ROOM - c["reference_temperature"]) / (c["melting_temperature"] - c["reference_temperature"]))
-        strain = (c["d1"] + c["d2"] * math.exp(c["d3"] * triaxiality)) * (1 + c["d5"] * hot)
+        strain = (c["d1"] + c["d2"] * math.exp(c["d3"] * triaxiality)) * rate_factor(c, "d4") * (1 + c["d5"] * hot)
         return max(strain, c.get("least_failure_strain", 0.001))
 
 
 def ultimate(law, damage):
     """Greatest force of a smooth bar over its first section (MPa), up to the neck or to its rupture."""
-    broken = damage.failure_strain(1 / 3) or 2.0
+    broken = damage.failure_strain(1 / 3) or UNDAMAGED_TENSION
     return max(law(e) * math.exp(-e) for e in (i * 1e-3 for i in range(2, int(broken * 1000) + 1)))
 
 
@@ -102,7 +111,7 @@ def computed(row, law, damage):
     if quantity == "ultimate":
         return ultimate(law, damage)
     if quantity == "shear_strength":
-        return law(damage.failure_strain(0.0) or 1.0) / math.sqrt(3)
+        return law(damage.failure_strain(0.0) or UNDAMAGED_SHEAR) / math.sqrt(3)
     if quantity == "fracture_strain":
         return damage.failure_strain(float(row["triaxiality"])) or "no damage there"
     if quantity == "cut_off":
