@@ -131,18 +131,20 @@ def two_ranks():
 
 
 def small_disk():
-    """The disk is full at the first snapshot, which both ranks close together."""
+    """A disk without room for checkpoints is refused; one that is full amid the run ends it on all ranks."""
     if os.geteuid() != 0:
         print("a disk of its own is root's to mount: not tested")
         return
     disk = FOLDER / "disk"
     disk.mkdir()
-    subprocess.run(["mount", "-t", "tmpfs", "-o", "size=72k", "run_processes", disk], check=True)
-    try:
-        code, message = finish(start(CASE, "-o", disk / "run", "--ranks", "2"))
-        require(code == 2 and "No space left on device" in message, f"small disk: {code}, {message}")
-    finally:
-        subprocess.run(["umount", "--lazy", disk], check=True)
+    for size, more, expected, words in (("72k", (), 2, "for checkpoints, but the disk has"),
+                                        ("2500k", ("--set", "output.snapshot_every='0.02 us'"), 3, "No space left on device")):
+        subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "run_processes", disk], check=True)
+        try:
+            code, message = finish(start(CASE, "-o", disk / "run", "--ranks", "2", *more))
+            require(code == expected and words in message, f"disk of {size}: {code}, {message}")
+        finally:
+            subprocess.run(["umount", "--lazy", disk], check=True)
 
 
 def little_memory():

@@ -95,9 +95,9 @@ TEST(GrowingTable, DrawsFewRowsAndEveryPeak) {
 /// Whatever a request contains, it is answered, and nobody without the key is told anything of a run.
 TEST(Handler, AnswersTenThousandDamagedQuestions) {
   const TemporaryFolder folder;
-  Handler handler(Folder(folder.path()), {.host = "127.0.0.1:1", .token = std::string(32, 'a')}, folder.path(),
-            folder.path(), folder.path(),
-            [](const std::vector<std::string>&) { FAIL() << "nothing may be started"; });
+  Handler handler(Folder(folder.path()), {.host = "127.0.0.1:1", .token = std::string(32, 'a')},
+                  folder.path(), folder.path(), folder.path(),
+                  [](const std::vector<std::string>&) { FAIL() << "nothing may be started"; });
   const std::vector<std::string> targets = {"/",
                                             "/runs",
                                             "/run?run=.",
@@ -123,13 +123,13 @@ TEST(Handler, AnswersTenThousandDamagedQuestions) {
     const bool has_key = random(2) == 0;
     const Response answer =
         handler.handle({.changes = random(2) == 0,
-                     .target = damaged(targets[random(targets.size())]),
-                     .host = "127.0.0.1:1",
-                     .origin = {},
-                     .site = {},
-                     .token = has_key ? std::string(32, 'a') : damaged(std::string(31, 'a')),
-                     .content_type = "application/json",
-                     .body = damaged(bodies[random(bodies.size())])});
+                        .target = damaged(targets[random(targets.size())]),
+                        .host = "127.0.0.1:1",
+                        .origin = {},
+                        .site = {},
+                        .token = has_key ? std::string(32, 'a') : damaged(std::string(31, 'a')),
+                        .content_type = "application/json",
+                        .body = damaged(bodies[random(bodies.size())])});
     EXPECT_TRUE(answer.status == 200 || (answer.status >= 400 && answer.status < 500)) << answer.status;
     EXPECT_TRUE(has_key || answer.status == 401) << answer.status;
   }

@@ -22,12 +22,12 @@ struct ThermalBarrier {
   static ParameterTable<ThermalBarrier> parameters(const std::string& name, const std::string& of,
                                                    bool required) {
     using P = ThermalBarrier;
+    const Range allowed = required ? range::positive() : range::non_negative();  // 0: there is none
     ParameterTable<P> table = {
-        real(name + "_energy", &P::energy, "", range::positive(),
-             "g0: activation energy of " + of + " over G b^3"),
-        real(name + "_rate", &P::rate, "1/s", range::positive(), "rate_0: of the attempts to pass " + of),
-        real(name + "_p", &P::p, "", range::positive(), "p of the profile of " + of),
-        real(name + "_q", &P::q, "", range::positive(), "q of the profile of " + of)};
+        real(name + "_energy", &P::energy, "", allowed, "g0: activation energy of " + of + " over G b^3"),
+        real(name + "_rate", &P::rate, "1/s", allowed, "rate_0: of the attempts to pass " + of),
+        real(name + "_p", &P::p, "", allowed, "p of the profile of " + of),
+        real(name + "_q", &P::q, "", allowed, "q of the profile of " + of)};
     if (required) return table;
     ParameterTable<P> optional;
     for (auto& parameter : table) optional.push_back(std::move(parameter).optional("none without " + of));
@@ -39,7 +39,7 @@ struct ThermalBarrier {
     for (const double constant : {energy, rate, p, q}) count += constant > 0.0 ? 1 : 0;
     return count;
   }
-  /// Compute S and its slope by ln(rate). @param thermal  kT/(b^3 G)
+  /// Returns S and its slope by ln(rate). @param thermal  kT/(b^3 G)
   [[nodiscard]] FlowStress passed(double thermal, double log_rate) const {
     const double per_log = thermal / energy, work = per_log * (std::log(rate) - log_rate);
     if (!(work > 0.0)) return {1.0, 0.0};
