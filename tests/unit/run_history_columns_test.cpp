@@ -11,32 +11,12 @@
 #include "src/core/base/files.hpp"
 #include "src/run/observers/history_columns.hpp"
 #include "src/solver/accounts.hpp"
+#include "tests/unit/ball_on_plate.hpp"
 
 namespace whipple::run {
 namespace {
 
 using ::testing::HasSubstr;
-
-cases::Case ball_on_plate() {
-  return cases::read_case_text(R"(
-[domain]
-lower = ["-3 mm", "-3 mm", "-4 mm"]
-upper = ["3 mm", "3 mm", "2 mm"]
-cell_size = "1 mm"
-[time]
-end = "0.4 us"
-[[body]]
-name = "ball"
-material = "copper.toml"
-velocity = ["0 m/s", "0 m/s", "2 km/s"]
-shape = { sphere = { center = ["0 mm", "0 mm", "-1.6 mm"], radius = "1.5 mm" } }
-[[body]]
-name = "plate"
-material = "aluminium.toml"
-shape = { box = { lower = ["-2 mm", "-2 mm", "0 mm"], upper = ["2 mm", "2 mm", "1 mm"] } }
-)",
-                               "case.toml");
-}
 
 TEST(HistoryColumns, StandInTheManual) {
   const std::string table = history_columns_as_markdown();

@@ -32,6 +32,7 @@
 #include "src/run/replay_control.hpp"
 #include "src/run/runner.hpp"
 #include "src/run/status.hpp"
+#include "tests/unit/ball_on_plate.hpp"
 #include "tests/unit/folder_test.hpp"
 #include "tests/unit/temporary_folder.hpp"
 
@@ -41,27 +42,6 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-cases::Case ball_on_plate() {
-  return cases::read_case_text(R"(
-[domain]
-lower = ["-3 mm", "-3 mm", "-4 mm"]
-upper = ["3 mm", "3 mm", "2 mm"]
-cell_size = "1 mm"
-[time]
-end = "0.4 us"
-[[body]]
-name = "ball"
-material = "copper.toml"
-velocity = ["0 m/s", "0 m/s", "2 km/s"]
-shape = { sphere = { center = ["0 mm", "0 mm", "-1.6 mm"], radius = "1.5 mm" } }
-[[body]]
-name = "plate"
-material = "aluminium.toml"
-shape = { box = { lower = ["-2 mm", "-2 mm", "0 mm"], upper = ["2 mm", "2 mm", "1 mm"] } }
-)",
-                               "case.toml");
-}
 
 std::string text_of(const fs::path& path) {
   std::ifstream file(path);
