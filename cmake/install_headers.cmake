@@ -1,12 +1,35 @@
-# Installs the headers as <whipple/...>: "src/solver/ledger.hpp" as <whipple/solver/ledger.hpp>, "eos/state.hpp" as
-# <whipple/eos/state.hpp>, with their includes of one another. Before: source, headers (folder below the prefix).
+# Installs the headers of cmake/public_headers.txt as <whipple/...>, "src/solver/simulation.hpp" as
+# <whipple/solver/simulation.hpp>, and what they include as <whipple/detail/...>, with their includes of one another.
+# Before: source, headers (folder below the prefix).
+cmake_policy(VERSION 3.25)
 set(target $ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}/${headers})
 message(STATUS "Installing: ${target}")
-file(GLOB_RECURSE paths RELATIVE ${source} ${source}/src/*.hpp ${source}/src/*.inl ${source}/eos/*.hpp)
-list(FILTER paths EXCLUDE REGEX "^src/(app|bench|core/process|decks)/")
-foreach(path IN LISTS paths)
+file(STRINGS ${source}/cmake/public_headers.txt public REGEX "^[^#]")
+
+# Sets `out` to the name under <whipple/> of a header.
+function(installed_name path out)
+  string(REGEX REPLACE "^src/" "" name ${path})
+  if(NOT path IN_LIST public)
+    string(PREPEND name detail/)
+  endif()
+  set(${out} ${name} PARENT_SCOPE)
+endfunction()
+
+set(waiting ${public})
+set(seen ${public})
+while(waiting)
+  list(POP_FRONT waiting path)
   file(READ ${source}/${path} text)
-  string(REGEX REPLACE "#include \"(src/)?([^\"]+)\"" "#include <whipple/\\2>" text "${text}")
-  string(REGEX REPLACE "^src/" "" path ${path})
-  file(WRITE ${target}/${path} "${text}")
-endforeach()
+  string(REGEX MATCHALL "#include \"[^\"]+\"" includes "${text}")
+  foreach(include IN LISTS includes)
+    string(REGEX REPLACE "#include \"(.*)\"" "\\1" included ${include})
+    installed_name(${included} name)
+    string(REPLACE "${include}" "#include <whipple/${name}>" text "${text}")
+    if(NOT included IN_LIST seen)
+      list(APPEND seen ${included})
+      list(APPEND waiting ${included})
+    endif()
+  endforeach()
+  installed_name(${path} name)
+  file(WRITE ${target}/${name} "${text}")
+endwhile()

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 #include <whipple/case/case.hpp>
-#include <whipple/case/shapes/box.hpp>
+#include <whipple/case/shapes.hpp>
 #include <whipple/core/base/error.hpp>
 #include <whipple/core/base/log.hpp>
 #include <whipple/core/parallel/threads.hpp>

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The installed library: a program of its own finds it with find_package, is built and runs; no installed header names
-a file of the source tree.
+"""The installed library: a program of its own finds it with find_package, is built and runs; the headers of
+cmake/public_headers.txt compile together, and no installed header names a file of the source tree.
 
 Usage: library.py BUILD_FOLDER EXAMPLE_FOLDER C++_COMPILER C_COMPILER
 """
@@ -13,6 +13,12 @@ import sys
 import tempfile
 
 BUILD, EXAMPLE, CXX, C = sys.argv[1:]
+PROJECT = """cmake_minimum_required(VERSION 3.25)
+project(headers LANGUAGES C CXX)
+find_package(whipple REQUIRED)
+add_library(headers OBJECT all.cpp)
+target_link_libraries(headers PRIVATE whipple::whipple)
+"""
 
 
 def call(*command):
@@ -30,11 +36,17 @@ with tempfile.TemporaryDirectory() as temporary:
     for header in headers:
         if re.search(r'#include "', header.read_text()):
             raise SystemExit(f"FAILED: {header} includes a header that is not installed under <whipple/...>")
-    call("cmake", "-S", EXAMPLE, "-B", build, f"-DCMAKE_PREFIX_PATH={installed}", f"-DCMAKE_CXX_COMPILER={CXX}",
-         f"-DCMAKE_C_COMPILER={C}", "-DCMAKE_BUILD_TYPE=Debug")
-    call("cmake", "--build", build)
+    public = [header for header in headers if "detail" not in header.relative_to(installed).parts]
+    together = pathlib.Path(temporary) / "headers"
+    together.mkdir()
+    (together / "CMakeLists.txt").write_text(PROJECT)
+    (together / "all.cpp").write_text("".join(f"#include <{header.relative_to(installed / 'include')}>\n" for header in public))
+    for source, folder in ((EXAMPLE, build), (together, together / "build")):
+        call("cmake", "-S", source, "-B", folder, f"-DCMAKE_PREFIX_PATH={installed}", f"-DCMAKE_CXX_COMPILER={CXX}",
+             f"-DCMAKE_C_COMPILER={C}", "-DCMAKE_BUILD_TYPE=Debug")
+        call("cmake", "--build", folder)
     output = call(build / "plate_impact")
-    print(len(headers), "headers\n" + output)
+    print(f"{len(public)} public headers, {len(headers) - len(public)} others\n{output}")
     for line in ("GPa by the Hugoniot", "refused: time.end"):
         if line not in output:
             raise SystemExit(f"FAILED: no '{line}' in the output")

@@ -6,17 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "src/case/shapes/box.hpp"
-#include "src/case/shapes/cone.hpp"
-#include "src/case/shapes/cylinder.hpp"
-#include "src/case/shapes/difference.hpp"
-#include "src/case/shapes/half_space.hpp"
-#include "src/case/shapes/intersection.hpp"
-#include "src/case/shapes/moved.hpp"
-#include "src/case/shapes/ogive.hpp"
-#include "src/case/shapes/sphere.hpp"
-#include "src/case/shapes/tube.hpp"
-#include "src/case/shapes/union.hpp"
+#include "src/case/shapes.hpp"
 #include "src/core/base/parameter_table.hpp"
 
 namespace whipple::cases {
