@@ -36,7 +36,8 @@ bool read_number(std::string_view cell, double& value) {
 
 History::History(std::filesystem::path path) : path_(std::move(path)) {}
 
-History History::restart(std::filesystem::path path, std::int64_t last_step) {
+History History::restart(std::filesystem::path path, std::int64_t last_step,
+                         std::span<const HistoryValue> row) {
   History history(std::move(path));
   if (!std::filesystem::exists(history.path_)) return history;
   const std::string text = read_text(history.path_);
@@ -45,12 +46,15 @@ History History::restart(std::filesystem::path path, std::int64_t last_step) {
   const std::size_t header_end = all.find('\n');
   if (header_end == std::string_view::npos) return history;  // killed while writing the header: start over
   history.header_ = all.substr(0, header_end);
-  history.continued_ = true;
   const std::vector<std::string> names = csv_cells(history.header_);
   const auto step = std::find(names.begin(), names.end(), "step");
   if (step == names.end()) {
     throw InputError(
         fmt::format("{}:1: has no column \"step\"; is it the history of a run?", history.path_.string()));
+  }
+  if (const std::string columns = header_of(row); columns != history.header_) {
+    throw InputError(fmt::format("{}: the run to resume has other columns:\n{}\nthis program writes\n{}",
+                                 history.path_.string(), history.header_, columns));
   }
   const auto step_column = static_cast<std::size_t>(step - names.begin());
 
@@ -77,15 +81,10 @@ History History::restart(std::filesystem::path path, std::int64_t last_step) {
 
 void History::append(std::span<const HistoryValue> row) {
   std::string text = header_of(row);
-  if (text != header_) {
-    if (continued_) {
-      throw InputError(fmt::format("{}: the run to resume has other columns:\n{}\nthis program writes\n{}",
-                                   path_.string(), header_, text));
-    }
-    if (!header_.empty())
-      throw InternalError(fmt::format("{}: columns changed between rows", path_.string()));
-  }
-  if (header_.empty()) {
+  const bool is_first = header_.empty();
+  if (!is_first && text != header_)
+    throw InternalError(fmt::format("{}: columns changed between rows", path_.string()));
+  if (is_first) {
     header_ = text;
     text += '\n';
   } else {
@@ -96,7 +95,7 @@ void History::append(std::span<const HistoryValue> row) {
     text += fmt::format("{}", row[i].value);  // shortest text that restores the same double
   }
   text += '\n';
-  if (rows_ == 0 && !continued_) {
+  if (is_first) {
     write_text_atomically(path_, text);  // replaces a file of that name
   } else {
     append_text(path_, text);

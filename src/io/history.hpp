@@ -25,8 +25,10 @@ class History {
   /// Continues a table: keeps the rows whose column `step` is at most `last_step` and removes the others together with
   /// an incomplete last line, so that the file becomes bitwise that of an uninterrupted run. A missing file is an empty
   /// table.
-  /// @throws InputError if the file has no column "step" or a damaged row
-  static History restart(std::filesystem::path path, std::int64_t last_step);
+  /// @param row  any row of the run that continues, for its columns
+  /// @throws InputError if the file has no column "step", other columns than the row, or a damaged row; it is then as
+  /// it was
+  static History restart(std::filesystem::path path, std::int64_t last_step, std::span<const HistoryValue> row);
 
   /// Returns the number of rows in the file.
   [[nodiscard]] std::int64_t rows() const { return rows_; }
@@ -35,8 +37,8 @@ class History {
   /// @throws InputError naming the file
   void force_to_disk() const;
 
-  /// Appends a row. The first row of the object defines the columns; after a restart it must match them.
-  /// @throws InputError   if the file cannot be written or a restarted table has other columns
+  /// Appends a row. The first row of the object defines the columns, unless the table was continued.
+  /// @throws InputError   if the file cannot be written
   /// @throws InternalError if the columns changed between two rows
   void append(std::span<const HistoryValue> row);
 
@@ -45,8 +47,7 @@ class History {
  private:
   std::filesystem::path path_;
   std::int64_t rows_ = 0;
-  std::string header_;      ///< of the file; empty before the first row
-  bool continued_ = false;  ///< the header was read, not written
+  std::string header_;  ///< of the file; empty before the first row
 };
 
 }  // namespace whipple::io

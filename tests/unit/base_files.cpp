@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <vector>
@@ -87,6 +88,18 @@ TEST(WriteTextAtomically, WritesIntoWhatIsNoFileAsItIs) {
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("/dev/full: cannot write the file: No space left"));
   }
+}
+
+// A file system in memory, as clusters use for scratch, lies below /dev.
+TEST(WriteTextAtomically, ReplacesFilesBelowDev) {
+  std::string name = "/dev/shm/whipple_test_XXXXXX";
+  if (::mkdtemp(name.data()) == nullptr) GTEST_SKIP() << "no writable /dev/shm";
+  const fs::path file = fs::path(name) / "t.toml";
+  write_text_atomically(file, "first, longer");
+  write_text_atomically(file, "second");
+  EXPECT_EQ(content(file), "second");
+  EXPECT_EQ(files_in(name), 1);
+  fs::remove_all(name);
 }
 
 TEST(ReplaceDurably, WritesTheWholeFileAndRemovesWhatHasTheNameOfTheCopy) {

@@ -63,29 +63,29 @@ TEST_F(HistoryFile, a_restart_gives_the_file_of_the_undisturbed_run) {
     const auto lines = std::count(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(bytes), '\n');
     const int last_step =
         std::max(0, static_cast<int>(lines) - 3);  // a step earlier than the last complete row
-    History history = History::restart(file(), lines >= 2 ? last_step : -1);
+    History history = History::restart(file(), lines >= 2 ? last_step : -1, row(0));
     for (int step = lines >= 2 ? last_step + 1 : 0; step < rows; ++step) history.append(row(step));
     ASSERT_EQ(read_text(file()), whole) << "killed after byte " << bytes;
   }
 }
 
 TEST_F(HistoryFile, a_missing_file_is_an_empty_table) {
-  History history = History::restart(file(), 100);
+  History history = History::restart(file(), 100, row(0));
   history.append(row(101));
   EXPECT_THAT(read_text(file()), HasSubstr("step,time [s]"));
 }
 
 TEST_F(HistoryFile, refuses_what_is_not_its_own) {
   std::ofstream(file()) << "a,b\n1,2\n";
-  EXPECT_THAT(message_of<InputError>([&] { (void)History::restart(file(), 1); }),
+  EXPECT_THAT(message_of<InputError>([&] { (void)History::restart(file(), 1, row(0)); }),
               AllOf(HasSubstr(file().string()), HasSubstr("no column \"step\"")));
+  const HistoryValue columns[] = {{"step", "", 0.0}, {"b", "", 0.0}};
   std::ofstream(file()) << "step,b\n1,2\n2\n3,4\n";
-  EXPECT_THAT(message_of<InputError>([&] { (void)History::restart(file(), 3); }),
+  EXPECT_THAT(message_of<InputError>([&] { (void)History::restart(file(), 3, columns); }),
               HasSubstr("history.csv:3: damaged row: 1 cells for 2 columns"));
-  std::ofstream(file()) << "step,b\n1,2\n";
-  History history = History::restart(file(), 3);
-  EXPECT_THAT(message_of<InputError>([&] { history.append(row(4)); }), HasSubstr("other columns"));
-  EXPECT_EQ(read_text(file()), "step,b\n1,2\n");
+  std::ofstream(file()) << "step,b\n1,2\n3,4\n";
+  EXPECT_THAT(message_of<InputError>([&] { (void)History::restart(file(), 1, row(0)); }), HasSubstr("other columns"));
+  EXPECT_EQ(read_text(file()), "step,b\n1,2\n3,4\n");
 }
 
 TEST_F(HistoryFile, columns_may_not_change_on_the_way) {

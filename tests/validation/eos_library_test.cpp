@@ -407,6 +407,7 @@ TEST(LibraryFluids, WaterAndAir) {
 }
 
 TEST(LibraryAll, ShocksGetFasterAndStrongerFromSoundOn) {
+  int crushed = 0;
   for (const LibraryMaterial& entry : library_materials()) {
     SCOPED_TRACE(entry.file.stem().string());
     const Material material = read_material(entry.file);
@@ -418,9 +419,12 @@ TEST(LibraryAll, ShocksGetFasterAndStrongerFromSoundOn) {
     // The heat of crushed pores expands foams more than the shock compresses them (docs/theory/equations_of_state.md).
     const bool turns = material.eos->initial_distension() > 1.0 + 2.0 / material.reference.gruneisen;
     const double over_sound = before.shock_velocity / material.reference.sound_speed;
-    EXPECT_LT(over_sound, 1.003);
-    if (material.eos->initial_distension() < 1.5) {  // waves of 1 m/s crush fabrics, and are slower
-      EXPECT_GT(over_sound, 0.997);
+    if (before.state.phase == "compacting") {  // waves of 1 m/s crush the two fabrics, and are slower
+      EXPECT_LT(over_sound, 0.6);
+      EXPECT_GT(over_sound, 0.2);
+      ++crushed;
+    } else {
+      EXPECT_NEAR(over_sound, 1.0, 0.003);
     }
     for (const double up : {50.0, 200.0, 500.0, 1000.0, 1500.0}) {
       const ShockState shock = hugoniot.at_particle_velocity(up);
@@ -434,6 +438,7 @@ TEST(LibraryAll, ShocksGetFasterAndStrongerFromSoundOn) {
       before = shock;
     }
   }
+  EXPECT_EQ(crushed, 2);
 }
 
 }  // namespace

@@ -46,6 +46,18 @@ void write_text(const fs::path& opened, int flags, std::string_view text, const 
   if (error != 0) fail(named, "write the file", error);
 }
 
+/// Returns whether a path is that of an open descriptor of this process: /dev/stdout, /dev/fd/3.
+bool names_a_descriptor(const fs::path& path) {
+  std::error_code unknown;
+  const fs::path descriptors = fs::canonical("/proc/self/fd", unknown);
+  if (unknown) return false;
+  const auto is_one = [&](const fs::path& name) {
+    std::error_code ignored;
+    return fs::canonical(name.parent_path(), ignored) == descriptors;
+  };
+  return is_one(path) || is_one(fs::read_symlink(path, unknown));
+}
+
 }  // namespace
 
 bool lies_in(const fs::path& path, const fs::path& folder) {
@@ -182,9 +194,9 @@ void append_text(const fs::path& path, std::string_view text) {
 
 void write_text_atomically(const fs::path& path, std::string_view text) {
   std::error_code ignored;
-  // A device has no former content; /dev/stdout may be a link to a file, behind whose content the text belongs.
-  const bool is_device = fs::is_other(fs::status(path, ignored)) || path.string().starts_with("/dev/");
-  if (is_device) return write_text(path, O_APPEND, text, path);
+  // A device has no former content; a descriptor may be of a file, behind whose content the text belongs.
+  if (fs::is_other(fs::status(path, ignored)) || names_a_descriptor(path))
+    return write_text(path, O_APPEND, text, path);
   PartialFile partial(path);
   write_text(partial.path(), O_NOFOLLOW, text, path);
   partial.publish();

@@ -33,7 +33,7 @@ struct ThermalBarrier {
     for (auto& parameter : table) optional.push_back(std::move(parameter).optional("none without " + of));
     return optional;
   }
-  /// Returns how many of its constants are given: 0 or 4.
+  /// Returns how many of its constants are given; only 0 and 4 are consistent.
   [[nodiscard]] int given() const {
     int count = 0;
     for (const double constant : {energy, rate, p, q}) count += constant > 0.0 ? 1 : 0;

@@ -24,8 +24,8 @@ class HistoryTable : public Table {
     Table::begin(moment);
   }
   void resume(const Moment& moment, const io::CheckpointValues& values) override {
+    Table::resume(moment, values);  // which may refuse the file
     ranks_.on_root([&] { write_text_atomically(description_, columns_as_json(columns_)); });
-    Table::resume(moment, values);
   }
 
  protected:

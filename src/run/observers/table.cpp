@@ -13,8 +13,10 @@ void Table::begin(const Moment& moment) {
 }
 
 void Table::resume(const Moment& moment, const io::CheckpointValues& values) {
+  const std::vector<io::HistoryValue> columns = row(moment.simulation);
   ranks_.on_root([&] {
-    table_.emplace(io::History::restart(options_.file, moment.step()));
+    table_.emplace(columns.empty() ? io::History(options_.file)
+                                   : io::History::restart(options_.file, moment.step(), columns));
     const std::int64_t expected = values.integer(options_.rows_name);
     if (table_->rows() == expected || options_.accept_missing_rows) return;
     throw InputError(fmt::format(

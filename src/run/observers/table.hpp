@@ -25,8 +25,8 @@ class Table : public RunObserver {
   Table(Options options, const io::Ranks& ranks) : options_(std::move(options)), ranks_(ranks) {}
 
   void begin(const Moment& moment) override;
-  /// Continues the file.
-  /// @throws InputError if rows from before the checkpoint are missing
+  /// Continues the file. Collective.
+  /// @throws InputError if the file has other columns, or rows from before the checkpoint are missing
   void resume(const Moment& moment, const io::CheckpointValues& values) override;
   void after_step(const Moment& moment) override;
   void remember(io::CheckpointValues& values) override;
