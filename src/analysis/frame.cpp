@@ -148,6 +148,7 @@ Frame find_frame(const Run& run, const Snapshot& first, std::optional<int> axis,
     (plane ? mirrored : other).push_back(a);
     if (!plane) continue;
     frame.planes.push_back({a, *plane});
+    frame.slices += slice ? 1 : 0;
     frame.centre[a] = *plane;
   }
   if (run.dimension == grid::Dimension::axisymmetric)

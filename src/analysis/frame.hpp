@@ -20,7 +20,8 @@ struct Frame {
   double sign = 1.0;                 ///< +1: the projectile flies in the positive direction of the axis
   Vector3 centre = Vector3::Zero();  ///< a point of the axis; its axial coordinate is 0
   double start = 0.0;                ///< axial coordinate of the projectile when its centre is at `centre`
-  std::vector<Plane> planes;         ///< mirror planes that reduce the full problem to the model
+  std::vector<Plane> planes;         ///< mirror planes across the axis
+  unsigned slices = 0;  ///< number of `planes` that are one of the two sides of a slice and halve nothing
   /// Holds the mirror planes across which pieces continue, at most one per direction, regardless of the axis. Planes
   /// that the projectile flies against and the two sides of a slice are excluded.
   std::vector<Plane> cuts;
@@ -35,8 +36,9 @@ struct Frame {
   std::array<int, 2> transverse = {0, 1};  ///< upward in pictures; sight, normal to the only mirror plane
 
   [[nodiscard]] bool is_planar() const { return dimension != grid::Dimension::space; }
-  /// Returns the number of models that make up the full problem: 4 for a quarter model.
-  [[nodiscard]] double copies() const { return static_cast<double>(1U << planes.size()); }
+  /// Returns the number of models side by side about the axis that make up the full problem: 4 for a quarter model, 1
+  /// for a slice.
+  [[nodiscard]] double copies() const { return static_cast<double>(1U << (planes.size() - slices)); }
   /// Returns the multiplicity in the full problem of a piece that touches no cut.
   [[nodiscard]] double images() const { return static_cast<double>(1U << cuts.size()); }
   /// Returns this frame about the point at which the line of flight meets an axial coordinate (m).

@@ -14,6 +14,7 @@
 #include "src/analysis/bar.hpp"
 #include "src/analysis/cloud.hpp"
 #include "src/analysis/columns.hpp"
+#include "src/analysis/fragments.hpp"
 #include "src/analysis/measures.hpp"
 #include "src/analysis/surfaces.hpp"
 #include "src/core/base/error.hpp"
@@ -325,6 +326,33 @@ TEST(Cloud, BodiesWithoutPhasesCountInNone) {
   const Table table = body_table(maker.snapshot, quarter(), bodies);
   const auto row = std::ranges::find(table.labels, "wall whole") - table.labels.begin();
   EXPECT_TRUE(std::isnan(table["solid_fraction"][static_cast<std::size_t>(row)]));
+}
+
+// A slice counts once, a quarter four times, in the one as in the other.
+TEST(Cloud, MassesOfBodiesAreThoseOfFragmentsAndWhatIsLoose) {
+  for (const std::string planes : {"none", "quarter", "slice", "wall"}) {
+    analysis::Run run;
+    run.bodies = {{"ball", Vector3(0, 0, -1000), 1e-3}};
+    const auto mirror = [&](std::size_t axis, std::size_t side, double position) {
+      run.walls[axis][side] = {.position = position, .holds = true};
+      run.mirror_planes[axis] = run.walls[axis][0] ? run.walls[axis][0]->position : position;
+    };
+    if (planes != "none") mirror(0, 0, 0.0);
+    if (planes == "quarter") mirror(1, 0, 0.0);
+    if (planes == "slice") mirror(0, 1, 4e-3);
+    if (planes == "wall") mirror(2, 0, 0.0);
+    Maker maker(1e-3);
+    maker.fill(
+        Vector3::Zero(), Vector3(4e-3, 3e-3, 3e-3), [](const Vector3&) { return true; },
+        run.bodies[0].velocity);
+    maker.add(Vector3(2.5e-3, 9.5e-3, 9.5e-3), run.bodies[0].velocity);  // alone: loose
+    const Frame frame = find_frame(run, maker.snapshot);
+    const Fragments found = find_fragments(maker.snapshot, run.bodies, frame, 1.5e-3);
+    double sum = found.of_body[0].loose;
+    EXPECT_GT(sum, 0.0);
+    for (const Fragment& fragment : found.list) sum += fragment.copies * fragment.mass;
+    EXPECT_NEAR(body_table(maker.snapshot, frame, run.bodies)["mass"][0], sum, 1e-12 * sum) << planes;
+  }
 }
 
 TEST(Measures, TheTableOfTheManualIsThatOfTheProgram) {

@@ -84,7 +84,8 @@ TEST_F(HistoryFile, refuses_what_is_not_its_own) {
   EXPECT_THAT(message_of<InputError>([&] { (void)History::restart(file(), 3, columns); }),
               HasSubstr("history.csv:3: damaged row: 1 cells for 2 columns"));
   std::ofstream(file()) << "step,b\n1,2\n3,4\n";
-  EXPECT_THAT(message_of<InputError>([&] { (void)History::restart(file(), 1, row(0)); }), HasSubstr("other columns"));
+  EXPECT_THAT(message_of<InputError>([&] { (void)History::restart(file(), 1, row(0)); }),
+              HasSubstr("other columns"));
   EXPECT_EQ(read_text(file()), "step,b\n1,2\n3,4\n");
 }
 
