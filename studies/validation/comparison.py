@@ -7,6 +7,7 @@ import types
 
 from studies.validation import bands, execution, provenance
 from studies.validation.bands import clean
+from studies.validation.cases import quantity
 from studies.validation.variants import variants_of
 
 # Kinds of quantities whose dependence on the grid reports of single runs quote.
@@ -52,14 +53,18 @@ def identity_study(expectation, values):
     return {"value": clean(worst), "mark": mark}
 
 
-def input_change(case, run, values, measured):
-    """Largest change of each quantity by the runs that bracket the input, at the finest grid that both have."""
+def input_change(run, values, records, used, collected):
+    """Largest change of each quantity by the runs that bracket the input, at the finest grid that one program computed of both.
+
+    used: names of the variants that count in the bands. collected: by name of run, from collect().
+    """
     changes = []
     for expectation in run.expectations:
         found = [math.nan]
         for other in run.input:
-            theirs = measured.get(other, {})
-            both = [r for r in ("fine", "normal", "coarse") if r in values and r in theirs]
+            theirs, their_records = collected.get(other, ({}, {}))
+            both = [r for r in reversed(GRIDS) if r in used and r in theirs
+                    and provenance.is_same_program(records[r]["source"], their_records[r]["source"])]
             if both:
                 found.append(abs(theirs[both[0]].value(expectation) - values[both[0]].value(expectation)))
         finite = [v for v in found if math.isfinite(v)]
@@ -71,11 +76,11 @@ class StoredMeasures:
     """What docs/generated/results knows of a variant whose folder is not here."""
 
     def __init__(self, entry, name):
-        self.values = {(q["name"], q["measure"]): q["values"].get(name) for q in entry["quantities"]}
+        self.values = {(q["name"], q["measure"], q["asked"]): q["values"].get(name) for q in entry["quantities"]}
         self.projectile_size = math.nan
 
     def value(self, expectation):
-        return known(self.values.get((expectation.name, expectation.measure)))
+        return known(self.values.get((expectation.name, expectation.measure, provenance.asked_of(expectation))))
 
 
 def stored_variants(run, entry):
@@ -132,9 +137,9 @@ GRIDS = ("coarse", "normal", "fine")
 
 def can_be_renewed(stored, run, records):
     """Whether a stored entry of a run has all that its expectations measure now, and nothing of it is of former grids."""
-    known_measures = {(q["name"], q["measure"]) for q in stored["quantities"]}
+    known_measures = {(q["name"], q["measure"], q["asked"]) for q in stored["quantities"]}
     return bool(records) and records.keys() == stored["records"].keys() and all(
-        (e.name, e.measure) in known_measures for e in run.expectations)
+        (e.name, e.measure, provenance.asked_of(e)) in known_measures for e in run.expectations)
 
 
 def with_bands_of_one_program(run, entry):
@@ -142,7 +147,7 @@ def with_bands_of_one_program(run, entry):
     entry = copy.deepcopy(entry)
     used = comparable(entry["records"])
     entry["apart"] = sorted(set(entry["records"]) - set(used))
-    grids = [name for name in entry["cells"] if name in used and name in run.cell_size]
+    grids = [(name, quantity(size, run.name)[0]) for name, size in entry["cells"].items() if name in used]
     moved = [name for name in used if name not in GRIDS]
     for q in entry["quantities"]:
         if q["class"] == "identity":
@@ -150,7 +155,7 @@ def with_bands_of_one_program(run, entry):
         values = {name: known(value) for name, value in q["values"].items()}
         former = types.SimpleNamespace(kind=q["kind"], value=known(q["expected"]), tolerance=known(q["tolerance"]))
         samples = [values[name] for name in (["normal"] if "normal" in used else []) + moved]
-        q.update(quantity_study(former, [(run.cells(name), values[name]) for name in grids], samples if moved else [],
+        q.update(quantity_study(former, [(size, values[name]) for name, size in grids], samples if moved else [],
                                 known(q.get("u_input"))))
     return entry
 
@@ -166,7 +171,7 @@ def run_study(case, run, collected, stored=None):
     grids = [name for name in GRIDS if name in measures]
     used = comparable(records)
     moved = [name for name in used if name not in GRIDS]
-    changes = input_change(case, run, measures, {name: found for name, (found, _) in collected.items()})
+    changes = input_change(run, measures, records, used, collected)
     rows = []
     for expectation, change in zip(run.expectations, changes):
         values = {name: of_run.value(expectation) for name, of_run in measures.items()}
@@ -176,7 +181,8 @@ def run_study(case, run, collected, stored=None):
             samples = [values[name] for name in (["normal"] if "normal" in used else []) + moved]
             study = quantity_study(expectation, [(run.cells(name), values[name]) for name in grids if name in used],
                                    samples if moved else [], change)
-        rows.append({"name": expectation.name, "measure": expectation.measure, "class": expectation.origin,
+        rows.append({"name": expectation.name, "measure": expectation.measure, "asked": provenance.asked_of(expectation),
+                     "class": expectation.origin,
                      "kind": expectation.kind, "unit": expectation.unit, "expected": clean(expectation.value),
                      "tolerance": clean(expectation.tolerance), "source": expectation.source, "known": expectation.known,
                      "values": {name: clean(value) for name, value in values.items()}, **study})

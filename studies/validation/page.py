@@ -2,12 +2,13 @@
 """The stored results as text and as pages: docs/generated/results.md, an overview with one row per case, and
 docs/generated/results/<case>.md. The pages are functions of the stored results and of the digest of the sources alone."""
 import collections
+import itertools
 import math
 
 from studies.validation import bands, frozen_parameters
 from studies.validation.bands import clean
 from studies.validation.cases import ROOT, UNITS
-from studies.validation.provenance import digest_of_sources, inputs_of, is_current, is_same_program
+from studies.validation.provenance import asked_of, digest_of_sources, inputs_of, is_current, is_same_program
 from studies.validation.store import FOLDER, write_if_changed
 
 OVERVIEW = ROOT / "docs" / "generated" / "results.md"
@@ -22,6 +23,9 @@ numerical parameters. What was found, with the known causes of differences: [fin
 of state from atoms: [six metals](results_md.md). Written by `scripts/results.py --write`
 ([how](../manual/expected_results.md)).
 """
+OLDER = " **Older source.**"
+NOT_CURRENT = "**Not current: the case, a material or what is expected has changed since.**"
+PROGRAMS = "**Programs**"
 CHECKED = (bands.AGREES, bands.DIFFERS, bands.NOT_CONVERGED, bands.NOT_FOUND)
 BOLD = (bands.DIFFERS, bands.NOT_FOUND, bands.BROKEN)
 
@@ -87,8 +91,8 @@ def figure(case, origin):
     return f"{q['name']} {shown(q['value'], q['unit'])} ± {shown(q['u_num'], q['unit'], 2)}, expected {expected(q)}"
 
 
-def overview(results):
-    """The page over all cases: one row per case and class of reference; convergence and identities."""
+def overview(results, source):
+    """The page over all cases: one row per case and class of reference; convergence, identities, programs."""
     lines = [INTRODUCTION]
     for origin, heading in CLASSES_OF_PHYSICS.items():
         rows, marks = [], []
@@ -108,12 +112,20 @@ def overview(results):
     lines += ["## All of them", "",
               f"**Convergence**: of {len(studies)} quantities {three} have three grids; {converged} are converged.", "",
               f"**Identities** (energy, momentum; true by construction of the scheme, no evidence of physics): "
-              f"{identities.count(bands.HOLDS)} of {len(identities)} hold.", "", *parameter_sets(runs)]
+              f"{identities.count(bands.HOLDS)} of {len(identities)} hold.", "", *programs(runs, source), *parameter_sets(runs)]
     others = [f"[{case['title']}](results/{name}.md)" for name, case in results["cases"].items()
               if not any(verdicts(case, origin) for origin in CLASSES_OF_PHYSICS)]
     if others:
         lines += [f"**Recorded without a comparison**: {'; '.join(others)}.", ""]
     return "\n".join(lines).strip("\n") + "\n"
+
+
+def programs(runs, source):
+    """How many computations are of the program of these sources."""
+    records = [record for run in runs if deciding(run) for record in run["records"].values()]
+    now = sum(is_same_program(record["source"], source) for record in records)
+    return [f"{PROGRAMS}: of {len(records)} computations of the runs that decide {now} are of the present program, "
+            f"{len(records) - now} of older ones (the page of a case says which).", ""] if records else []
 
 
 def parameter_sets(runs):
@@ -160,7 +172,7 @@ def provenance(run, source):
         by_program.setdefault((record["program"], record["source"], record["processor"]), []).append((name, record))
     lines = []
     for (program, of, processor), entries in by_program.items():
-        older = "" if is_same_program(of, source) else " **Older source.**"
+        older = "" if is_same_program(of, source) else OLDER
         times = ", ".join(f"{name} {record['wall_time']:.0f} s on {record['threads']}" for name, record in entries)
         lines.append(f"Computed with {program}{' and changes' if entries[0][1]['dirty'] else ''}, source {of}, "
                      f"numerical parameters {entries[0][1]['frozen_set']}, case {run['inputs']['case']}, {processor}; "
@@ -224,7 +236,7 @@ def case_page(name, case, source, stale):
         if run["decided_by"]:
             lines += [f"The same experiment with finer cells decides: {run['decided_by']}.", ""]
         if run["name"] in stale:
-            lines += ["**Not current: the case, a material or what is expected has changed since.**", ""]
+            lines += [NOT_CURRENT, ""]
         lines += [f"    scripts/results.py {name}:{run['name']} --band --run", "", *table(run), "", *notes(run), "",
                   *provenance(run, source), ""]
     return "\n".join(lines).strip("\n") + "\n"
@@ -232,7 +244,7 @@ def case_page(name, case, source, stale):
 
 def pages(results, source, stale):
     """All pages by path."""
-    return {OVERVIEW: overview(results)} | {
+    return {OVERVIEW: overview(results, source)} | {
         FOLDER / f"{name}.md": case_page(name, case, source, {run for of, run in stale if of == name})
         for name, case in results["cases"].items()}
 
@@ -257,12 +269,12 @@ def as_text(results):
 
 def compared(entry):
     """What a stored run was compared with."""
-    return [(q["name"], q["measure"], q["class"], q["kind"], q["expected"], q["tolerance"]) for q in entry["quantities"]]
+    return [(q["name"], q["measure"], q["asked"], q["class"], q["kind"], q["expected"], q["tolerance"]) for q in entry["quantities"]]
 
 
 def expected_now(run):
     """What a run is to be compared with."""
-    return [(e.name, e.measure, e.origin, e.kind, clean(e.value), clean(e.tolerance)) for e in run.expectations]
+    return [(e.name, e.measure, asked_of(e), e.origin, e.kind, clean(e.value), clean(e.tolerance)) for e in run.expectations]
 
 
 def outdated(results, cases):
@@ -291,10 +303,18 @@ def write(results, stale, source):
     return [path for path, text in pages(results, source, stale).items() if write_if_changed(path, text)]
 
 
+def lasting(text):
+    """The lines of a page but for what says that sources, cases or expectations have changed since."""
+    lines = (line.replace(OLDER, "") for line in text.split("\n"))
+    return [line for line in lines if line and line != NOT_CURRENT and not line.startswith(PROGRAMS)]
+
+
 def unlike(results):
-    """Return the rows of tables, with their page, that the stored results give and the pages do not have."""
-    missing = []
-    for path, text in pages(results, "", set()).items():
-        written = set(path.read_text(encoding="utf-8").split("\n")) if path.is_file() else set()
-        missing += [(path, line) for line in text.split("\n") if line.startswith("|") and line not in written]
-    return missing
+    """Lines, with their page, that the stored results give and a page does not have, or the other way round."""
+    found = []
+    expected_pages = pages(results, "", set())
+    for path, text in expected_pages.items():
+        lines, written = lasting(text), lasting(path.read_text(encoding="utf-8")) if path.is_file() else []
+        found += [(path, one or other) for one, other in itertools.zip_longest(lines, written) if one != other]
+    found += [(path, "a page of no case") for path in sorted(FOLDER.glob("*.md")) if path not in expected_pages]
+    return found

@@ -153,9 +153,24 @@ def bases_of(path):
     return found
 
 
+def changes_of(run):
+    """Digest of what a run changes in its case and of the options of its analysis; cell sizes stand with the records."""
+    in_si = {"set": meaning(run.set), "set_at": {name: meaning(words) for name, words in sorted(run.set_at.items())}}
+    return digest_of(json.dumps(in_si | {"analyse": run.analyse}, default=str))
+
+
+def asked_of(expectation):
+    """Digest of how a quantity is measured beside its name: when, where, of what fraction, against which table; "" if by nothing."""
+    asked = {key: getattr(expectation, key) for key in ("time", "place", "travel", "speed", "fraction")
+             if getattr(expectation, key) is not None}
+    if expectation.table is not None:
+        asked["table"] = digest_of_file(expectation.table)
+    return digest_of(json.dumps(asked)) if asked else ""
+
+
 def inputs_of(run):
-    """Digests of the case and its materials."""
-    return {"case": digest_of_toml(run.case.file),
+    """Digests of the case, of what the run changes in it, and of its materials."""
+    return {"case": digest_of_toml(run.case.file), "changes": changes_of(run),
             "materials": {name: digest_of_toml(path) if path.is_file() else ""
                           for name, path in material_files(run).items()}}
 

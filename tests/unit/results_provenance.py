@@ -5,20 +5,24 @@
 usage: results_provenance.py REPOSITORY
 """
 import copy
+import math
 import pathlib
 import re
 import subprocess
 import sys
 import tempfile
 import tomllib
+import types
+from unittest import mock
 
 ROOT = pathlib.Path(sys.argv[1]).resolve()
 sys.path[:0] = [str(ROOT), str(ROOT / "scripts")]
 
 import drift  # noqa: E402
 from checks import require  # noqa: E402
-from studies.validation import comparison, frozen_parameters, page, provenance, store  # noqa: E402
+from studies.validation import comparison, frozen_parameters, page, provenance, queue, store  # noqa: E402
 from studies.validation.cases import Case, all_cases  # noqa: E402
+from studies.validation.variants import variants_of  # noqa: E402
 
 
 def changed(record, key, value):
@@ -69,7 +73,7 @@ def digests_follow_the_files(work):
     stored["cases"]["case"]["runs"] = [entry]
     stale, older, expectations = page.outdated(stored, [run.case])
     require(not stale and older == [("case", "only")] and not expectations, f"{stale}, {older}, {expectations}")
-    entry["quantities"] = [{"name": "x", "measure": "x", "class": "exact", "kind": "within", "expected": 1.0, "tolerance": 0.1}]
+    entry["quantities"] = [{"name": "x", "measure": "x", "asked": "", "class": "exact", "kind": "within", "expected": 1.0, "tolerance": 0.1}]
     require(page.outdated(stored, [run.case])[2] == [("case", "only")], "a quantity that is expected no more")
 
     def digest():
@@ -134,6 +138,40 @@ def only_runs_of_one_program_make_a_band():
     require(comparison.comparable({"coarse": record("a"), "fine": record("b")}) == ["fine"], "of equal ones the finest")
     here = provenance.digest_of_sources()
     require(comparison.comparable({"coarse": record("a"), "normal": record(here)}) == ["normal"], "the present program decides")
+
+
+def input_brackets_are_of_one_program():
+    """A change by the input counts where both runs are of one program, on a grid that counts."""
+    class Measured:
+        def __init__(self, value):
+            self.value = lambda _: value
+    run = types.SimpleNamespace(expectations=["x"], input=["other"])
+    values = {"normal": Measured(1.0), "fine": Measured(2.0)}
+    records = {"normal": {"source": "a"}, "fine": {"source": "b"}}
+    others = {"normal": Measured(1.5), "fine": Measured(5.0)}
+    change = lambda used, sources: comparison.input_change(  # noqa: E731
+        run, values, records, used, {"other": (others, {name: {"source": source} for name, source in sources.items()})})[0]
+    require(change(["normal", "fine"], {"normal": "a", "fine": "b"}) == 3.0, "the finest of both")
+    require(change(["normal"], {"normal": "a", "fine": "b"}) == 0.5, "a grid that is apart does not count")
+    require(math.isnan(change(["normal", "fine"], {"normal": "c", "fine": "c"})), "two programs")
+
+
+def pages_are_what_is_stored(work):
+    """A row too many, another count, a page of no case: each is seen; the remarks on age are no difference."""
+    results = store.load()
+    texts = page.pages(results, "", set())
+    folder = work / "results"
+    folder.mkdir()
+    with mock.patch.object(page, "FOLDER", folder), mock.patch.object(page, "OVERVIEW", work / "results.md"):
+        page.write(results, [(name, run["name"]) for name, case in results["cases"].items() for run in case["runs"]], "later")
+        require(len(texts) == len(list(folder.glob("*.md"))) + 1 and not page.unlike(results), str(page.unlike(results)[:2]))
+        overview = (work / "results.md").read_text()
+        for other in (overview.replace("agree", "are right", 1), overview + "| a row | more |\n"):
+            (work / "results.md").write_text(other)
+            require(page.unlike(results), "another overview")
+        (work / "results.md").write_text(overview)
+        (folder / "no_case.md").write_text("# x\n")
+        require([path.name for path, _ in page.unlike(results)] == ["no_case.md"], "a page of no case")
 
 
 def departures_need_a_reason(work):
@@ -233,6 +271,18 @@ def marks_of_stored_runs_follow_their_expectations():
     expectation.value = former["value"] + 10 * (former["u_num"] + expectation.tolerance)
     renewed = next(q for q in comparison.run_study(case, run, collected, entry)["quantities"] if q["name"] == expectation.name)
     require(renewed["values"] == former["values"] and renewed["mark"] == "differs", str(renewed))
+    expectation.value = former["expected"]
+    for key, value in (("time", 1e-6), ("place", 1e-3), ("travel", 1e-3), ("speed", 1.0), ("fraction", 0.5)):
+        with mock.patch.object(expectation, key, value):
+            require(not comparison.can_be_renewed(entry, run, entry["records"]), f"measured with another {key}")
+            require(page.compared(entry) != page.expected_now(run), f"expected with another {key}")
+    for key, value in (("set", ["time.end=1 us"]), ("set_at", {"fine": ["time.end=1 us"]}), ("analyse", ["--axis", "x"])):
+        with mock.patch.object(run, key, value):
+            require(comparison.stored_variants(run, entry) == ({}, {}), f"a stored run with another {key}")
+            require(not queue.is_stored(entry, run, variants_of(run, band=False)[0], entry["records"]["coarse"]["source"]), key)
+    with mock.patch.object(run, "cell_size", run.cell_size | {"fine": "0.9 mm"}):
+        bands = comparison.with_bands_of_one_program(run, entry)["quantities"]
+        require(bands == entry["quantities"], "bands are those of the cells that were computed")
     expectation.measure = "never_measured"
     kept = comparison.run_study(case, run, collected, entry)
     require([q["name"] for q in kept["quantities"]] == [q["name"] for q in entry["quantities"]],
@@ -252,6 +302,8 @@ with tempfile.TemporaryDirectory() as name:
     digests_follow_the_files(pathlib.Path(name))
     programs_that_compute_the_same_keep_tables_current(pathlib.Path(name))
     only_runs_of_one_program_make_a_band()
+    input_brackets_are_of_one_program()
+    pages_are_what_is_stored(pathlib.Path(name))
     departures_need_a_reason(pathlib.Path(name))
     drift_is_seen()
     stored_variants_count_beside_new_ones()
