@@ -33,19 +33,34 @@ def program(whipple):
 
 
 RECORD = "study.json"  # beside a run: what computed it
+LIBRARY = ROOT / "eos" / "materials"
+
+
+def library_materials(folder):
+    """Digests of the files of the library, and of those that they are based on, that a run has copies of."""
+    found = {}
+    waiting = [path.name for path in folder.glob("materials/*.toml")]
+    while waiting:
+        file = LIBRARY / waiting.pop()
+        if file.name not in found and file.is_file():
+            found[file.name] = digest(file)
+            base = tomllib.loads(file.read_text(encoding="utf-8")).get("base", "")
+            waiting.append(base if base.endswith(".toml") else f"{base}.toml")
+    return dict(sorted(found.items()))
 
 
 def compute(whipple, folder, commands, inputs=()):
     """Runs commands of the program whose results are in the folder, unless that was done before: by the same program, with the same
-    words, and with the same bytes in the files `inputs`."""
+    words, with the same bytes in the files `inputs` and in the materials of the library that the run read."""
     words = [[str(word).replace(str(folder), "RUN").replace(f"{ROOT}/", "") for word in command] for command in commands]
     record = {"program": program(whipple), "commands": words, "inputs": {pathlib.Path(file).name: digest(file) for file in inputs}}
     path = folder / RECORD
-    if path.is_file() and json.loads(path.read_text(encoding="utf-8")) == record:
+    if path.is_file() and json.loads(path.read_text(encoding="utf-8")) == record | {"materials": library_materials(folder)}:
         return
     path.unlink(missing_ok=True)
     for command in commands:
         call([whipple, *command])
+    record["materials"] = library_materials(folder)
     path.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
 
 

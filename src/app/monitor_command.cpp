@@ -50,12 +50,8 @@ void monitor_runs(const MonitorOptions& options) {
   fmt::print("Open http://{}/#{} in a browser of this machine; Ctrl-C ends the monitor, not the runs.\n",
              access.host, access.token);
   std::fflush(stdout);
-  server.serve(handler, std::chrono::minutes(options.minutes), [&options] {
-    for (const fs::path& run : run::find_runs(options.folder)) {
-      if (run::goes_on(run::read_status(run).state)) return false;
-    }
-    return true;
-  });
+  server.serve(handler, std::chrono::minutes(options.minutes),
+               [&options] { return !run::any_goes_on(options.folder); });
 }
 
 }  // namespace

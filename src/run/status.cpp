@@ -97,4 +97,14 @@ std::vector<std::filesystem::path> find_runs(const std::filesystem::path& folder
   return runs;
 }
 
+bool any_goes_on(const std::filesystem::path& folder) {
+  return std::ranges::any_of(find_runs(folder), [](const std::filesystem::path& run) {
+    try {
+      return goes_on(read_status(run).state);
+    } catch (const InputError&) {
+      return false;
+    }
+  });
+}
+
 }  // namespace whipple::run

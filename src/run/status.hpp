@@ -56,4 +56,8 @@ nlohmann::json status_json(const RunStatus& status);
 /// @throws InputError if there is no such folder
 std::vector<std::filesystem::path> find_runs(const std::filesystem::path& folder);
 
+/// Returns whether a run in the folder goes on. A run whose status is damaged does not.
+/// @throws InputError if there is no such folder
+bool any_goes_on(const std::filesystem::path& folder);
+
 }  // namespace whipple::run

@@ -85,7 +85,7 @@ def line(row, fields):
     per_step = 1e9 * profile["wall_seconds"] / profile["steps"] / profile["particles"]
     values = "; ".join(f"{name} {single[name]:.5g}" for name in row.measures if name in single)
     of = row.bodies[-1] if not row.name.startswith("cloud") else "sphere"
-    failed, loose = (100.0 * single.get(f"{kind}.{of}{part}", 0.0) for kind, part in (("failed_fraction", ".whole"), ("loose_fraction", "")))
+    failed, loose = (100.0 * single[f"{kind}.{of}{part}"] for kind, part in (("failed_fraction", ".whole"), ("loose_fraction", "")))
     return [f"| {row.name} | {fields} | {values} | {failed:.3f} | {loose:.2f} | {single['energy_error']:.1e} | "
             f"{single['momentum_error']:.1e} | {per_step:.0f} |"]
 

@@ -6,6 +6,7 @@ import pathlib
 import tempfile
 import tomllib
 import unittest
+from unittest import mock
 
 import numpy as np
 
@@ -103,6 +104,20 @@ class Runs(unittest.TestCase):
         self.whipple.write_text(self.whipple.read_text() + "# other\n")
         commands.program.cache_clear()
         self.assertEqual(self.calls("--set", "x=1"), 12)
+
+    def test_are_repeated_where_a_material_of_the_library_has_changed(self):
+        library = self.top / "library"
+        (self.folder / "materials").mkdir(parents=True)
+        library.mkdir()
+        (self.folder / "materials/alloy.toml").write_text("merged")
+        (library / "alloy.toml").write_text('base = "metal"')
+        (library / "metal.toml").write_text("density = 1")
+        with mock.patch.object(commands, "LIBRARY", library):
+            self.assertEqual((self.calls(), self.calls()), (2, 2))
+            (library / "metal.toml").write_text("density = 2")
+            self.assertEqual((self.calls(), self.calls()), (4, 4))
+            (library / "alloy.toml").write_text("density = 2")
+            self.assertEqual((self.calls(), self.calls()), (6, 6))
 
 
 if __name__ == "__main__":
