@@ -68,7 +68,7 @@ std::size_t BlockGrid::bytes() const {
          slots() * (sizeof(std::array<std::int32_t, 27>) + sizeof(BlockCoordinate)) + bytes_of_bins();
 }
 
-// --- What ranks tell each other about nodes -----------------------------------------------------------------
+// --- Exchange of node values between ranks ------------------------------------------------------------------
 
 namespace {
 
@@ -135,7 +135,8 @@ void BlockGrid::progress() {
   MPI_Testall(static_cast<int>(requests.size()), requests.data(), &complete, MPI_STATUSES_IGNORE);
 }
 
-/// @param range  range(slot): its values
+/// Exchanges the values of shared slots and combines received values with those of this rank.
+/// @param range  range(slot): values of the slot
 template <class Range, class Combine>
 void BlockGrid::exchange_values(Range&& range, SharedSlots from, SharedSlots to, Combine&& combine) {
   exchange<Lanes>(

@@ -7,13 +7,13 @@
 #include "src/core/base/vector_math.hpp"
 #include "src/grid/topology.hpp"
 
-/// Neighbour blocks touched by the stencil of a particle.
+/// Neighbour blocks that the stencil of a particle reaches.
 namespace whipple::grid {
 
-/// Along one direction: does something reach the block before (bit 0), after (bit 1)?
+/// Reach along one direction: bit 0 for the block before, bit 1 for the block after.
 using AxisReach = unsigned;
 
-/// Bit per neighbour that a reach given per direction touches, always with the block itself.
+/// Returns, for each reach given by direction, one bit per neighbour, the block itself included.
 constexpr std::array<std::uint32_t, 64> neighbour_masks() {
   std::array<std::uint32_t, 64> masks{};
   for (unsigned reach = 0; reach < 64; ++reach) {
@@ -34,8 +34,8 @@ constexpr std::array<std::uint32_t, 64> neighbour_masks() {
 }
 constexpr std::array<std::uint32_t, 64> reach_masks = neighbour_masks();
 
-/// Converts masks of neighbour blocks to masks by direction: bits 0 to 2 for the directions in which the
-/// block before is reached, bits 3 to 5 for those in which the block after is reached.
+/// Returns masks of neighbour blocks by direction masks: bits 0 to 2 for the directions in which the block before is
+/// reached, bits 3 to 5 for those in which the block after is reached.
 constexpr std::array<std::uint32_t, 64> masks_by_direction() {
   std::array<std::uint32_t, 64> by_direction{};
   for (unsigned bits = 0; bits < 64; ++bits) {
@@ -46,8 +46,8 @@ constexpr std::array<std::uint32_t, 64> masks_by_direction() {
   return by_direction;
 }
 
-/// Neighbours that the nodes of stencils fall into whose first nodes lie between two corners of a box (cells
-/// from the block's lower corner; the directions in lanes).
+/// Returns the neighbours that contain nodes of stencils whose first nodes are between two corners of a box (cells from
+/// the block's lower corner; directions in lanes).
 inline std::uint32_t touched_neighbours_of_box(Lanes first, Lanes last, Stencil stencil) {
   static constexpr std::array<std::uint32_t, 64> by_direction = masks_by_direction();
   const unsigned directions = stencil.planar ? 3U : 7U;
@@ -55,15 +55,14 @@ inline std::uint32_t touched_neighbours_of_box(Lanes first, Lanes last, Stencil 
   const unsigned after = bits(last > static_cast<double>(stencil.block().edge - stencil.count)) & directions;
   return by_direction[before | after << 3U];
 }
-/// Neighbours that the nodes of a stencil fall into when the particle is at `local` (cells from the block's
-/// lower corner; the directions in lanes), with `ahead` cells of motion before it, and `around` it on either
-/// side.
+/// Returns the neighbours that contain nodes of the stencil of a particle at `local` (cells from the block's lower
+/// corner; directions in lanes), during `ahead` cells of motion and within `around` cells on either side.
 inline std::uint32_t touched_neighbours(Lanes local, Lanes ahead, Stencil stencil, double around = 0.0) {
   const auto first_node = [&](Lanes at) { return floor(at - stencil.shift); };
   return touched_neighbours_of_box(first_node(local + minimum(ahead, broadcast(-around))),
                                    first_node(local + maximum(ahead, broadcast(around))), stencil);
 }
-/// Returns the neighbour blocks touched by a particle that does not move.
+/// Returns the neighbour blocks that the stencil of a stationary particle reaches.
 inline std::uint32_t touched_neighbours(Lanes local, Stencil stencil) {
   return touched_neighbours(local, Lanes{}, stencil);
 }

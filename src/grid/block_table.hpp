@@ -9,8 +9,7 @@
 
 namespace whipple::grid {
 
-/// Hash table from block coordinate to an integer (open addressing, linear probing). Built once per
-/// adaptation.
+/// Maps block coordinates to integers (hash table with open addressing and linear probing). Rebuilt in each adaptation.
 class BlockTable {
  public:
   static constexpr std::int32_t none = -1;
@@ -23,7 +22,7 @@ class BlockTable {
     size_ = 0;
   }
 
-  /// The value under a coordinate; inserts `fallback` if there is none.
+  /// Returns the value of a coordinate; inserts `fallback` if there is none.
   std::int32_t& find_or_insert(const BlockCoordinate& block, std::int32_t fallback) {
     if (2 * (size_ + 1) > keys_.size()) grow();
     const std::size_t i = probe(key(block));
@@ -44,7 +43,7 @@ class BlockTable {
  private:
   static constexpr std::uint64_t empty = ~std::uint64_t{0};
 
-  /// 21 bits per direction, shifted so that the layer outside of the domain is positive.
+  /// Packs 21 bits per direction, shifted so that the layer outside of the domain is not negative.
   static std::uint64_t key(const BlockCoordinate& b) {
     const auto part = [](std::int32_t c) { return static_cast<std::uint64_t>(c + 1) & 0x1fffff; };
     return part(b[0]) << 42 | part(b[1]) << 21 | part(b[2]);
@@ -52,7 +51,7 @@ class BlockTable {
 
   [[nodiscard]] std::size_t probe(std::uint64_t k) const {
     const std::size_t mask = keys_.size() - 1;
-    // Fibonacci hashing: of the product, only the highest bits depend on all directions.
+    // Fibonacci hashing: only the highest bits of the product depend on all directions.
     std::size_t i = k * 0x9e3779b97f4a7c15ULL >> (64 - std::countr_zero(keys_.size()));
     while (keys_[i] != empty && keys_[i] != k) i = (i + 1) & mask;
     return i;

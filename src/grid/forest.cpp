@@ -17,14 +17,14 @@
 namespace whipple::grid {
 namespace {
 
-/// Place of a block in the forest: tree, and index along the Morton curve of its tree at the finest level.
+/// Identifies a block in the forest by its tree and its index along the Morton curve of the tree at the finest level.
 struct Key {
   p4est_topidx_t tree;
   std::uint64_t morton;
   auto operator<=>(const Key&) const = default;
 };
 
-/// p4est wants one call per process before anything else.
+/// Initialises p4est, once per process before any other call.
 void initialise_library(MPI_Comm communicator) {
   static std::once_flag once;
   std::call_once(once, [&] {
@@ -54,18 +54,18 @@ struct Forest::State {
     if (forest != nullptr) p8est_destroy(forest);
   }
 
-  /// The finest quadrant of a block, and its tree.
+  /// Returns the finest quadrant of a block, and its tree.
   [[nodiscard]] std::pair<p4est_topidx_t, p8est_quadrant_t> quadrant_of(const BlockCoordinate& block) const;
   [[nodiscard]] Key key_of(const BlockCoordinate& block) const {
     const auto [tree, quadrant] = quadrant_of(block);
     return {tree, p8est_quadrant_linear_id(&quadrant, level)};
   }
-  /// Sends blocks to their owners; entry r of the result came from rank r. The order of each is kept.
+  /// Sends blocks to their owners; entry r of the result is from rank r. Keeps the order of the blocks.
   [[nodiscard]] std::vector<std::vector<WantedBlock>> to_owners(std::span<const WantedBlock> blocks) const;
-  /// The blocks of all lists along the curve, each once, with the sum of its weights.
+  /// Returns the blocks of all lists along the curve, each once, with the sum of its weights.
   [[nodiscard]] std::vector<std::pair<Key, WantedBlock>> merged(
       const std::vector<std::vector<WantedBlock>>& lists) const;
-  /// Weight of the wanted block that a leaf is; 0 for empty leaves.
+  /// Returns the weight of the wanted block at a leaf; 0 for empty leaves.
   [[nodiscard]] double weight_of(p4est_topidx_t tree, const p8est_quadrant_t& quadrant) const;
 
   /// Returns whether one of the requested blocks is inside the quadrant.
@@ -84,7 +84,7 @@ struct Forest::State {
   std::array<int, 3> trees;                     // number of trees per direction
   std::vector<Key> keys;                        // wanted blocks of this rank, sorted, during adapt
   std::vector<double> weights;                  // of the keys
-  double weight_unit = 1.0;                     // weight that counts as one for p4est, which takes integers
+  double weight_unit = 1.0;                     // weight of one integer unit in p4est
 };
 
 std::pair<p4est_topidx_t, p8est_quadrant_t> Forest::State::quadrant_of(const BlockCoordinate& block) const {
@@ -169,7 +169,7 @@ Forest::Forest(const Geometry& geometry, MPI_Comm communicator) {
   initialise_library(communicator);
   std::array<int, 3> blocks{};
   for (int a = 0; a < 3; ++a) blocks[static_cast<std::size_t>(a)] = geometry.blocks(a) + 2;
-  // About eight trees along the longest edge: few trees, and little of them outside of the domain.
+  // About eight trees along the longest edge: few trees that extend little beyond the domain.
   const int longest = std::max({blocks[0], blocks[1], blocks[2]});
   const int level =
       std::max(0, static_cast<int>(std::bit_width(static_cast<unsigned>((longest + 7) / 8) - 1U)));
@@ -182,8 +182,7 @@ Forest::Forest(const Geometry& geometry, MPI_Comm communicator) {
   const p8est_connectivity_t* connectivity = state_->connectivity.pointer;
   state_->tree_at.resize(static_cast<std::size_t>(connectivity->num_trees));
   for (p4est_topidx_t t = 0; t < connectivity->num_trees; ++t) {
-    // p4est numbers the trees of a brick along a curve of its own; the first vertex of a tree tells where it
-    // is.
+    // p4est numbers the trees of a brick along an internal curve; the first vertex of a tree gives its position.
     const double* vertex = &connectivity->vertices[3 * connectivity->tree_to_vertex[8 * t]];
     std::array<int, 3> origin{};
     for (std::size_t a = 0; a < 3; ++a) origin[a] = static_cast<int>(std::lround(vertex[a]));
@@ -216,7 +215,7 @@ void Forest::adapt(std::span<const WantedBlock> wanted, double imbalance) {
   double total = load;
   parallel::sum(communicator, std::span(&total, 1));
   if (parallel::maximum(communicator, load) * s.forest->mpisize <= imbalance * total) return;
-  s.weight_unit = total / 1e9;  // fine enough, and the sum fits into the integers of p4est
+  s.weight_unit = total / 1e9;  // fine enough, and the sum does not overflow p4est's integers
   p8est_partition(s.forest, 1, weight_of_leaf);
 }
 

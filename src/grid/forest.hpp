@@ -12,51 +12,50 @@
 
 namespace whipple::grid {
 
-/// A block that the particles of a rank reach, and the work that its particles are.
+/// Describes a block that the particles of a rank reach, and the work of its particles.
 struct WantedBlock {
   BlockCoordinate coordinate;
-  double weight;  ///< any unit, the same on all ranks
+  double weight;  ///< in any unit common to all ranks
 };
 
-/// The blocks that one rank works with, numbered by slots, and whom it shares them with.
+/// Describes the blocks that a rank uses, numbered by slots, and the ranks that share them.
 struct BlockSet {
-  std::vector<BlockCoordinate>
-      coordinate;         ///< own blocks along the space-filling curve, then those of others
-  std::size_t owned = 0;  ///< the first so many are this rank's own
+  std::vector<BlockCoordinate> coordinate;  ///< own blocks along the space-filling curve, then ghost blocks
+  std::size_t owned = 0;                    ///< number of this rank's own blocks, which come first
   struct Peer {
     int rank;
     std::vector<std::uint32_t> lent;      ///< own slots that the peer's particles reach
     std::vector<std::uint32_t> borrowed;  ///< slots of the peer's blocks that our particles reach
   };
-  /// By rank. The order of our `lent` is that of the peer's `borrowed`.
+  /// Ordered by rank. The order of our `lent` equals that of the peer's `borrowed`.
   std::vector<Peer> peers;
 };
 
-/// p4est forest over the domain with one layer of blocks outside. A leaf at the finest level is a block;
-/// coarser leaves are empty space and carry nothing, so a large domain costs nothing where there is no
-/// material. The ranks own consecutive parts of the space-filling curve.
+/// Manages the p4est forest over the domain with one layer of blocks outside. A leaf at the finest level is a block;
+/// coarser leaves are empty space without data, so that a large domain costs nothing where there is no material. The
+/// ranks own consecutive sections of the space-filling curve.
 class Forest {
  public:
-  /// Collective over `communicator`.
+  /// Creates a forest without blocks. Collective over `communicator`.
   Forest(const Geometry& geometry, MPI_Comm communicator);
   ~Forest();
   Forest(Forest&&) noexcept;
   Forest& operator=(Forest&&) noexcept;
 
-  /// Refines and coarsens the forest so that exactly the blocks that any rank wants (and the siblings that
-  /// refinement brings along) are finest leaves; divides the curve again if the heaviest rank has more than
-  /// `imbalance` times the mean weight. Collective.
+  /// Refines and coarsens the forest so that the blocks requested by any rank (and their siblings by refinement) are
+  /// exactly the finest leaves; repartitions the curve if the maximum weight of a rank exceeds `imbalance` times the
+  /// mean. Collective.
   /// @param wanted without repetition, any order
   void adapt(std::span<const WantedBlock> wanted, double imbalance = 1.02);
 
-  /// Rank that owns a block since the last `adapt`.
+  /// Returns the rank that owns a block since the last `adapt`.
   [[nodiscard]] int owner(const BlockCoordinate& block) const;
 
-  /// Tells the owners which of their blocks this rank works with. Collective.
+  /// Registers the blocks that this rank uses with their owners. Collective.
   /// @param wanted without repetition, any order; leaves of the forest
   [[nodiscard]] BlockSet claim(std::span<const WantedBlock> wanted) const;
 
-  /// Leaves of this rank, all levels.
+  /// Returns the number of leaves of this rank, all levels.
   [[nodiscard]] std::size_t leaves() const;
 
   struct State;  ///< p4est's objects; public for the callbacks of the implementation

@@ -12,7 +12,8 @@
 
 namespace whipple::grid {
 
-/// Cells of a block along each direction, and as many nodes that it owns. Nodes are numbered with z fastest.
+/// Describes a block: cells along each direction, and the same number of nodes that it owns. Nodes are numbered with z
+/// fastest.
 struct BlockShape {
   int edge = 4;    ///< along x and y
   int edge_z = 4;  ///< along z
@@ -22,32 +23,32 @@ struct BlockShape {
     return Lanes{static_cast<double>(edge), static_cast<double>(edge), static_cast<double>(edge_z), 1.0};
   }
   [[nodiscard]] constexpr int node(int x, int y, int z) const { return (x * edge + y) * edge_z + z; }
-  /// Place of a node in the block, by direction.
+  /// Returns the position of a node in the block, by direction.
   [[nodiscard]] constexpr std::array<int, 3> place(int node) const {
     return {node / (edge * edge_z), node / edge_z % edge, node % edge_z};
   }
 };
-/// Returns cubes of 4 x 4 x 4 cells, or in two dimensions squares of 8 x 8 x 1: as many nodes.
+/// Returns 4 x 4 x 4 cells, or 8 x 8 x 1 in two dimensions: the same number of nodes.
 constexpr BlockShape block_shape(bool planar) { return planar ? BlockShape{8, 1} : BlockShape{4, 4}; }
 constexpr int nodes_per_block = 64;
 static_assert(block_shape(true).node(7, 7, 0) == 63 && block_shape(false).node(3, 3, 3) == 63);
 
-/// Velocity fields that bodies may have of their own (docs/theory/contact.md).
+/// Maximum number of separate velocity fields (docs/theory/contact.md).
 constexpr unsigned maximum_fields = 64;
-/// Sectors of directions into which the field of a body divides beside a crack (docs/theory/cracks.md): a field each.
+/// Returns the number of direction sectors, each with a velocity field, into which the field of a body is divided at a
+/// crack (docs/theory/cracks.md).
 constexpr unsigned crack_sectors(bool planar) { return planar ? 8 : 14; }
 
-/// Position of a block in units of blocks; block (0,0,0) begins at the lower corner of the domain, one layer
-/// of blocks lies outside of every face (kernels are wider than a cell, mirror planes need nodes beyond
-/// them).
+/// Position of a block in units of blocks. Block (0, 0, 0) begins at the lower corner of the domain; one layer of
+/// blocks is outside of every face, since kernels are wider than a cell and mirror planes need nodes beyond them.
 using BlockCoordinate = std::array<std::int32_t, 3>;
 
-/// Boundary condition at a face of the domain.
+/// Selects the boundary condition at a face of the domain.
 enum class Boundary : std::uint8_t {
-  outflow,     ///< material leaves: counted with its mass, momentum and energy
-  symmetry,    ///< mirror plane: frictionless, material does not pass and does not separate
+  outflow,     ///< material leaves and is counted with its mass, momentum and energy
+  symmetry,    ///< mirror plane: frictionless, material neither passes nor separates
   no_slip,     ///< no-slip wall
-  separating,  ///< frictionless wall that pushes and does not hold
+  separating,  ///< frictionless wall: transmits compression, no tension
 };
 constexpr std::array<Word<Boundary>, 4> words(Boundary) {
   return {{{Boundary::outflow, "outflow"},
@@ -56,38 +57,37 @@ constexpr std::array<Word<Boundary>, 4> words(Boundary) {
            {Boundary::separating, "separating"}}};
 }
 
-/// Dimensions of the problem. In two dimensions all points lie in the plane z = lower and do not move out of it.
+/// Selects the dimensions of the problem. In two dimensions all points are and remain in the plane z = lower.
 enum class Dimension : std::uint8_t {
   space,         ///< three dimensions
-  plane_strain,  ///< a slice of `unit_depth` out of a body that is the same for all z
-  axisymmetric,  ///< x along the axis, y the radius: a point is a whole ring
+  plane_strain,  ///< a slice of thickness `unit_depth` of a body that is uniform along z
+  axisymmetric,  ///< x along the axis, y the radius: a point represents a ring
 };
 constexpr std::array<Word<Dimension>, 3> words(Dimension) {
   return {{{Dimension::space, "3d"},
            {Dimension::plane_strain, "plane_strain"},
            {Dimension::axisymmetric, "axisymmetric"}}};
 }
-constexpr double unit_depth = 1.0;  ///< m, along z in plane strain
+constexpr double unit_depth = 1.0;  ///< along z in plane strain, m
 
-/// The uniform background grid of the domain: node i of a direction lies at lower + i * cell_size.
+/// Describes the uniform background grid of the domain: node i of a direction is at lower + i * cell_size.
 struct Geometry {
   Vector3 lower = Vector3::Zero();      ///< m
   std::array<std::int32_t, 3> cells{};  ///< number of cells
-  double cell_size = 0.0;               ///< m, dx
+  double cell_size = 0.0;               ///< dx, m
   /// Faces in the order x_lower, x_upper, y_lower, y_upper, z_lower, z_upper.
   std::array<Boundary, 6> boundary{};
   Dimension dimension = Dimension::space;
 
-  /// Position in cells from the lower corner, the directions in lanes. Whoever asks for the cell, block or
-  /// stencil of a position takes it from here: two ways of rounding would disagree about positions on the
-  /// edge between two stencils.
+  /// Returns a position in cells from the lower corner, directions in lanes. All computations of cell, block or stencil
+  /// must use this function: different rounding would disagree about positions at the edge between two stencils.
   [[nodiscard]] Lanes in_cells(const Vector3& position) const {
     return (load_vector(position.data()) - load_vector(lower.data())) / cell_size;
   }
   [[nodiscard]] double upper(int axis) const { return lower[axis] + cells[axis] * cell_size; }
   [[nodiscard]] bool is_planar() const { return dimension != Dimension::space; }
   [[nodiscard]] bool is_axisymmetric() const { return dimension == Dimension::axisymmetric; }
-  /// Extent of a cell across the plane (m): the length of the ring in axisymmetry.
+  /// Returns the extent of a cell normal to the plane (m); in axisymmetry the circumference of the ring.
   [[nodiscard]] double depth(const Vector3& position) const {
     switch (dimension) {
       case Dimension::plane_strain:
@@ -98,7 +98,7 @@ struct Geometry {
         return cell_size;
     }
   }
-  /// Volume of a particle, or in two dimensions its area in the plane.
+  /// Returns the volume of a particle or, in two dimensions, its area in the plane.
   [[nodiscard]] double size_in_section(double volume, const Vector3& position) const {
     return is_planar() ? volume / depth(position) : volume;
   }
@@ -106,7 +106,7 @@ struct Geometry {
   [[nodiscard]] bool mirrors(std::size_t face) const {
     return boundary[face] == Boundary::symmetry || boundary[face] == Boundary::no_slip;
   }
-  /// Lengths that are round-off (m).
+  /// Returns the length that counts as round-off, m.
   [[nodiscard]] double tolerance() const { return 1e-6 * cell_size; }
   /// Returns whether a position is in the plane of a face.
   [[nodiscard]] bool is_in_plane(std::size_t face, const Vector3& position) const {
@@ -138,7 +138,7 @@ struct Geometry {
     return within == all_lanes;
   }
   [[nodiscard]] BlockShape block() const { return block_shape(is_planar()); }
-  /// Blocks along an axis that hold cells of the domain (without the layer outside).
+  /// Returns the number of blocks along an axis that contain cells of the domain (without the layer outside).
   [[nodiscard]] std::int32_t blocks(int axis) const {
     const int edge = block().along(static_cast<std::size_t>(axis));
     return (cells[axis] + edge - 1) / edge;

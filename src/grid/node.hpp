@@ -7,13 +7,13 @@
 #include "src/core/base/vector_math.hpp"
 #include "src/grid/geometry.hpp"
 
-/// What nodes hold, and lists and values that go with their blocks.
+/// Contents of nodes; lists and values that belong to their blocks.
 namespace whipple::grid {
 
-/// Sums over the points that reach a node (SI): between particles_to_grid and the grid update.
+/// Holds sums over the points that reach a node (SI units): between particles_to_grid and the grid update.
 struct NodeSums {
-  Lanes mass_and_momentum;  ///< kg, kg m/s
-  Lanes sound_and_force;    ///< mass times sound speed (kg m/s), N
+  Lanes mass_and_momentum;  ///< kg; kg m/s
+  Lanes sound_and_force;    ///< mass times sound speed, kg m/s; N
   [[nodiscard]] double mass() const { return mass_and_momentum[0]; }
   [[nodiscard]] double sound() const { return sound_and_force[0]; }
   [[nodiscard]] Vector3 momentum() const {
@@ -22,10 +22,12 @@ struct NodeSums {
   [[nodiscard]] Vector3 force() const { return {sound_and_force[1], sound_and_force[2], sound_and_force[3]}; }
 };
 
-/// Motion of a node in a step (SI): from the grid update on.
+/// Holds the motion of a node in a step (SI units): after the grid update.
 struct NodeMotion {
-  Lanes velocity_and_relaxation;  ///< m/s at the start of the step; beta (docs/theory/mpm.md, 4)
-  Lanes increment_and_heat;       ///< m/s, of the velocity; J/kg that contact gives to the points around
+  /// Velocity at the start of the step, m/s; beta (docs/theory/mpm.md, equation 3.5).
+  Lanes velocity_and_relaxation;
+  /// Increment of the velocity, m/s; contact dissipation for the surrounding points, J/kg.
+  Lanes increment_and_heat;
   [[nodiscard]] Vector3 velocity() const {
     return {velocity_and_relaxation[0], velocity_and_relaxation[1], velocity_and_relaxation[2]};
   }
@@ -34,7 +36,7 @@ struct NodeMotion {
     return {increment_and_heat[0], increment_and_heat[1], increment_and_heat[2]};
   }
   [[nodiscard]] double heat() const { return increment_and_heat[3]; }
-  /// Mass (kg) that the grid update leaves in the place of the heat, for contact to take.
+  /// Returns the mass (kg), which the grid update stores in the place of the heat for use by contact.
   [[nodiscard]] double mass_for_contact() const { return increment_and_heat[3]; }
   void set_relaxation(double beta) { velocity_and_relaxation[3] = beta; }
   void set_heat(double heat) { increment_and_heat[3] = heat; }
@@ -43,20 +45,21 @@ struct NodeMotion {
   }
 };
 
-/// Scalars of a node, such as capacity and temperature in conduction: sums over points, and values kept meanwhile.
+/// Holds scalars of a node, such as capacity and temperature in heat conduction: sums over points, and values kept
+/// during the summation.
 struct NodeScalars {
   Lanes sums;
   Lanes kept;
 };
 
-/// The registers of a node, whatever they hold: for what treats all alike.
+/// Gives untyped access to the registers of a node, for operations that treat all contents alike.
 struct NodeRegisters {
   Lanes first;
   Lanes second;
 };
 
-/// A node holds one of these at a time; who reads it says which. (Compilers that define reading another member of a
-/// union than was written, as GCC does, make one of the other without a copy.)
+/// Holds one of these contents at a time, as determined by the stage of the step. (With compilers that define reading a
+/// union member other than the one written, such as GCC, one content replaces the other without a copy.)
 union alignas(64) Node {
   NodeRegisters registers;
   NodeSums sums;
@@ -65,21 +68,20 @@ union alignas(64) Node {
 };
 static_assert(sizeof(Node) == 64);
 
-/// Values that go with the contact slots of a grid: those of slot number c stand from begin[c] to begin[c +
-/// 1].
+/// Holds values of the contact slots of a grid; those of contact slot c are at begin[c] to begin[c + 1].
 struct ContactValues {
   std::vector<Lanes> values;
   std::vector<std::uint32_t> begin;
 };
 
-/// Values that go with all blocks of nodes of some slots, of which every rank that works with them knows as
-/// many: those of slot s stand from begin[s] to begin[s + 1].
+/// Holds values of all blocks of nodes of some slots, with the same number on every rank that uses the slot; those of
+/// slot s are at begin[s] to begin[s + 1].
 struct SlotValues {
   std::vector<Lanes> values;
   std::vector<std::uint32_t> begin;
 };
 
-/// A node beyond a mirror plane and its image inside, as indices into all_nodes().
+/// Connects a node beyond a mirror plane and its image inside, as indices into all_nodes().
 struct MirrorPair {
   std::uint32_t outside;
   std::uint32_t image;
@@ -89,13 +91,13 @@ struct MirrorPlane {
   int face = 0;  ///< in the order of Geometry::boundary
   int axis = 0;
   Boundary kind = Boundary::symmetry;
-  /// Pairs of fields that are continuous with their mirror images (`bond_at_planes`).
+  /// Node pairs of fields that are continuous with their mirror images (`bond_at_planes`).
   std::vector<MirrorPair> pairs;
   std::vector<std::uint32_t> on_plane;
-  /// Pairs of fields that are in contact with their mirror images.
+  /// Node pairs of fields that are in contact with their mirror images.
   std::vector<MirrorPair> pairs_apart;
   std::vector<std::uint32_t> on_plane_apart;
-  /// Inner nodes that particles may reach from beyond the plane: the images of some rank's `outside` nodes.
+  /// Inner nodes within the reach of stencils across the plane: the images of `outside` nodes of any rank.
   std::vector<std::uint32_t> near;
   [[nodiscard]] double outward() const { return face % 2 == 0 ? -1.0 : 1.0; }
 };

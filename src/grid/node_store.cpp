@@ -34,8 +34,8 @@ void NodeStore::lay_out_nodes() {
   number_blocks();
   const std::size_t nodes = block_count() * nodes_per_block;
   if (nodes > nodes_.capacity()) {
-    std::vector<Node>().swap(nodes_);  // every step begins with clear nodes
-    // Takes addresses, but memory only when it is reached, and then new pages.
+    std::vector<Node>().swap(nodes_);  // every step begins with cleared nodes
+    // Reserves addresses only; the system provides memory on first access, as new pages.
     nodes_.reserve(nodes + std::min(3 * nodes, most_nodes_ahead));
   }
   nodes_.resize(nodes);
@@ -70,7 +70,7 @@ void NodeStore::find_mirror_nodes() {
       const BlockCoordinate& block = coordinate(slot_of_block(b));
       const std::int32_t first = block[axis] * edge;
       const std::int32_t least_inside = std::min((at - first) * outward, (at - first - (edge - 1)) * outward);
-      if (least_inside > mirror_reach) continue;  // a block inside the domain
+      if (least_inside > mirror_reach) continue;  // far inside the domain
       const int field = field_of_block(b);
       const bool bonded = (bonded_[static_cast<std::size_t>(mirror.face)] >> std::max(field, 0) & 1U) != 0;
       std::vector<std::uint32_t>& on_plane = bonded ? mirror.on_plane : mirror.on_plane_apart;
@@ -88,7 +88,7 @@ void NodeStore::find_mirror_nodes() {
         for (std::size_t a = 0; a < 3; ++a) place[a] = block[a] * block_shape().along(a) + inside_block[a];
         place[axis] = 2 * at - along;
         const std::uint32_t image = active_node(place, field);
-        // Without an active image no particle reaches so far beyond the plane: its stencil is symmetric.
+        // Without an active image no particle reaches this far beyond the plane, since its stencil is symmetric.
         if (image != no_node) pairs.push_back({index, image});
       }
     }
@@ -123,8 +123,8 @@ void NodeStore::find_border() {
   }
 }
 
-/// Index of a field's node at a place of the grid; `no_node` if its block is not active or not reached by the
-/// field (-1: by whatever field is there).
+/// Returns the index of a field's node at a position of the grid; `no_node` if its block is not active or not reached
+/// by the field (-1: any field).
 std::uint32_t NodeStore::active_node(const std::array<std::int32_t, 3>& place, int field) const {
   BlockCoordinate block{};
   for (std::size_t a = 0; a < 3; ++a) {

@@ -11,10 +11,10 @@
 
 namespace whipple::grid {
 
-/// The nodes of all blocks, and the linear constraints on them: which nodes mirror planes connect.
+/// Stores the nodes of all blocks and the linear constraints on them: the nodes that mirror planes connect.
 class NodeStore : public VelocityFields {
  public:
-  /// The nodes of a slot for a field; those of the slot itself where the field has none of its own.
+  /// Returns the nodes of a slot for a field: those of the slot itself where the field has no separate nodes.
   [[nodiscard]] Node* nodes(std::size_t slot, unsigned field = 0) {
     return &nodes_[block_of_field(slot, field) * nodes_per_block];
   }
@@ -25,7 +25,7 @@ class NodeStore : public VelocityFields {
   [[nodiscard]] std::span<const Node> all_nodes() const { return nodes_; }
   /// Sets every node to zero.
   void clear();
-  /// Changes whenever nodes change their place in all_nodes().
+  /// Returns a number that changes whenever nodes change their position in all_nodes().
   [[nodiscard]] std::size_t layout() const { return layout_; }
 
   /// Sets the fields that are continuous with their images at the mirror planes: one bit per field for each
@@ -39,10 +39,9 @@ class NodeStore : public VelocityFields {
   [[nodiscard]] bool is_apart_at(std::size_t face) const {
     return geometry().boundary[face] != Boundary::outflow && ~bonded_[face] != 0;
   }
-  /// Planes with the active nodes that they concern, in the order in which they are folded.
+  /// Returns the planes with the active nodes that they affect, in the order in which they are folded.
   [[nodiscard]] std::span<const MirrorPlane> mirror_planes() const { return planes_; }
-  /// Returns whether a node belongs to a ghost block, or to one that mirror planes connect with a ghost
-  /// block.
+  /// Returns whether a node belongs to a ghost block, or to a block that mirror planes connect with a ghost block.
   [[nodiscard]] bool is_awaited(std::size_t node) const {
     if (awaited_.empty()) return false;
     const std::size_t block = node / nodes_per_block;
@@ -55,11 +54,11 @@ class NodeStore : public VelocityFields {
 
  protected:
   NodeStore(const Geometry& geometry, MPI_Comm communicator);
-  /// Gives the blocks of the fields their nodes.
+  /// Allocates the nodes of all blocks and fields.
   void lay_out_nodes();
-  /// Determines the border slots: values that other ranks await are complete once the slots around them have
-  /// contributed, and mirror planes have been folded onto them. (While all fields share the nodes, the planes
-  /// connect at least as many slots as later.)
+  /// Determines the border slots: values that other ranks await are complete when the neighbouring slots have
+  /// contributed and mirror planes have been folded onto them. (As long as all fields share the nodes, the planes
+  /// connect at least as many slots as with separate fields.)
   void find_border();
   [[nodiscard]] bool is_at_border(std::size_t slot) const { return !border_.empty() && border_[slot] != 0; }
 
@@ -70,8 +69,9 @@ class NodeStore : public VelocityFields {
   std::vector<Node> nodes_;
   std::size_t layout_ = 0;
   std::vector<MirrorPlane> planes_;
-  std::array<std::uint64_t, 6> bonded_{};  // bit per field, of each face
-  std::vector<std::uint8_t> outside_;  // of each node: an image across a plane where its field is continuous
+  std::array<std::uint64_t, 6> bonded_{};  // one bit per field, for each face
+  // Of each node: 1 if it is an image across a plane where its field is continuous
+  std::vector<std::uint8_t> outside_;
   std::vector<std::uint8_t> awaited_, border_;  // of each slot; empty without ghost blocks
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the points of the grid are: the block of each, its place there, the lists of the blocks, and which of
-// the blocks rest (docs/theory/mpm.md, section 8).
+// Location of the points in the grid: block and place of each, lists of the blocks, inactive blocks
+// (docs/theory/mpm.md, section 8).
 #include "src/grid/point_bins.hpp"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ bool PointBins::bin(std::span<const Vector3> position, Stencil stencil, std::spa
   return true;
 }
 
-/// Finds the slot of every particle; false if one is outside of the active set.
+/// Finds the slot of every particle; returns false if one is outside of the active set.
 bool PointBins::look_up(std::span<const Vector3> position) {
   forget_runs();
   slot_of_particle_.resize(position.size());
@@ -36,7 +36,7 @@ bool PointBins::look_up(std::span<const Vector3> position) {
   parallel::for_each_chunk(position.size(), [&](std::size_t begin, std::size_t end) {
     std::int32_t slot = no_slot;
     for (std::size_t p = begin; p < end; ++p) {
-      // Neighbours in memory are mostly in one block.
+      // Particles adjacent in memory are mostly in one block.
       if (slot == no_slot ||
           !is_inside(in_cells(position[p]) - corner(static_cast<std::size_t>(slot)), edges())) {
         slot = slot_at(position[p]);
@@ -49,8 +49,8 @@ bool PointBins::look_up(std::span<const Vector3> position) {
   return complete;
 }
 
-/// Updates the slot of every particle from its former slot; false if a particle left the active set. Where
-/// material rests all is as it was.
+/// Updates the slot of every particle from its former slot; returns false if a particle has left the active set.
+/// Inactive blocks are unchanged.
 bool PointBins::locate(std::span<const Vector3> position, Stencil stencil) {
   place_of_particle_.resize(position.size());
   if (!runs_known_) {
@@ -70,7 +70,7 @@ bool PointBins::locate(std::span<const Vector3> position, Stencil stencil) {
   }
   const StencilPlaces places(stencil);
   std::atomic<bool> complete = true;
-  // Do all particles of a run reach active blocks only? The box around their stencils mostly tells.
+  // Returns whether all particles of a run reach active blocks only. The box around their stencils usually decides.
   const auto is_active = [&](const Run& run, Lanes first, Lanes last) {
     const std::uint32_t absent = ~existing(run.slot);
     const std::uint32_t touched = touched_neighbours_of_box(first, last, stencil);
@@ -85,7 +85,7 @@ bool PointBins::locate(std::span<const Vector3> position, Stencil stencil) {
   parallel::for_each_uneven(runs_.size(), [&](std::size_t c) {
     thread_local std::vector<Run> found;
     found.clear();
-    Run now;  // of the particles before
+    Run now;  // current run
     Lanes least{}, greatest{};
     const auto finish = [&] {
       if (now.begin == now.end) return;
@@ -112,7 +112,7 @@ bool PointBins::locate(std::span<const Vector3> position, Stencil stencil) {
           slot = static_cast<std::uint32_t>(moved);
           slot_of_particle_[p] = moved;
           local = position_in_block(at, corner(slot), edges());
-          // Where something comes to is not at rest.
+          // A block that a particle enters becomes active.
           std::atomic_ref(resting_[slot]).store(0, std::memory_order_relaxed);
         }
         const Lanes first = places.first_node(local);
@@ -134,8 +134,8 @@ bool PointBins::locate(std::span<const Vector3> position, Stencil stencil) {
   return complete;
 }
 
-/// Slot of the block around a position in a slot's block or one of its neighbours; `no_slot` if that is not
-/// active or farther away.
+/// Returns the slot of the block around a position in a slot's block or one of its neighbours; `no_slot` if the block
+/// is inactive or farther away.
 std::int32_t PointBins::slot_of_neighbour(std::size_t slot, Lanes in_cells) const {
   int neighbour = 0;
   for (int a = 0; a < 3; ++a) {
@@ -147,7 +147,8 @@ std::int32_t PointBins::slot_of_neighbour(std::size_t slot, Lanes in_cells) cons
   return neighbours(slot)[static_cast<std::size_t>(neighbour)];
 }
 
-/// Guests come and go, so each one's block is looked up; false if a stencil reaches beyond the active set.
+/// Looks up the blocks of the off-grid points, which may change in every step; returns false if a stencil reaches
+/// beyond the active set.
 bool PointBins::locate_guests(std::span<const Vector3> guests, Stencil stencil) {
   slot_of_guest_.resize(guests.size());
   place_of_guest_.resize(guests.size());
@@ -166,8 +167,7 @@ bool PointBins::locate_guests(std::span<const Vector3> guests, Stencil stencil) 
   return true;
 }
 
-/// Counting sort of whole runs by slot; stable, so that the particles of a block keep the order of their
-/// indices.
+/// Sorts whole runs by slot (counting sort); stable, so that the particles of a block keep the order of their indices.
 void PointBins::list_particles() {
   PointList& list = particles_;
   list.begin.assign(slots() + 1, 0);
@@ -268,7 +268,7 @@ std::size_t PointBins::let_rest_beyond(int layers, std::vector<std::uint64_t> aw
   };
   for (const std::uint32_t p : released_) awake[static_cast<std::size_t>(slot_of_particle_[p])] = 1;
   join_bits_of_ranks(awake);
-  for (int layer = 0; layer < layers; ++layer) {  // what shares nodes with what is awake awakes
+  for (int layer = 0; layer < layers; ++layer) {  // blocks that share nodes with active blocks become active
     std::vector<std::uint64_t> stirred(slots(), 0);
     parallel::for_each(slots(), [&](std::size_t s) {
       if (awake[s] == 0) return;
@@ -316,7 +316,7 @@ void PointBins::count_cells(std::span<const Vector3> position, std::span<const V
   for (std::size_t g = 0; g < guests.size(); ++g) {
     count(static_cast<std::size_t>(slot_of_guest_[g]), guests[g]);
   }
-  // Other ranks may have particles, unseen here, in blocks that they borrow and in blocks of their own.
+  // Other ranks may have particles, unknown here, in their ghost blocks and in their own blocks.
   unshared_.assign(slots(), 1);
   for (std::size_t s = owned_slots(); s < slots(); ++s) unshared_[s] = 0;
   for (const BlockSet::Peer& peer : peers()) {
@@ -336,7 +336,7 @@ bool PointBins::is_alone(std::uint32_t particle, const Vector3& position) const 
   const auto slot = static_cast<std::size_t>(slot_of_particle_[particle]);
   const std::array<int, 3> cell = floor_of_three(place - corner(slot));
   const int ring_z = geometry().is_planar() ? 0 : ring;
-  const auto place_along = [&](int c, std::size_t axis) {  // block around (0 to 2), cell in it
+  const auto place_along = [&](int c, std::size_t axis) {  // block (0 to 2) and cell in it
     const int edge = block_shape().along(axis);
     return std::pair{c < 0 ? 0 : c < edge ? 1 : 2, (c + edge) % edge};
   };

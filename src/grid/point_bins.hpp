@@ -12,9 +12,9 @@
 
 namespace whipple::grid {
 
-/// Points by block.
+/// Lists points by block.
 struct PointList {
-  std::vector<std::uint32_t> begin;   ///< of each slot in `points`, and the end
+  std::vector<std::uint32_t> begin;   ///< begin of each slot in `points`, and the end
   std::vector<std::uint32_t> points;  ///< indices, block by block
 
   [[nodiscard]] std::span<const std::uint32_t> in(std::size_t slot) const {
@@ -22,24 +22,25 @@ struct PointList {
   }
 };
 
-/// Where the particles and off-grid points of a rank are: the block of each, its place there, the lists of the blocks, and which
-/// of the blocks rest (docs/theory/mpm.md, section 8). Guests are off-grid points that use the nodes (nodes of finite
-/// elements): listed apart.
+/// Locates the particles and off-grid points of a rank: the block of each, its place there, the lists of the blocks,
+/// and the inactive blocks (docs/theory/mpm.md, section 8). Guests are off-grid points that use the nodes (nodes of
+/// finite elements); they are listed separately.
 class PointBins : public Topology {
  public:
-  /// Counts the particles and off-grid points of this rank in every cell, after `bin`.
+  /// Counts the particles and off-grid points of this rank in every cell. Call after `bin`.
   void count_cells(std::span<const Vector3> position, std::span<const Vector3> guests = {});
-  /// Returns whether a particle of this rank is farther than two cells from all other particles, off-grid
-  /// points, mirror planes, and blocks shared with other ranks. Call `count_cells` before.
+  /// Returns whether the cells within two cells of a particle contain no other particle or off-grid point, mirror
+  /// plane, or block shared with other ranks. Call `count_cells` before.
   [[nodiscard]] bool is_alone(std::uint32_t particle, const Vector3& position) const;
-  /// Takes particles (ascending) off the lists of their blocks until the next `bin`: the transfers do not see
-  /// them.
+  /// Removes particles (ascending) from the lists of their blocks until the next `bin`: the transfers skip them.
   void release(std::span<const std::uint32_t> particles);
-  /// Finds the blocks at rest and takes their particles off the lists; after `bin` and `release`.
-  /// Awake are blocks that are restless or hold off-grid points, and `layers` of blocks around them, one after the
-  /// other: those that reach nodes of blocks whose nodes an awake one reaches. Collective.
-  /// @param is_restless  is_restless(slot): does something in it move? Not asked of blocks that rested before
-  /// @returns number of particles of this rank at rest
+  /// Determines the inactive (quiescent) blocks and removes their particles from the lists. Call after `bin` and
+  /// `release`. A block is active if it is restless or holds off-grid points, or if it is in one of `layers` successive
+  /// layers around such blocks; a layer consists of the blocks whose points reach nodes of blocks that points of an
+  /// active block reach. Collective.
+  /// @param is_restless  is_restless(slot): whether material in the slot moves; not called for blocks that were
+  /// inactive
+  /// @returns number of particles of this rank in inactive blocks
   template <class IsRestless>
   std::size_t let_rest(int layers, IsRestless&& is_restless) {
     std::vector<std::uint64_t> awake(slots(), 0);
@@ -48,50 +49,48 @@ class PointBins : public Topology {
     });
     return let_rest_beyond(layers, std::move(awake));
   }
-  /// No block rests any longer.
+  /// Activates all blocks.
   void wake();
-  /// Returns whether all particles of a chunk (from `chunk` times parallel::chunk_size on) are in inactive
-  /// blocks.
+  /// Returns whether all particles of a chunk (from `chunk` times parallel::chunk_size) are in inactive blocks.
   [[nodiscard]] bool chunk_rests(std::size_t chunk) const;
-  /// Changes whenever particles may have come, gone or changed their order.
+  /// Returns a number that changes whenever particles may have been added, removed or reordered.
   [[nodiscard]] std::size_t arrangement() const { return arrangement_; }
 
-  /// Particles changed their order or number: the next `bin` looks every block up again.
+  /// Records that order or number of the particles changed: the next `bin` looks up every block again.
   void particles_reordered();
   /// Records a new order of the particles, none of which has left: new[i] = old[order[i]]. On one rank the
   /// blocks remain known.
   void particles_reordered(std::span<const std::uint32_t> order);
-  /// Particles left and others took their places: the blocks stay known.
-  /// @param size  number of particles that stay
+  /// Records that particles left and others took their places: the blocks remain known.
+  /// @param size  number of particles that remain
   void particles_removed(std::span<const Move> moves, std::size_t size);
 
-  /// Indices of the particles in a block, ascending; field by field while fields are divided.
+  /// Returns the indices of the particles in a block, ascending; field by field while fields are divided.
   [[nodiscard]] std::span<const std::uint32_t> particles_in(std::size_t slot) const {
     return particles_.in(slot);
   }
-  /// Indices of the off-grid points in a block, ascending.
+  /// Returns the indices of the off-grid points in a block, ascending.
   [[nodiscard]] std::span<const std::uint32_t> guests_in(std::size_t slot) const { return guests_.in(slot); }
-  /// Place of the first particle of a slot in `particles_by_block`; of the slot behind the last: how many
-  /// there are.
+  /// Returns the position of the first particle of a slot in `particles_by_block`; for the slot after the last, the
+  /// number of particles.
   [[nodiscard]] std::size_t place_of(std::size_t slot) const { return particles_.begin[slot]; }
-  /// All particles that do not rest, block by block: an order that keeps neighbours in memory near one
-  /// another.
+  /// Returns all particles in active blocks, block by block: an order that keeps neighbours close in memory.
   [[nodiscard]] std::span<const std::uint32_t> particles_by_block() const { return particles_.points; }
-  /// Lists particles like `list`, those of a block ordered by the first node of their stencils; all particles
+  /// Lists the particles block by block, those of a block ordered by the first node of their stencils; all particles
   /// only after `wake`.
   void list_by_stencil(std::vector<std::uint32_t>& order) const;
   enum class Points { particles, guests };
   [[nodiscard]] std::span<const std::uint32_t> members(Points points, std::size_t slot) const {
     return points == Points::particles ? particles_in(slot) : guests_in(slot);
   }
-  /// The stencil of the last `bin`.
+  /// Returns the stencil of the last `bin`.
   [[nodiscard]] Stencil stencil() const { return stencil_; }
-  /// Returns the position of each point in its stencil as binned: the transfers of a step use it, wherever
-  /// the positions have moved since.
+  /// Returns the position of each point in its stencil at the last `bin`: the transfers of a step use it even if the
+  /// points have moved since.
   [[nodiscard]] std::span<const PlaceInStencil> places(Points points) const {
     return points == Points::particles ? place_of_particle_ : place_of_guest_;
   }
-  /// Distance of a particle from the lower face along y at the last `bin` (m): the radius of a ring.
+  /// Returns the distance of a particle from the lower face along y at the last `bin` (m): the radius of a ring.
   [[nodiscard]] double radius_at_bin(std::size_t p) const {
     const auto slot = static_cast<std::size_t>(slot_of_particle_[p]);
     const PlaceInStencil& place = place_of_particle_[p];
@@ -106,13 +105,13 @@ class PointBins : public Topology {
     return slot_of_particle_.size() * 8 +
            (place_of_particle_.size() + place_of_guest_.size()) * sizeof(PlaceInStencil);
   }
-  /// As of BlockGrid.
+  /// Implements BlockGrid::bin.
   bool bin(std::span<const Vector3> position, Stencil stencil, std::span<const Vector3> guests);
-  /// Finds the slot of every particle; false if one is outside of the active set.
+  /// Finds the slot of every particle; returns false if one is outside of the active set.
   bool look_up(std::span<const Vector3> position);
-  /// The next `bin` goes through all particles.
+  /// Makes the next `bin` process all particles individually.
   void forget_runs();
-  /// Particles of a block, to be put in another order until the next `bin`.
+  /// Returns the particles of a block, to be reordered until the next `bin`.
   [[nodiscard]] std::span<std::uint32_t> listed_in(std::size_t slot) {
     return std::span(particles_.points).subspan(particles_.begin[slot], particles_in(slot).size());
   }
@@ -126,25 +125,26 @@ class PointBins : public Topology {
   void list_guests();
 
   Stencil stencil_;
-  std::vector<std::int32_t> slot_of_particle_, reordered_;  // the latter: memory for the next sort
-  std::vector<std::uint32_t> reached_;     // of each slot: bit per neighbour whose nodes its points may reach
+  std::vector<std::int32_t> slot_of_particle_, reordered_;  // the latter: memory for the next reordering
+  // Of each slot: one bit per neighbour whose nodes its points may reach
+  std::vector<std::uint32_t> reached_;
   std::vector<std::uint16_t> cell_count_;  // particles in each cell of each slot
-  std::vector<std::uint8_t> unshared_;     // slots that no other rank works with
+  std::vector<std::uint8_t> unshared_;     // of each slot: 1 if no other rank uses it
   std::vector<std::uint32_t> released_;    // particles, ascending
   std::vector<std::uint8_t> resting_;      // of each slot, while `runs_known_`
   std::vector<std::int32_t> slot_of_guest_;
   std::vector<PlaceInStencil> place_of_particle_, place_of_guest_;
   PointList particles_, guests_;
-  /// Particles of one block that follow one another in memory.
+  /// Describes particles of one block that are contiguous in memory.
   struct Run {
     std::uint32_t slot = 0;
     std::uint32_t begin = 0, end = 0;
-    std::uint32_t place = 0;  ///< of the first in the list of particles
+    std::uint32_t place = 0;  ///< of the first one in the list of particles
   };
   std::vector<std::vector<Run>> runs_;  // of each chunk of particles
   bool runs_known_ = false;             // from the last `bin`
   std::size_t arrangement_ = 0;
-  std::vector<std::uint32_t> next_;  // place for the next point of each slot, while lists are made
+  std::vector<std::uint32_t> next_;  // position of the next point of each slot during list construction
 };
 
 }  // namespace whipple::grid

@@ -9,13 +9,13 @@
 #include "src/core/parallel/threads.hpp"
 #include "src/grid/forest.hpp"
 
-/// Messages of values that go with the slots that ranks share.
+/// Messages with values of the slots that ranks share.
 namespace whipple::grid {
 
-/// Slots that a peer and this rank share, and which way what belongs to them travels.
+/// Selects the slots shared with a peer: those lent to it or those borrowed from it.
 using SharedSlots = std::vector<std::uint32_t> BlockSet::Peer::*;
 
-/// Buffers, by peer, of messages under way.
+/// Holds the buffers of pending messages, by peer.
 template <class Value>
 struct SlotMessages {
   std::vector<std::vector<Value>> outgoing, incoming;
@@ -28,10 +28,10 @@ struct SlotMessages {
   SlotMessages() = default;
   SlotMessages(SlotMessages&&) = default;
   SlotMessages& operator=(SlotMessages&&) = delete;
-  ~SlotMessages() { wait(); }  // all ranks have begun; none may write to what is gone
+  ~SlotMessages() { wait(); }  // all ranks have begun; no message may write to freed memory
 };
 
-/// Returns where the values of each shared slot begin in a buffer, and the end of the last.
+/// Returns the begin of each shared slot's values in a buffer, and the end of the last.
 template <class Size>
 std::vector<std::size_t> begins(const std::vector<std::uint32_t>& shared, Size&& size) {
   std::vector<std::size_t> begin(shared.size() + 1, 0);
@@ -39,7 +39,7 @@ std::vector<std::size_t> begins(const std::vector<std::uint32_t>& shared, Size&&
   return begin;
 }
 
-/// Calls pack(slot of `from`, buffer) and sends the buffers; size(slot) values of each slot.
+/// Calls pack(slot of `from`, buffer) and sends the buffers, with size(slot) values for each slot.
 template <class Value, class Size, class Pack>
 void send(MPI_Comm communicator, const std::vector<BlockSet::Peer>& peers, SlotMessages<Value>& messages,
           int tag, SharedSlots from, SharedSlots to, Size&& size, Pack&& pack) {
@@ -69,7 +69,7 @@ template <class Value, class Size, class Unpack>
 void receive(const std::vector<BlockSet::Peer>& peers, SlotMessages<Value>& messages, SharedSlots to,
              Size&& size, Unpack&& unpack) {
   messages.wait();
-  for (std::size_t i = 0; i < peers.size(); ++i) {  // in the order of the ranks: sums are repeatable
+  for (std::size_t i = 0; i < peers.size(); ++i) {  // in the order of the ranks, for reproducible sums
     const std::vector<std::uint32_t>& received = peers[i].*to;
     const std::vector<std::size_t> begin = begins(received, size);
     parallel::for_each(received.size(),
@@ -77,7 +77,7 @@ void receive(const std::vector<BlockSet::Peer>& peers, SlotMessages<Value>& mess
   }
 }
 
-/// Sends and receives.
+/// Sends and receives in one call.
 template <class Value, class Size, class Pack, class Unpack>
 void exchange(MPI_Comm communicator, const std::vector<BlockSet::Peer>& peers, int tag, SharedSlots from,
               SharedSlots to, Size&& size, Pack&& pack, Unpack&& unpack) {

@@ -47,11 +47,11 @@ std::optional<BlockCoordinate> Topology::block_of(const Vector3& position) const
 std::vector<WantedBlock> Topology::wanted_blocks(std::span<const Vector3> position,
                                                  std::span<const Vector3> velocity, double lookahead,
                                                  Stencil stencil, const Work& work) const {
-  // Blocks with particles, and for each the neighbours that its particles reach now and within the
-  // look-ahead: first of particles that follow one another in one block.
+  // Blocks with particles, and for each the neighbours that its particles reach now and within the look-ahead: first
+  // collected for consecutive particles in one block.
   struct Home {
     WantedBlock block;
-    std::uint32_t wanted = 0;  // bit per neighbour; none without points on the grid
+    std::uint32_t wanted = 0;  // one bit per neighbour; 0 without points on the grid
   };
   std::vector<std::vector<Home>> homes_of(parallel::chunk_count(position.size()));
   std::atomic<bool> outside = false;
@@ -113,7 +113,7 @@ std::vector<WantedBlock> Topology::wanted_blocks(std::span<const Vector3> positi
     for (int n = 0; n < 27; ++n) {
       if ((of_block.wanted >> n & 1U) == 0) continue;
       const BlockCoordinate block = shifted(of_block.block.coordinate, n);
-      bool inside = true;  // motion may foresee blocks beyond the outer layer
+      bool inside = true;  // the motion may lead beyond the outer layer
       for (std::size_t a = 0; a < 3; ++a) {
         inside = inside && block[a] >= -1 && block[a] <= geometry_.blocks(static_cast<int>(a));
       }
@@ -125,7 +125,7 @@ std::vector<WantedBlock> Topology::wanted_blocks(std::span<const Vector3> positi
     }
   }
   if (is_shared()) {
-    for (std::size_t i = 0; i < wanted.size(); ++i) {  // while it grows
+    for (std::size_t i = 0; i < wanted.size(); ++i) {  // the list grows in the loop
       for_each_mirror_block(wanted[i].coordinate, [&](const BlockCoordinate& mirror) {
         const auto next = static_cast<std::int32_t>(wanted.size());
         if (wanted_table.find_or_insert(mirror, next) == next) wanted.push_back({mirror, 0.0});
@@ -135,8 +135,8 @@ std::vector<WantedBlock> Topology::wanted_blocks(std::span<const Vector3> positi
   return wanted;
 }
 
-/// Calls f(block) for the blocks with mirror nodes of those of a block that may meet their images: a rank
-/// that works with the one must know the other.
+/// Calls f(block) for the blocks that contain mirror nodes of those nodes of a block that may be in contact with their
+/// images: a rank that uses one of the blocks requires the other.
 template <class Function>
 void Topology::for_each_mirror_block(const BlockCoordinate& block, Function&& f) const {
   for (std::size_t face = 0; face < 6; ++face) {
@@ -164,7 +164,8 @@ std::vector<int> Topology::owners(std::span<const Vector3> position) const {
   if (parallel::size(communicator_) == 1) return owner;
   BlockTable known;
   known.reserve(slots() + 64);
-  Lanes corner{};  // of the block before: neighbours in memory are mostly in one
+  // Of the block of the particle before: particles adjacent in memory are mostly in one block
+  Lanes corner{};
   for (std::size_t p = 0; p < position.size(); ++p) {
     if (p > 0 && is_inside(in_cells(position[p]) - corner, edges_)) {
       owner[p] = owner[p - 1];
@@ -195,7 +196,7 @@ void Topology::owners_reached(const Vector3& position, Stencil stencil, std::vec
 
 void Topology::activate(std::span<const Vector3> position, std::span<const Vector3> velocity,
                         double lookahead, Stencil stencil) {
-  // Particles may have come and gone since `adapt`, unless there is no other rank.
+  // With several ranks, particles may have been exchanged since `adapt`.
   if (parallel::size(communicator_) > 1) {
     wanted_ = wanted_blocks(position, velocity, lookahead, stencil, {});
   }
@@ -211,7 +212,7 @@ void Topology::activate(std::span<const Vector3> position, std::span<const Vecto
   parallel::for_each(slots(), [&](std::size_t s) {
     const BlockCoordinate& block = blocks_.coordinate[s];
     corner_[s] = corner_of(block, block_);
-    // Of two neighbours the first finds the second, and leaves itself with it.
+    // Each pair of neighbours is looked up once, from one side.
     for (std::size_t n = 0; n < 27; ++n) {
       if (n == 13) {
         neighbours_[s][n] = static_cast<std::int32_t>(s);

@@ -16,62 +16,62 @@
 
 namespace whipple::grid {
 
-/// Number of a block among the 27 around one, itself included.
+/// Returns the index of a block among the 27 blocks around one, itself included.
 constexpr int neighbour_index(int x, int y, int z) { return (x * 3 + y) * 3 + z; }
 
-/// Calls f(position) for every bit that is set, from the lowest.
+/// Calls f(position) for every set bit, from the lowest.
 template <class Function>
 void for_each_bit(std::uint64_t bits, Function&& f) {
   for (; bits != 0; bits &= bits - 1) f(static_cast<unsigned>(std::countr_zero(bits)));
 }
 
-/// Work of a step, in any unit that all ranks share.
+/// Describes the work of a step, in any unit common to all ranks.
 struct Work {
-  std::span<const double> of_particle;  ///< of this rank; those that are not listed count as 1
-  double of_block = 0.0;                ///< of the nodes of a block with particles, whatever their number
-  std::size_t apart = 0;  ///< of the points listed, the last so many are work but reach no nodes
+  std::span<const double> of_particle;  ///< of this rank; particles that are not listed count as 1
+  double of_block = 0.0;  ///< of the nodes of a block with particles, regardless of their number
+  std::size_t apart = 0;  ///< number of points, the last ones in the list, that are work but reach no nodes
 };
 
-/// The active blocks of a rank and their neighbours. Slots number them: its own blocks in the order of the forest's
-/// space-filling curve, then ghost blocks of other ranks, because its particles reach them.
+/// Manages the active blocks of a rank and their neighbours. Slots number them: owned blocks in the order of the
+/// forest's space-filling curve, then ghost blocks of other ranks that its particles reach.
 class Topology {
  public:
   static constexpr std::int32_t no_slot = BlockTable::none;
-  /// Nodes beyond a mirror plane that the stencil of a particle before it may hold.
+  /// Maximum number of nodes beyond a mirror plane in the stencil of a particle in front of it.
   static constexpr std::int32_t mirror_reach = 2;
 
-  /// Rank that owns the block of each particle, which is where the particle must be before `activate`.
+  /// Returns the rank that owns the block of each particle; the particles must be there before `activate`.
   [[nodiscard]] std::vector<int> owners(std::span<const Vector3> position) const;
-  /// Adds to `ranks` those that own a block that a stencil at the position reaches, each once; nothing for a
+  /// Adds to `ranks`, without repetition, the owners of the blocks that a stencil at the position reaches; none for a
   /// position outside of the domain and its outer layer.
   void owners_reached(const Vector3& position, Stencil stencil, std::vector<int>& ranks) const;
 
-  /// The geometry, with the shift of the nodes.
+  /// Returns the geometry, including the shift of the nodes.
   [[nodiscard]] const Geometry& geometry() const { return geometry_; }
   [[nodiscard]] BlockShape block_shape() const { return block_; }
   [[nodiscard]] MPI_Comm communicator() const { return communicator_; }
-  /// Edge of the cells of a slot (m).
+  /// Returns the edge of the cells of a slot, m.
   [[nodiscard]] double cell_size(std::size_t /*slot*/) const { return geometry_.cell_size; }
   [[nodiscard]] std::size_t slots() const { return blocks_.coordinate.size(); }
-  /// The first so many slots are blocks of this rank; the others are ghost blocks.
+  /// Returns the number of blocks that this rank owns; they have the first slots, the others are ghost blocks.
   [[nodiscard]] std::size_t owned_slots() const { return blocks_.owned; }
   [[nodiscard]] const BlockCoordinate& coordinate(std::size_t slot) const { return blocks_.coordinate[slot]; }
-  /// Slots of the 27 blocks around a slot (see neighbour_index), `no_slot` where inactive.
+  /// Returns the slots of the 27 blocks around a slot (see neighbour_index), `no_slot` where inactive.
   [[nodiscard]] const std::array<std::int32_t, 27>& neighbours(std::size_t slot) const {
     return neighbours_[slot];
   }
-  /// Returns whether several ranks work on some block.
+  /// Returns whether several ranks take part, so that blocks may be shared.
   [[nodiscard]] bool is_shared() const;
-  /// Sets the bits of each slot on all ranks that work with it if any of them has. Collective.
+  /// Combines the bits of each slot over all ranks that use it (bitwise or). Collective.
   void join_bits_of_ranks(std::vector<std::uint64_t>& of_slot);
 
-  /// Slot of the block around a position, `no_slot` if there is none.
+  /// Returns the slot of the block around a position, `no_slot` if there is none.
   [[nodiscard]] std::int32_t slot_at(const Vector3& position) const {
     const std::optional<BlockCoordinate> block = block_of(position);
     return block ? table_.find(*block) : no_slot;
   }
   [[nodiscard]] std::int32_t slot_of(const BlockCoordinate& block) const { return table_.find(block); }
-  /// Block around a position: nothing for a position beyond the outer layer, or NaN.
+  /// Returns the block around a position; none for a position beyond the outer layer, or NaN.
   [[nodiscard]] std::optional<BlockCoordinate> block_of(const Vector3& position) const;
 
   [[nodiscard]] std::size_t forest_leaves() const { return forest_.leaves(); }
@@ -79,21 +79,21 @@ class Topology {
 
  protected:
   Topology(const Geometry& geometry, MPI_Comm communicator);
-  /// As of BlockGrid.
+  /// Implement the functions of BlockGrid.
   void adapt(std::span<const Vector3> position, std::span<const Vector3> velocity, double lookahead,
              Stencil stencil, const Work& work);
   void activate(std::span<const Vector3> position, std::span<const Vector3> velocity, double lookahead,
                 Stencil stencil);
   void shift(const Vector3& cells);
-  /// Tells the faces at which some field may be in contact with its image.
+  /// Sets whether any field may be in contact with its image at a face.
   void set_apart_at(std::size_t face, bool apart) { apart_at_[face] = apart; }
 
   [[nodiscard]] Lanes in_cells(const Vector3& position) const { return geometry_.in_cells(position); }
-  /// Corner of the block of a slot, in cells.
+  /// Returns the lower corner of the block of a slot, in cells.
   [[nodiscard]] Lanes corner(std::size_t slot) const { return corner_[slot]; }
-  /// Edges of a block, in cells.
+  /// Returns the edges of a block, in cells.
   [[nodiscard]] Lanes edges() const { return edges_; }
-  /// Bit per neighbour that is active.
+  /// Returns one bit per active neighbour.
   [[nodiscard]] std::uint32_t existing(std::size_t slot) const { return existing_[slot]; }
   [[nodiscard]] const std::vector<BlockSet::Peer>& peers() const { return blocks_.peers; }
   [[nodiscard]] std::span<const BlockCoordinate> coordinates() const { return blocks_.coordinate; }
@@ -106,11 +106,11 @@ class Topology {
   void for_each_mirror_block(const BlockCoordinate& block, Function&& f) const;
 
   MPI_Comm communicator_;
-  Geometry geometry_;  // with the shift
-  Vector3 origin_;     // its lower corner without
+  Geometry geometry_;  // including the shift
+  Vector3 origin_;     // its lower corner without the shift
   BlockShape block_;
-  Lanes edges_;             // of it
-  double foresight_ = 0.0;  // cells that shifts may move a stencil by
+  Lanes edges_;             // of the block, in cells
+  double foresight_ = 0.0;  // maximum motion of a stencil by shifts, cells
   std::array<bool, 6> apart_at_{};
   Forest forest_;
   BlockTable table_;

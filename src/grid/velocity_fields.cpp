@@ -10,7 +10,7 @@
 namespace whipple::grid {
 namespace {
 
-/// Position of the n-th bit that is set.
+/// Returns the position of the n-th set bit.
 int nth_bit(std::uint64_t bits, std::size_t n) {
   for (; n > 0; --n) bits &= bits - 1;
   return std::countr_zero(bits);
@@ -25,7 +25,7 @@ bool VelocityFields::find_fields(Stencil stencil, const FieldPoints& particles, 
   const std::uint64_t all = fields >= maximum_fields ? ~std::uint64_t{0} : (std::uint64_t{1} << fields) - 1;
   std::vector<std::uint64_t> present(slots(), everywhere ? all : 0);
   if (!everywhere) {
-    // Most blocks have points of one field in and around them.
+    // In and around most blocks there are points of one field only.
     std::vector<std::uint64_t> inside(slots(), 0), around(slots(), 0);
     parallel::for_each(slots(), [&](std::size_t s) {
       for (const std::uint32_t p : particles_in(s)) inside[s] |= std::uint64_t{1} << particles.field[p];
@@ -37,7 +37,7 @@ bool VelocityFields::find_fields(Stencil stencil, const FieldPoints& particles, 
       }
     });
     const auto may_meet = [&](std::size_t s) { return is_shared() || std::popcount(around[s]) > 1; };
-    // Of each slot: the fields of its points that reach each of the blocks around.
+    // For each slot: fields of its points that reach each of the 27 blocks.
     std::vector<std::array<std::uint64_t, 27>> reached(slots());
     parallel::for_each_uneven(slots(), [&](std::size_t s) {
       reached[s].fill(0);

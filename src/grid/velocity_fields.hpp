@@ -12,34 +12,35 @@
 
 namespace whipple::grid {
 
-/// Velocity fields that particles and off-grid points belong to. A slot that points of more than one field reach is a contact
-/// slot and has nodes for each of them; elsewhere all fields share the one set (local multi-mesh: docs/theory/contact.md,
-/// 2). Blocks of nodes are numbered by slot, then come the further ones of the contact slots. The field of a body may be
-/// divided at cracks (docs/theory/cracks.md): then it is the whole of the fields that it is divided into.
+/// Assigns particles and off-grid points to velocity fields. A slot that points of more than one field reach is a
+/// contact slot and has separate nodes for each of them; elsewhere all fields share one set (local multi-mesh:
+/// docs/theory/contact.md, section 2). Blocks of nodes are numbered by slot, followed by the additional blocks of the
+/// contact slots. The field of a body may be divided at cracks (docs/theory/cracks.md); it is then the whole of its
+/// parts.
 class VelocityFields : public PointBins {
  public:
-  /// Points of the grid with the velocity field (below `maximum_fields`) of each.
+  /// Holds points of the grid with the velocity field (below `maximum_fields`) of each.
   struct FieldPoints {
     std::span<const Vector3> position;
     std::span<const std::uint8_t> field;
   };
-  /// Makes fields the parts of others.
-  /// @param of_field  the whole of each field: itself, unless it is a part of one
+  /// Declares fields as parts of others.
+  /// @param of_field  whole of each field: the field itself unless it is a part of another
   void set_wholes(const std::array<std::uint8_t, maximum_fields>& of_field) {
     is_divided_ = of_field != whole_;
     whole_ = of_field;
   }
-  /// Returns the field that a field is a part of; itself if of none.
+  /// Returns the whole of a field; the field itself if it is not a part of another.
   [[nodiscard]] unsigned whole(unsigned field) const { return whole_[field]; }
-  /// Bit per whole field that reaches a slot, by any of its parts.
+  /// Returns one bit per whole field that reaches a slot with any of its parts.
   [[nodiscard]] std::uint64_t wholes(std::size_t slot) const {
     std::uint64_t all = 0;
     for_each_bit(fields_[slot], [&](unsigned field) { all |= std::uint64_t{1} << whole_[field]; });
     return all;
   }
 
-  /// Calls f(points of one field, field) for the points of a slot, in the order of their list; once for
-  /// all of them where they reach no contact slot, and not at all where there are none.
+  /// Calls f(points of one field, field) for the points of a slot, in the order of their list: once for all points if
+  /// they reach no contact slot, and never if there are none.
   template <class Function>
   void for_each_field(Points points, std::size_t slot, Function&& f) const {
     const std::span<const std::uint32_t> all = members(points, slot);
@@ -55,12 +56,12 @@ class VelocityFields : public PointBins {
       f(all.subspan(i, end - i), static_cast<unsigned>(field));
     }
   }
-  /// Returns whether particles of a slot reach contact slots.
+  /// Returns whether the points of a slot may reach contact slots.
   [[nodiscard]] bool meets_contact(std::size_t slot) const {
     return !contact_slots_.empty() && meets_contact_[slot] != 0;
   }
 
-  /// Blocks of nodes of the slots that this rank owns, and the number of each.
+  /// Return the number of node blocks of this rank's own slots, and the index of each.
   [[nodiscard]] std::size_t owned_blocks() const { return owned_slots() + owned_further_; }
   [[nodiscard]] std::size_t owned_block(std::size_t i) const {
     return i < owned_slots() ? i : slots() + (i - owned_slots());
@@ -69,21 +70,21 @@ class VelocityFields : public PointBins {
     return !contact_slots_.empty() && (block >= slots() || contact_number_[block] != no_slot);
   }
 
-  /// The contact slots, ascending: this rank's own first.
+  /// Returns the contact slots, ascending: this rank's own slots first.
   [[nodiscard]] std::span<const std::uint32_t> contact_slots() const { return contact_slots_; }
   [[nodiscard]] std::size_t owned_contact_slots() const { return owned_contact_slots_; }
-  /// Number of a slot in that list, or `no_slot`.
+  /// Returns the number of a slot in that list, or `no_slot`.
   [[nodiscard]] std::int32_t contact_number(std::size_t slot) const {
     return contact_slots_.empty() ? no_slot : contact_number_[slot];
   }
-  /// Blocks of nodes of a slot: its own, then the further ones.
+  /// Return the number of node blocks of a slot, and the index of each: that of the slot, then the additional ones.
   [[nodiscard]] std::size_t node_blocks(std::size_t slot) const {
     return contact_number(slot) == no_slot ? 1 : static_cast<std::size_t>(std::popcount(fields_[slot]));
   }
   [[nodiscard]] std::size_t node_block(std::size_t slot, std::size_t i) const {
     return i == 0 ? slot : further_begin_[static_cast<std::size_t>(contact_number_[slot])] + i - 1;
   }
-  /// Bit per field that reaches a slot, since `separate_fields`.
+  /// Returns one bit per field that reaches a slot, since `separate_fields`.
   [[nodiscard]] std::uint64_t fields(std::size_t slot) const { return fields_[slot]; }
 
  protected:
@@ -91,19 +92,19 @@ class VelocityFields : public PointBins {
   /// Finds which fields reach each slot (BlockGrid::separate_fields); returns whether anything changed. Collective.
   bool find_fields(Stencil stencil, const FieldPoints& particles, const FieldPoints& guests, unsigned fields,
                    bool everywhere);
-  /// From now on all points share one field.
+  /// Returns to one field shared by all points.
   void forget_fields() { fields_.clear(); }
-  /// Lists the particles of every slot field by field, if fields are divided, until the next `bin`.
+  /// Orders the particles of every slot by field, if fields are divided, until the next `bin`.
   void list_by_field();
-  /// Numbers the blocks of nodes.
+  /// Numbers the blocks of nodes, including the additional ones of contact slots.
   void number_blocks();
   [[nodiscard]] std::size_t block_count() const { return slots() + slot_of_further_.size(); }
   [[nodiscard]] std::size_t slot_of_block(std::size_t block) const {
     return block < slots() ? block : slot_of_further_[block - slots()];
   }
-  /// Field of the nodes of a block; -1: of no or any field.
+  /// Returns the field of the nodes of a block; -1: no or any field.
   [[nodiscard]] int field_of_block(std::size_t block) const;
-  /// Block of the nodes of a field in a slot; the slot itself where the field has none of its own.
+  /// Returns the block of nodes of a field in a slot; that of the slot itself where the field has no separate nodes.
   [[nodiscard]] std::size_t block_of_field(std::size_t slot, unsigned field) const {
     if (contact_slots_.empty() || contact_number_[slot] == no_slot || (fields_[slot] >> field & 1U) == 0) {
       return slot;
@@ -113,7 +114,7 @@ class VelocityFields : public PointBins {
                        : further_begin_[static_cast<std::size_t>(contact_number_[slot])] +
                              static_cast<std::size_t>(before) - 1;
   }
-  /// Returns whether a field reaches a slot, as far as fields are told apart.
+  /// Returns whether a field reaches a slot, as far as fields are distinguished.
   [[nodiscard]] bool reaches(std::size_t slot, unsigned field) const {
     return fields_.empty() || fields_[slot] == 0 || (fields_[slot] >> field & 1U) != 0;
   }
@@ -127,12 +128,12 @@ class VelocityFields : public PointBins {
   bool is_divided_ = false;
   std::vector<std::uint8_t> field_;  // of each particle
   std::vector<std::uint8_t> field_of_guest_;
-  std::vector<std::uint64_t> fields_;        // of each slot: bit per field that reaches it
-  std::vector<std::uint8_t> meets_contact_;  // of each slot: is one of its neighbours a contact slot?
+  std::vector<std::uint64_t> fields_;        // of each slot: one bit per field that reaches it
+  std::vector<std::uint8_t> meets_contact_;  // of each slot: 1 if one of its neighbours is a contact slot
   std::vector<std::uint32_t> contact_slots_;
   std::vector<std::int32_t> contact_number_;    // of each slot
-  std::vector<std::uint32_t> further_begin_;    // of each contact slot: its first further block
-  std::vector<std::uint32_t> slot_of_further_;  // of each further block
+  std::vector<std::uint32_t> further_begin_;    // of each contact slot: its first additional block
+  std::vector<std::uint32_t> slot_of_further_;  // of each additional block
   std::size_t owned_contact_slots_ = 0, owned_further_ = 0;
 };
 

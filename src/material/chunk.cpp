@@ -8,7 +8,7 @@
 namespace whipple::material {
 
 void Chunk::find_runs() {
-  // Without branches, whose outcome nothing foretells: a run ends where the next point is not the next index.
+  // Without branches, whose outcome is not predictable: a run ends where the next point is not the next index.
   run_count = 0;
   std::size_t begin = 0;
   for (std::size_t k = 1; k < size; ++k) {

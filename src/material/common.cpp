@@ -9,18 +9,19 @@
 namespace whipple::material {
 namespace {
 
-constexpr double least_volume_ratio = 0.5;  ///< limits of J in one step; named in the report
+constexpr double least_volume_ratio = 0.5;  ///< limits of J in one step; stated in the report
 constexpr double greatest_volume_ratio = 2.0;
-/// Least density as a fraction of the reference density. Thinner material does not expand further: long
-/// before, it fills more than the nodes on which its pressure acts, and without a bound isolated vapour would
-/// grow by the same factor in every step.
+/// Minimum density as a fraction of the reference density. Thinner material does not expand further: it then fills far
+/// more than the nodes on which its pressure acts, and without a bound isolated vapour would grow by the same factor in
+/// every step.
 constexpr double least_density_ratio = 1e-9;
 
-/// Density that material may reach, as a part of that at which its equation of state ends.
+/// Maximum density as a fraction of the density at which the equation of state ends.
 constexpr double greatest_density_ratio = 0.999;
 
-/// Returns the density at which the equation of state of a point ends: of an explosive, that of what there is of
-/// it. Products that a wall or another detonation stops are denser than the unreacted explosive ever is.
+/// Returns the density at which the equation of state of a point ends; for an explosive that of its reactant, its
+/// products, or the smaller of the two while it burns. Products compressed by a wall or another detonation are denser
+/// than the unreacted explosive ever is.
 double greatest_density_of(const Step& step, std::size_t point) {
   const double of_reactant = step.material.eos->maximum_density();
   if (!step.material.burns()) return of_reactant;
@@ -29,7 +30,7 @@ double greatest_density_of(const Step& step, std::size_t point) {
   return burnt >= 1.0 ? of_products : burnt > 0.0 ? std::min(of_reactant, of_products) : of_reactant;
 }
 
-/// Holds points below the greatest density of their equation of state, and counts them.
+/// Limits points to the maximum density of their equation of state, and counts them.
 WHIPPLE_KERNEL void hold_below_greatest_density(const Step& step, Chunk& chunk) {
   double lowest = step.material.eos->maximum_density();
   if (step.material.burns())
@@ -81,7 +82,8 @@ WHIPPLE_KERNEL void advance_volume(const Step& step, Chunk& chunk) {
   }
   hold_below_greatest_density(step, chunk);
   if (chunk.any_failed) {
-    // Stress acts on the material and strains it as the whole; in failed material, on nothing but itself.
+    // The material of a point is strained like the total volume; in failed material the pressure does work on
+    // the change of the volume of the material only.
     for (std::size_t k = 0; k < chunk.size; ++k) {
       const double own = chunk.volume[k] - chunk.old_volume[k];
       chunk.volume_change[k] = chunk.intact[k] == 0.0 ? own : chunk.volume_change[k];
@@ -102,9 +104,9 @@ WHIPPLE_KERNEL void advance_volume(const Step& step, Chunk& chunk) {
 
 namespace {
 
-/// The part of the artificial viscosity whose work is heat (docs/theory/dissipation.md, eq. 6): all of it in
-/// a shock, whose rate the affine field of the particle follows; where material meets at first, what the
-/// affine field has of the jump. Fragmented material collides: all of it heats.
+/// Computes the part of the artificial viscosity whose work is heat (docs/theory/dissipation.md, eq. 5 and 6): all of
+/// it in a shock, whose rate the affine field of the particle follows; at first contact the part of the jump that the
+/// affine field represents; all of it in fragmented material, which collides.
 WHIPPLE_KERNEL void find_heating_viscosity(const Step& step, Chunk& chunk) {
   const UpdateSettings& settings = step.settings;
   const double per_initial = 1.0 / settings.initial_density;
@@ -207,7 +209,8 @@ void solve_energy(const Step& step, Chunk& chunk) {
 WHIPPLE_KERNEL void find_compression_rate(const Step&, Chunk& chunk) {
   const Lanes& divergence = chunk.motion.divergence;
   double rate = chunk.report.compression_rate;
-  if (chunk.burns) {  // a front compresses by what its step is as long as it is, however short that is
+  // Points at a detonation front do not count: the jump of the front compresses them however short the steps are.
+  if (chunk.burns) {
     for (std::size_t k = 0; k < chunk.size; ++k) {
       const bool bounds = chunk.acting_pressure[k] > 0.0 && chunk.burning[k] == 0.0;
       rate = std::max(rate, bounds ? -divergence[k] : 0.0);

@@ -3,7 +3,7 @@
 
 #include "src/material/chunk.hpp"
 
-/// What the constitutive update has in common for all models (docs/theory/material.md, sections 1 and 4).
+/// Parts of the constitutive update that are common to all models (docs/theory/material.md, sections 1 and 4).
 namespace whipple::material {
 
 /// Collects the points of a chunk: state, velocity gradient, history convected over the step.
@@ -11,18 +11,19 @@ void gather(const Step& step, Chunk& chunk);
 /// Writes the chunk back to its points.
 void scatter(const Step& step, Chunk& chunk, MaterialPoints& points);
 
-/// Advances the volumes of material and void (eq. 1, eq. 11): the total follows J; voids take their part of the change
-/// until they are closed.
+/// Advances the volumes of material and void (eq. 1, eq. 11): the total follows J; voids take part of the change until
+/// they are closed.
 void advance_volume(const Step& step, Chunk& chunk);
-/// Computes the density of the end of the step and the artificial viscosity (eq. 8).
+/// Computes the density at the end of the step and the artificial viscosity (eq. 8).
 void advance_viscosity(const Step& step, Chunk& chunk);
-/// Notes the greatest compression rate, which bounds the next time step, except where only a void closes.
+/// Updates the maximum compression rate, which bounds the next time step; points without pressure, where only a void
+/// closes, are excluded.
 void find_compression_rate(const Step& step, Chunk& chunk);
 
-/// Computes the energy (J/kg) that the equation of state of the symplectic scheme takes: half a step ahead of e^n+1
-/// (pressure and stresses then stand at the end of the step), less the elastic energy (eq. 9, 10).
-/// @param without_elastic  without_elastic(k, s, gained): `gained` (J/m^3) less the elastic energy of point k with the
-///                         deviator s
+/// Computes the energy (J/kg) that the equation of state receives in the symplectic scheme: half a step ahead of
+/// e^{n+1}, so that pressure and stresses are those at the end of the step, and without the elastic energy (eq. 9, 10).
+/// @param without_elastic  without_elastic(k, s, gained): `gained` (J/m^3) minus the elastic energy of point k with the
+/// deviator s
 template <class WithoutElastic>
 inline void energy_ahead(const Step& step, Chunk& chunk, WithoutElastic without_elastic) {
   const double half_step = 0.5 * step.settings.time_step;
@@ -40,14 +41,14 @@ inline void energy_ahead(const Step& step, Chunk& chunk, WithoutElastic without_
         chunk.specific_internal_energy[k] + without_elastic(k, s, half_step * power) * specific_volume;
   }
 }
-/// Prepares the energy step of the schemes without a work identity (eq. 14), e = e_0 - h p(e): e_0, which holds all
-/// work but that of the new pressure, and h = dV / 2m. Takes `old_deviator` and the strain increments of the step.
+/// Prepares the energy step of schemes without a work identity (eq. 14), e = e_0 - h p(e): e_0 contains all work except
+/// that of the new pressure, and h = dV / 2m. Uses `old_deviator` and the strain increments of the step.
 void work_without_new_pressure(const Step& step, Chunk& chunk);
 
-/// Evaluates the equation of state of the material for `energy`, or solves the step that was prepared for `energy`:
-/// new pressure, temperature and bulk sound speed; the acting pressure is the same.
-/// @tparam phases      it has phases: `melted` and `vaporised` become new
-/// @param distension   of porous material, else empty
+/// Evaluates the equation of state for `energy`, or solves the energy step that was prepared for it: sets new pressure,
+/// temperature and bulk sound speed; the acting pressure equals the pressure.
+/// @tparam phases      whether the equation of state has phases: sets new `melted` and `vaporised`
+/// @param distension   of porous material, otherwise empty
 template <bool phases>
 void evaluate_equation_of_state(const Step& step, Chunk& chunk, std::span<double> distension = {}) {
   eos::Batch batch{chunk.view(chunk.density),
@@ -69,8 +70,9 @@ void evaluate_equation_of_state(const Step& step, Chunk& chunk, std::span<double
   std::copy_n(chunk.pressure.data(), chunk.size, chunk.acting_pressure.data());
 }
 
-/// Closes the energy step of a model whose elastic energy is not part of the energy of the equation of state (without
-/// phases and pores): takes the new deviator and `elastic_energy`, evaluates the equation of state for the rest.
+/// Completes the energy step of a model whose elastic energy is not part of the energy of the equation of state
+/// (without phases and pores): evaluates the equation of state for the energy minus `elastic_energy`. Requires the new
+/// deviator.
 void solve_energy(const Step& step, Chunk& chunk);
 
 }  // namespace whipple::material

@@ -20,39 +20,40 @@ namespace material {
 struct Chunk;
 struct Step;
 
-/// The law of a material: how stress, temperature and history of a point follow its motion. One virtual call per chunk
-/// of points. Around it, update.cpp collects the points, changes their volume, convects their history fields, computes
-/// the artificial viscosity, and writes the new state back. A model has no state of its own besides its constants and
-/// may be shared by threads. Implementations: `EosStrength` (eos_strength/), and those of constitutive_catalogue.cpp.
+/// Interface of the constitutive models: computes stress, temperature and history of points from their motion, with one
+/// virtual call per chunk of points. update.cpp performs the common parts: it collects the points, changes their
+/// volume, convects their history fields, computes the artificial viscosity, and writes the new state back. A model has
+/// no state except its constants and may be shared by threads. Implementations: `EosStrength` (eos_strength/), and
+/// those of constitutive_catalogue.cpp.
 class Constitutive {
  public:
   virtual ~Constitutive() = default;
 
   [[nodiscard]] virtual std::string_view model() const = 0;
-  /// All constants with units as tables of a material file (provenance in output files).
+  /// Returns all constants with units as tables of a material file (provenance in output files).
   [[nodiscard]] virtual std::string constants(const Material& material) const = 0;
-  /// The same model for a material whose parts have changed.
-  /// @throws InputError if the parts of the material do not go together
+  /// Returns the same model for a material whose parts have changed.
+  /// @throws InputError if the parts of the material are incompatible
   [[nodiscard]] virtual std::shared_ptr<const Constitutive> adapted(const Material& material) const = 0;
 
-  /// Longitudinal sound speed (m/s) of an undisturbed point in a state.
+  /// Returns the longitudinal sound speed (m/s) of an undisturbed point in a state.
   [[nodiscard]] virtual double sound_speed(const Material& material, const eos::State& state) const = 0;
-  /// Sets the history of the points [begin, end) that start from a state; their other fields are set, their history is
-  /// neutral.
+  /// Sets the history of the points [begin, end) in an initial state; their other fields are set, their history has
+  /// neutral values.
   virtual void start(const eos::State& /*state*/, MaterialPoints& /*points*/, std::size_t /*begin*/,
                      std::size_t /*end*/) const {}
 
-  /// Fraction of a change of the whole volume that goes to the voids of each point with voids: all of it where the point
-  /// has failed, else its porosity.
+  /// Computes the fraction of a change of the total volume by which the voids of each point change: 1 if the point has
+  /// failed, otherwise its porosity.
   virtual void void_share(const Chunk& chunk, Lanes& share) const;
   /// Advances a chunk over the step.
-  /// @param in   state at the beginning of the step, motion and settings: read only
+  /// @param in   state at the beginning of the step, motion and settings; read only
   /// @param out  the points after `gather`, with the new volume, density and artificial viscosity, and convected
-  ///             history. The model sets deviator, `acting_pressure`, temperature, sound speed and history, and, where
-  ///             it has them, plastic strain, phases, failure and voids; reports events and dissipation.
+  /// history. The model sets deviator, `acting_pressure`, temperature, sound speed and history and, where it has them,
+  /// plastic strain, phases, failure and voids; reports events and dissipation.
   virtual void update(const Step& in, Chunk& out) const = 0;
 
-  /// A history field and the first of its lanes in `Chunk::history`.
+  /// Holds a history field and the index of its first lane in `Chunk::history`.
   struct Slot {
     HistoryField field;
     std::size_t lane;
@@ -61,7 +62,7 @@ class Constitutive {
 
  protected:
   /// Declares a history field.
-  /// @returns the first of its lanes
+  /// @returns index of its first lane
   /// @throws InternalError if the fields of the model have more components than a chunk has lanes
   std::size_t declare(const HistoryField& field);
 

@@ -10,7 +10,8 @@
 namespace whipple::material {
 namespace {
 
-/// `Model` has fields() and Constants, which have name, summary, theory and parameters(); it is made from them.
+/// Returns the entry of a model. `Model` has fields() and Constants, which have name, summary, theory and parameters();
+/// it is constructed from them.
 template <class Model>
 ConstitutiveEntry entry() {
   using Constants = typename Model::Constants;

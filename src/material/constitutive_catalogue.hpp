@@ -8,14 +8,14 @@
 
 namespace whipple::material {
 
-/// A constitutive model that takes the place of strength and failure.
+/// Describes a constitutive model that replaces strength and failure.
 struct ConstitutiveEntry : CatalogueEntry<const Constitutive> {
-  std::vector<HistoryField> fields;  ///< that it declares
+  std::vector<HistoryField> fields;  ///< fields that it declares
 };
-/// All of them, one line each.
+/// Returns all constitutive models of the catalogue.
 const Catalogue<ConstitutiveEntry>& catalogue();
 
-/// Every field that some constitutive model may declare: by name for checkpoints and output.
+/// Returns every field that any constitutive model may declare, for checkpoints and output by name.
 const std::vector<HistoryField>& history_fields();
 
 }  // namespace whipple::material

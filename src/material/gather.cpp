@@ -9,7 +9,7 @@
 namespace whipple::material {
 namespace {
 
-/// L to lanes: as it is, or its columns, one matrix after the other.
+/// Copies L to lanes, from components or from column-major matrices.
 void gather_gradient(const Step& step, Chunk& chunk) {
   MatrixLanes& gradient = chunk.motion.gradient;
   if (step.gradient.empty()) {
@@ -39,12 +39,12 @@ void gather_gradient(const Step& step, Chunk& chunk) {
   }
 }
 
-/// Numbers of the history lanes beyond the points of the chunk: kernels work on whole registers.
+/// Sets the history lanes beyond the points of the chunk: kernels process whole registers.
 void pad(std::span<Lanes> lanes, std::size_t size) {
   for (Lanes& lane : lanes) std::fill_n(lane.data() + size, padded(size) - size, 0.0);
 }
 
-/// History fields to their lanes, moved with the material.
+/// Copies history fields to their lanes, convected with the material.
 void gather_history(const Step& step, Chunk& chunk) {
   for (const auto& [field, lane] : step.material.constitutive->history()) {
     const History* const history = step.points.history.find(field.name);
@@ -85,7 +85,8 @@ void scatter_history(Chunk& chunk, const Constitutive& model, MaterialPoints& po
   }
 }
 
-/// maximum = max(maximum, value) of the first `size`. @returns whether any of them rose
+/// Sets maximum = max(maximum, value) for the first `size` values.
+/// @returns whether any maximum has changed
 bool raise(Lanes& maximum, const Lanes& value, std::size_t size) {
   std::uint64_t rose = 0;
   for (std::size_t k = 0; k < size; ++k) {

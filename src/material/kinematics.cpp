@@ -9,7 +9,7 @@
 namespace whipple::material {
 namespace {
 
-/// 3x3 matrix in registers; every function on it is inlined straight-line arithmetic.
+/// Holds a 3x3 matrix in registers; all functions on it are inlined straight-line arithmetic.
 struct Matrix {
   double xx, xy, xz, yx, yy, yz, zx, zy, zz;
 };
@@ -20,7 +20,7 @@ inline Matrix load_matrix(const NineLanes& lanes, std::size_t k) {
           lanes[5][k], lanes[6][k], lanes[7][k], lanes[8][k]};
 }
 
-/// I + a M
+/// Returns I + a M.
 inline Matrix identity_plus(double a, const Matrix& m) {
   return {1.0 + a * m.xx, a * m.xy, a * m.xz, a * m.yx,      1.0 + a * m.yy,
           a * m.yz,       a * m.zx, a * m.zy, 1.0 + a * m.zz};
@@ -31,7 +31,7 @@ inline double determinant(const Matrix& m) {
          m.xz * (m.yx * m.zy - m.yy * m.zx);
 }
 
-/// Adjugate: inverse times determinant.
+/// Returns the adjugate: inverse times determinant.
 inline Matrix adjugate(const Matrix& m) {
   return {m.yy * m.zz - m.yz * m.zy, m.xz * m.zy - m.xy * m.zz, m.xy * m.yz - m.xz * m.yy,
           m.yz * m.zx - m.yx * m.zz, m.xx * m.zz - m.xz * m.zx, m.xz * m.yx - m.xx * m.yz,
@@ -46,18 +46,17 @@ inline Matrix multiply(const Matrix& a, const Matrix& b) {
           a.zx * b.xz + a.zy * b.yz + a.zz * b.zz};
 }
 
-/// Strain and rotation of the step: sym m is the strain increment (eq. 2, 3).
+/// Returns the displacement gradient m of the step, relative to its middle: sym m is the strain increment (eq. 2, 3).
 inline Matrix midpoint_displacement_gradient(const Matrix& l, double dt) {
   const Matrix half = identity_plus(0.5 * dt, l);
-  // The bound acts only where the half step nearly inverts the point; its volume change is limited anyway.
+  // The bound acts only where the half step nearly inverts the point; its volume change is limited in any case.
   const double scale = dt / std::max(determinant(half), 0.1);
   const Matrix product = multiply(l, adjugate(half));
   return {scale * product.xx, scale * product.xy, scale * product.xz, scale * product.yx, scale * product.yy,
           scale * product.yz, scale * product.zx, scale * product.zy, scale * product.zz};
 }
 
-/// R = I + (W + W^2/2) / (1 + |w|^2/4), w the axial vector of W: closed form of (I - W/2)^-1 (I + W/2)
-/// (eq. 4).
+/// Returns R = I + (W + W^2/2) / (1 + |w|^2/4), w the axial vector of W: closed form of (I - W/2)^-1 (I + W/2) (eq. 4).
 inline Matrix rotation(const Matrix& m) {
   const double wx = 0.5 * (m.zy - m.yz), wy = 0.5 * (m.xz - m.zx), wz = 0.5 * (m.yx - m.xy);
   const double square = wx * wx + wy * wy + wz * wz;
@@ -67,7 +66,7 @@ inline Matrix rotation(const Matrix& m) {
           b * wx * wz - a * wy,         b * wy * wz + a * wx,         1.0 + b * (wz * wz - square)};
 }
 
-/// The six components of a symmetric tensor.
+/// Holds the six components of a symmetric tensor.
 struct Symmetric {
   double xx, yy, zz, xy, yz, zx;
 };
@@ -87,7 +86,7 @@ inline void store(const Symmetric& s, SixLanes&& lanes, std::size_t k) {
   lanes[5][k] = s.zx;
 }
 
-/// R s R^T
+/// Returns R s R^T.
 inline Symmetric turned(const Symmetric& s, const Matrix& r) {
   const Matrix t = multiply(r, {s.xx, s.xy, s.zx, s.xy, s.yy, s.yz, s.zx, s.yz, s.zz});
   return {t.xx * r.xx + t.xy * r.xy + t.xz * r.xz, t.yx * r.yx + t.yy * r.yy + t.yz * r.yz,
@@ -95,12 +94,12 @@ inline Symmetric turned(const Symmetric& s, const Matrix& r) {
           t.yx * r.zx + t.yy * r.zy + t.yz * r.zz, t.zx * r.xx + t.zy * r.xy + t.zz * r.xz};
 }
 
-/// sym m
+/// Returns sym m.
 inline Symmetric symmetric(const Matrix& m) {
   return {m.xx, m.yy, m.zz, 0.5 * (m.xy + m.yx), 0.5 * (m.yz + m.zy), 0.5 * (m.zx + m.xz)};
 }
 
-/// Strain increment and rotation of one step.
+/// Holds strain increment and rotation of one step.
 struct Motion {
   Symmetric strain;
   Matrix rotation;
@@ -112,7 +111,8 @@ inline Motion motion_of(const Matrix& l, double dt) {
   const Motion midpoint = {symmetric(m), rotation(m)};
   if constexpr (rule == StressRotation::hughes_winget) return midpoint;
   const Matrix f = identity_plus(dt, l);
-  if (determinant(f) < 0.1) return midpoint;  // no polar decomposition worth the name; J is limited anyway
+  // Too distorted for a polar decomposition; J is limited in any case
+  if (determinant(f) < 0.1) return midpoint;
   // Newton's iteration R <- (R + R^-T)/2 for the orthogonal factor (Higham, SIAM J. Sci. Stat. Comput. 7
   // (1986) 1160) converges quadratically from F = V R.
   Matrix r = f;

@@ -9,32 +9,32 @@
 #include "src/core/base/tensor.hpp"
 #include "src/core/base/words.hpp"
 
-/// Kinematics and elastic trial of one step (docs/theory/material.md, sections 1 and 2) for a chunk of
-/// points, one array per tensor component, so that the compiler works on several points at a time.
+/// Kinematics and elastic trial of one step (docs/theory/material.md, sections 1 and 2) for a chunk of points, with one
+/// array per tensor component, so that the compiler processes several points at a time.
 namespace whipple::material {
 
-constexpr std::size_t chunk_size = 64;  ///< the scratch of a chunk stays in the second-level cache
-constexpr std::size_t lane_count =
-    8;  ///< chunks are padded to a multiple: no remainder loop with other rounding
+constexpr std::size_t chunk_size = 64;  ///< the scratch of a chunk fits in the second-level cache
+/// Chunks are padded to a multiple, so that no remainder loop rounds differently.
+constexpr std::size_t lane_count = 8;
 
 using Lanes = std::array<double, chunk_size>;
-using MatrixLanes = std::array<Lanes, 9>;     ///< rows one after the other
+using MatrixLanes = std::array<Lanes, 9>;     ///< row by row
 using SymmetricLanes = std::array<Lanes, 6>;  ///< xx, yy, zz, xy, yz, zx
 
 constexpr std::size_t padded(std::size_t size) { return (size + lane_count - 1) / lane_count * lane_count; }
 
-/// Method to determine strain increment and rotation of a step from its gradient (docs/theory/material.md,
+/// Selects how strain increment and rotation of a step follow from its velocity gradient (docs/theory/material.md,
 /// section 2).
 enum class StressRotation : std::uint8_t {
-  hughes_winget,  ///< both of the configuration in the middle of the step
+  hughes_winget,  ///< both refer to the configuration in the middle of the step
   polar,          ///< of the polar decomposition I + dt L = V R
 };
 constexpr std::array<Word<StressRotation>, 2> words(StressRotation) {
   return {{{StressRotation::hughes_winget, "hughes_winget"}, {StressRotation::polar, "polar"}}};
 }
 
-/// Input and result of the two functions below. One object, so that the compiler knows its arrays to be
-/// disjoint.
+/// Holds input and results of `volume_change` and `elastic_trial`, in one object so that the compiler can assume its
+/// arrays to be disjoint.
 struct Kinematics {
   MatrixLanes gradient;  ///< L_ij = dv_i/dx_j, 1/s
   Lanes ratio;           ///< J
@@ -46,20 +46,25 @@ struct Kinematics {
   Lanes trial;            ///< equivalent stress of the trial deviator, sqrt(3/2 s:s), Pa
 };
 
-/// J = det(I + dt L) and tr L (eq. 1). @param size a multiple of `lane_count`
+/// Computes J = det(I + dt L) and tr L (eq. 1).
+/// @param size a multiple of `lane_count`
 void volume_change(std::size_t size, double dt, Kinematics& step);
 
-/// Strain increment, rotation and elastic trial (eq. 2 to 5). @param size a multiple of `lane_count`
+/// Computes strain increment, rotation and elastic trial (eq. 2 to 5).
+/// @param size a multiple of `lane_count`
 void elastic_trial(std::size_t size, double dt, StressRotation rule, Kinematics& step);
 
-/// Turns tensors with the material (eq. 4). @param size a multiple of `lane_count`
+/// Rotates tensors with the material (eq. 4).
+/// @param size a multiple of `lane_count`
 void turn(std::size_t size, double dt, StressRotation rule, const MatrixLanes& gradient,
           std::span<Lanes, 6> tensor);
 
-/// Advances deformation gradients, rows one after the other: F becomes (I + dt L) F. @param size as above
+/// Advances deformation gradients, row by row: F becomes (I + dt L) F.
+/// @param size a multiple of `lane_count`
 void deform(std::size_t size, double dt, const MatrixLanes& gradient, std::span<Lanes, 9> deformation);
 
-/// Strain increment alone (eq. 2, 3), for material without elastic deviator. @param size as above
+/// Computes the strain increment alone (eq. 2, 3), for material without elastic deviator.
+/// @param size a multiple of `lane_count`
 void strain_increment(std::size_t size, double dt, StressRotation rule, const MatrixLanes& gradient,
                       SymmetricLanes& strain);
 

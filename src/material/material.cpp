@@ -18,7 +18,7 @@
 namespace whipple {
 namespace {
 
-/// State of zero pressure at a temperature by Newton iteration in the density, rho <- rho (1 - p / K_T).
+/// Finds the state of zero pressure at a temperature by Newton iteration in the density, rho <- rho (1 - p / K_T).
 eos::State state_of_zero_pressure(const eos::EquationOfState& model, double temperature) {
   double density = model.reference_density();
   for (int iteration = 0; iteration < 100; ++iteration) {
@@ -34,6 +34,7 @@ eos::State state_of_zero_pressure(const eos::EquationOfState& model, double temp
       fmt::format("no condensed state of zero pressure at {} K: give a density as well", temperature));
 }
 
+/// Finds the state at a pressure and a density or temperature.
 /// @throws InputError, StateError if there is none
 eos::State state_at_pressure(const eos::EquationOfState& model, double pressure,
                              std::optional<double> density, std::optional<double> temperature) {
@@ -46,13 +47,14 @@ eos::State state_at_pressure(const eos::EquationOfState& model, double pressure,
   try {
     return eos::state_at_pressure_and_temperature(model, pressure, at);
   } catch (const StateError&) {
-    constexpr double thin = 1e-6;  // of the reference density: on the branch of the vapour
+    constexpr double thin = 1e-6;  // of the reference density: start on the vapour branch
     if (!(pressure > 0.0)) throw;
     return eos::state_at_pressure_and_temperature(model, pressure, at, thin * model.reference_density());
   }
 }
 
-/// @throws InputError if parts do not go together
+/// Requires that the parts of a material are compatible.
+/// @throws InputError if they are not
 void require_parts_agree(const Material& material) {
   std::string with_past, grows_voids;
   if (const strength::Brittle* brittle = material.strength->brittle()) {
@@ -106,7 +108,7 @@ double initial_porosity(const Material& material) {
 
 namespace {
 
-/// Computes what follows from the parts.
+/// Computes the quantities that follow from the parts.
 Material completed(Material material) {
   require_parts_agree(material);
   for (const auto& criterion : material.failure) {
@@ -204,7 +206,7 @@ eos::State initial_state(const Material& material, std::optional<double> density
   const eos::EquationOfState& model = *material.eos;
   try {
     if (pressure) return state_at_pressure(model, *pressure, density, temperature);
-    // A gas, which has no state of zero pressure, or a model without temperature.
+    // A gas, which has no state of zero pressure, or a model without temperature
     if (!temperature && (std::isnan(model.reference_temperature()) || (!model.condensed() && !density))) {
       return model.state(density.value_or(model.reference_density()), model.reference_energy());
     }

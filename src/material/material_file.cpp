@@ -33,8 +33,8 @@ namespace {
 namespace fs = std::filesystem;
 using namespace material_tables;
 
-/// Reads `model`, remarks and constants of one table; what builds the model, or nothing if `model` is at
-/// fault.
+/// Reads `model`, remarks and constants of one table.
+/// @returns a function that builds the model, or nothing if `model` is invalid
 template <class Entry>
 typename Entry::Declared declare(const Catalogue<Entry>& catalogue, input::Table table) {
   const std::string model = table.choice("model", catalogue.names());
@@ -60,7 +60,7 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, ignored);
 }
 
-/// The path itself, or with the ending .toml; empty if neither is a file.
+/// Returns the path, or the path with the extension .toml; empty if neither is a file.
 fs::path with_ending(const fs::path& path) {
   if (is_file(path)) return path;
   fs::path longer = path;
@@ -78,14 +78,14 @@ std::map<std::string, fs::path> library_files() {
   return files;
 }
 
-/// What a material does not take from its base: they are of that one.
+/// Keys that a material does not inherit, since they describe its base.
 constexpr std::array<std::string_view, 8> not_inherited = {
     "name", "source", "note", "provenance", "covariance", "defaults", "default_errors", "potential_spread"};
-/// What tells of the constants of a table.
+/// Keys that describe the constants of a table.
 constexpr std::array<std::string_view, 2> of_constants = {"source", "note"};
 constexpr int most_bases = 8;
 
-/// Takes over the tables of the material that a document is based on, and those of that one's base.
+/// Adds the tables of the material on which a document is based, and those of the base's base.
 void inherit_from_base(input::Document& document, int depth = 0) {
   input::Table root = document.root();
   Base of_file;
@@ -105,7 +105,7 @@ void inherit_from_base(input::Document& document, int depth = 0) {
   document.inherit(std::move(inherited), "base", not_inherited, of_constants);
 }
 
-/// A material file whose tables are read and checked, but whose parts are not built yet.
+/// Holds a material file whose tables are read and checked, but whose parts are not built yet.
 struct Declared {
   Head head;
   MeasuredTable measured;
@@ -116,7 +116,7 @@ struct Declared {
   reaction::ReactionEntry::Declared reaction;
   material::ConstitutiveEntry::Declared constitutive;
   std::string eos_line, unreacted_line, reaction_line, strength_line, constitutive_line;
-  /// Modifiers of the equation of state, each with its place in the file.
+  /// Modifiers of the equation of state, each with its location in the file.
   std::vector<std::pair<eos::ModifierEntry::Declared, std::string>> modifiers;
 };
 
@@ -170,8 +170,8 @@ Declared declare_file(const fs::path& file,
   return declared;
 }
 
-/// ", did you mean ...?" with the name that a person has misspelt, or those that share most of its words: "Al 6061-T6" is
-/// near aluminium_6061_t6.
+/// Returns ", did you mean ...?" with the name closest to a misspelt one, or with those that have most words in common:
+/// "Al 6061-T6" is near aluminium_6061_t6.
 std::string near_names(const std::string& wanted, const std::vector<std::string>& known) {
   const std::string misspelt = did_you_mean(wanted, known);
   if (!misspelt.empty()) return misspelt;
@@ -219,7 +219,7 @@ fs::path find_material(const fs::path& path, const fs::path& beside) {
   const fs::path local = with_ending(path.is_absolute() ? path : beside / path);
   if (!local.empty()) return local;
   if (path.has_parent_path()) {
-    const fs::path file = beside / path;  // an absolute path stays as it is
+    const fs::path file = beside / path;  // an absolute path is unchanged
     throw InputError(fmt::format("material file '{}' {}", file.string(),
                                  fs::is_directory(file) ? "is a folder" : "does not exist"));
   }
@@ -283,7 +283,7 @@ Material read_changed_material(const fs::path& file,
 }
 
 void require_usable(const Material& material) {
-  // An audit would simulate every state of its range: only those that a run reaches are wanted.
+  // An audit would simulate every state of its range; only the states that a run reaches should be simulated.
   if (material.eos->model() == eos::SimulatedCrystal::name) return;
   const eos::Audit audit = eos::audit(*material.eos, eos::AuditDepth::brief);
   switch (audit.verdict()) {

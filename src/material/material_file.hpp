@@ -15,30 +15,28 @@ inline constexpr std::array<const char*, 7> material_groups = {
     "metals",         "explosives",        "polymers",    "concretes and ceramics",
     "rocks and ices", "liquids and gases", "verification"};
 
-/// Reads a material file (TOML: name, source, note, group, [eos], [strength] and [[failure]] or [constitutive], [measured]; the
-/// tables [provenance], [covariance], [defaults], [default_errors] and [potential_spread] are kept free). `base` names a
-/// material whose tables hold where the file does not say otherwise.
-/// @param path    a path, or a bare file name ("copper.toml", "copper") that is looked up in `beside`, then
-/// in the
-///                library folders
+/// Reads a material file (TOML: name, source, note, group, [eos], [strength] and [[failure]] or [constitutive],
+/// [measured]; the tables [provenance], [covariance], [defaults], [default_errors] and [potential_spread] are ignored).
+/// `base` names a material whose tables apply where the file does not specify otherwise.
+/// @param path    a path, or a bare file name ("copper.toml", "copper") that is searched in `beside`, then in the
+/// library folders
 /// @param beside  folder of the case; empty: the current folder
-/// @throws InputError with all errors of the file at once, or the list of folders searched and the nearest
-/// name
+/// @throws InputError with all errors of the file at once, or the list of searched folders and the nearest name
 Material read_material(const std::filesystem::path& path, const std::filesystem::path& beside = {});
 
-/// The file that `read_material` would read.
+/// Returns the file that `read_material` would read.
 std::filesystem::path find_material(const std::filesystem::path& path,
                                     const std::filesystem::path& beside = {});
 
-/// Returns the text of a material file that needs no other: that of the file itself, or with the tables of its base.
+/// Returns the text of a self-contained material file: that of the file, or with the tables of its base included.
 std::string material_text(const std::filesystem::path& file);
 
-/// Folders of the library, in the order of search: $WHIPPLE_MATERIALS, share/whipple/materials beside the
-/// installed executable, eos/materials of the source tree. Only those that exist.
+/// Returns the existing folders of the library in the order of search: $WHIPPLE_MATERIALS, share/whipple/materials next
+/// to the installed executable, eos/materials of the source tree.
 std::vector<std::filesystem::path> library_folders();
 
-/// Asks the brief audit of the equation of state (eos/audit.hpp) before anything is computed with a material;
-/// reservations are messages to the user.
+/// Requires that the brief audit of the equation of state (eos/audit.hpp) succeeds before a material is used;
+/// reservations are reported to the user.
 /// @throws InputError with the numbers and their limits if the equation of state is not usable
 void require_usable(const Material& material);
 
@@ -48,9 +46,8 @@ struct LibraryMaterial {
   std::string note;   ///< one line
   std::string group;  ///< one of `material_groups`, or empty
 };
-/// All materials of the library, by file name; a file in an earlier folder hides one of the same name. Their
-/// tables are checked, their models not built; a file that cannot be read is listed with the reason as its
-/// note.
+/// Lists all materials of the library by file name; a file in an earlier folder hides one of the same name. Their
+/// tables are checked, their models not built; a file that cannot be read is listed with the reason as its note.
 std::vector<LibraryMaterial> library_materials();
 
 }  // namespace whipple

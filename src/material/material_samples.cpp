@@ -33,7 +33,7 @@ BoundParameter key(const std::string& name, const std::string& unit, const std::
   return {info, target};
 }
 
-/// Values of the constants in SI, as the model itself lists them.
+/// Returns the values of the constants in SI units, as listed by the model.
 Eigen::VectorXd values_of(const Material& material, const Covariance& covariance) {
   input::Document document = input::Document::from_text(material.eos->constants(), material.name);
   input::Table constants = document.root();
@@ -77,7 +77,7 @@ void read_matrix(input::Table& table, const char* title, const char* matrix, Cov
   }
 }
 
-/// The joint covariance of independent tables; constants of both add up.
+/// Returns the joint covariance of independent tables; variances of constants in both are added.
 Covariance joined(Covariance all, const Covariance& other) {
   std::vector<Eigen::Index> places;
   for (std::size_t i = 0; i < other.names.size(); ++i) {
@@ -101,12 +101,12 @@ Covariance joined(Covariance all, const Covariance& other) {
   return all;
 }
 
-/// What a material file says of the errors of its constants.
+/// Holds the errors of the constants as stated in a material file.
 struct Errors {
   Covariance fit;
   std::optional<Covariance> spread;
   Covariance defaults;               ///< with known errors
-  std::vector<std::string> unknown;  ///< defaults without
+  std::vector<std::string> unknown;  ///< defaults without known errors
 };
 
 Errors read_errors(const std::filesystem::path& file, ErrorTier tier) {
@@ -145,7 +145,7 @@ Errors read_errors(const std::filesystem::path& file, ErrorTier tier) {
       errors.defaults.matrix = sigma.cwiseAbs2().asDiagonal();
     }
   }
-  // All else is for the reader of the material, or for people.
+  // All other keys belong to the material reader or are for information only.
   for (const std::string& other : material_keys()) root.accept(other);
   for (const char* other :
        {"matrix", "statistical", "correlation", "statistical_error", "bootstrap_replicates",
@@ -156,7 +156,7 @@ Errors read_errors(const std::filesystem::path& file, ErrorTier tier) {
   return errors;
 }
 
-/// Warns once of each kind of warning of the draws; those of a kind differ in numbers only.
+/// Issues one warning for each kind of warning of the draws; warnings of a kind differ in numbers only.
 void warn_of_draws(const std::filesystem::path& file, const std::vector<std::string>& warnings, int draws) {
   static const std::regex number("[0-9]+([.][0-9]+)?([eE][-+]?[0-9]+)?");
   std::map<std::string, std::vector<std::string>> kinds;
@@ -196,7 +196,7 @@ MaterialSamples sample_material(const std::filesystem::path& path, int count, st
   samples.names = covariance.names;
   std::vector<std::string> warnings;
   const auto central = [&] {
-    const log::WarningsAside aside;  // those of the material itself are of whoever read it first
+    const log::WarningsAside aside;  // warnings of the material itself were issued when it was first read
     return values_of(read_material(file), covariance);
   };
   NormalSamples distribution(central(), covariance.matrix, seed);
@@ -224,7 +224,7 @@ MaterialSamples sample_material(const std::filesystem::path& path, int count, st
       warnings.insert(warnings.end(), aside.messages().begin(), aside.messages().end());
     } catch (const InputError& error) {
       refuse(error.what());
-    } catch (const StateError& error) {  // constants without the states that the model is built from
+    } catch (const StateError& error) {  // the constants lack a state from which the model is built
       refuse(error.what());
     }
   }

@@ -13,31 +13,32 @@
 
 namespace whipple {
 
-/// Materials whose constants are drawn from the covariance of a fitted one.
+/// Holds materials with constants drawn from the covariance of a fitted material.
 struct MaterialSamples {
   std::vector<Material> materials;
-  std::vector<std::vector<std::pair<std::string, std::string>>>
-      changes;                        ///< keys and values of each, "eos.gruneisen"
+  /// Keys and values of each, "eos.gruneisen".
+  std::vector<std::vector<std::pair<std::string, std::string>>> changes;
   std::vector<std::string> names;     ///< of the drawn constants
-  std::vector<std::string> defaults;  ///< of them, defaults with the errors of their sources
-  std::vector<std::string> unknown;   ///< defaults without a known error: the same in all samples
-  int refused = 0;  ///< draws of which the model makes no material; another one was drawn for each
+  std::vector<std::string> defaults;  ///< drawn constants that are defaults with the errors of their sources
+  std::vector<std::string> unknown;   ///< defaults without a known error, equal in all samples
+  int refused = 0;                    ///< draws for which the model gives no material; each was drawn again
 };
 
-/// Tells whether a material is a fitted one, whose file has a table [covariance].
+/// Returns whether a material is fitted: its file has a table [covariance].
 bool has_covariance(const Material& material);
 
 /// Reads the tables [covariance], [default_errors] and [potential_spread] of a material file (names, units, and a row
 /// of the matrix for each name; [default_errors] holds an error for each name) and draws its constants from the normal
-/// distribution about their values in [eos]. What several draws are warned of is one warning that counts them.
-/// @param tier          which errors: of the fit (with those of the defaults), over the potentials, or both
-/// @param path, beside  as of read_material
-/// @throws InputError if the file lacks a table that the tier needs, a table is at fault, or four of five draws are
+/// distribution about their values in [eos]. Equal warnings of several draws are combined in one warning with their
+/// number.
+/// @param tier          errors to include: of the fit (with those of the defaults), over the potentials, or both
+/// @param path, beside  as in read_material
+/// @throws InputError if the file lacks a table that the tier requires, a table is invalid, or four of five draws are
 /// refused
 MaterialSamples sample_material(const std::filesystem::path& path, int count, std::uint64_t seed,
                                 ErrorTier tier = ErrorTier::fit, const std::filesystem::path& beside = {});
 
-/// A material file with some keys changed before it is read: ("eos.gruneisen", "1.9").
+/// Reads a material file with some keys changed, such as ("eos.gruneisen", "1.9").
 /// @throws InputError as read_material
 Material read_changed_material(const std::filesystem::path& file,
                                std::span<const std::pair<std::string, std::string>> changes);

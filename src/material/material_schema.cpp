@@ -26,8 +26,8 @@ Schema list_of(Schema items) {
   return list;
 }
 
-/// A table whose key `model` names an entry of a catalogue, with the constants of that entry.
-/// @param more  keys beside those of the model
+/// Returns the schema of a table whose key `model` selects an entry of a catalogue, with the constants of that entry.
+/// @param more  keys in addition to those of the model
 template <class Entry>
 Schema one_of(const Catalogue<Entry>& catalogue, const Schema& more = {}) {
   Schema holder;
@@ -39,7 +39,7 @@ Schema one_of(const Catalogue<Entry>& catalogue, const Schema& more = {}) {
     model["const"] = entry.name;
     input::add_key(table, "model", model, true);
     input::add_keys(table, material_tables::Remarks::parameters());
-    // The entry shows its constants to whoever reads them; nothing is built.
+    // The entry only lists its constants; nothing is built.
     static_cast<void>(entry.declare(
         [&](std::span<const BoundParameter> parameters) { input::add_keys(table, parameters); }));
     for (const auto& [key, value] : more.items()) input::add_key(table, key, value);
@@ -55,7 +55,7 @@ Schema keys_of() {
   return table;
 }
 
-/// Returns a schema without the keys that must be there: what a base does not leave to say. Entries of lists are whole.
+/// Returns a schema without required keys, which a base may provide. Entries of lists are complete.
 Schema partial(Schema schema) {
   if (schema.is_object()) {
     if (schema.contains("items")) return schema;
@@ -71,8 +71,9 @@ Schema partial(Schema schema) {
   return schema;
 }
 
-/// The root of a material file.
-/// @param unreacted  of [eos.unreacted], @param modifiers  of [[eos.modifier]]
+/// Returns the schema of the root of a material file.
+/// @param unreacted  schema of [eos.unreacted]
+/// @param modifiers  schema of [[eos.modifier]]
 Schema root_of(const Schema& unreacted, const Schema& modifiers) {
   using namespace material_tables;
   Schema more, table, free;
@@ -120,7 +121,7 @@ std::string material_schema() {
   all["if"]["required"] = {"base"};
   all["then"] = partial(root_of(input::reference_to("part_of_unreacted"), modifiers));
   all["then"]["required"] = {"name", "source", "base"};
-  for (const char* table : {"thermal", "measured"})  // the source is not that of the base
+  for (const char* table : {"thermal", "measured"})  // the source of the base does not apply
     all["then"]["properties"][table]["required"] = {"source"};
   all["else"] = root_of(input::reference_to("unreacted"), modifiers);
   return input::schema_text(all, "Material of whipple",

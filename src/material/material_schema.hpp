@@ -6,8 +6,8 @@
 
 namespace whipple {
 
-/// Returns the tables of a material file with their keys, for `whipple describe material`; constants of
-/// models are described with their models.
+/// Returns the tables of a material file with their keys, for `whipple describe material`; the constants of models are
+/// described with their models.
 std::string describe_material();
 
 /// Returns the JSON schema of material files, for editors (src/core/input/schema.hpp): the constants of every

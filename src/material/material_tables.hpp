@@ -8,14 +8,14 @@
 #include "src/material/material.hpp"
 #include "src/material/material_file.hpp"
 
-/// Keys of a material file that are no constants of a model: for its reader and for its schema.
+/// Keys of a material file that are not constants of a model, for its reader and its schema.
 namespace whipple::material_tables {
 
-/// Tables and keys of a file that programs write and no reader of materials looks into.
+/// Tables and keys of a file that programs write and the material reader ignores.
 inline constexpr std::array<const char*, 5> free_keys = {"provenance", "covariance", "defaults",
                                                          "default_errors", "potential_spread"};
 
-/// The free texts that every table with a model may carry.
+/// Holds the free texts that every table with a model may contain.
 struct Remarks {
   std::string source;
   std::string note;
@@ -25,7 +25,7 @@ struct Remarks {
   }
 };
 
-/// The material that a file is based on.
+/// Holds the name of the material on which a file is based.
 struct Base {
   std::string base;
   static ParameterTable<Base> parameters() {

@@ -17,10 +17,9 @@
 
 namespace whipple::material {
 
-/// Compressible neo-Hookean solid (rubber): the free energy of the equation of state and that of an isochoric
-/// deformation, psi = psi_eos(rho, T) + G / (2 rho0) (tr b' - 3), b' = J^(-2/3) F F^T (docs/theory/material.md,
-/// section 12). Source: J. Bonet, R. D. Wood, Nonlinear Continuum Mechanics for Finite Element Analysis (Cambridge
-/// 2008), sec. 6.5.2.
+/// Compressible neo-Hookean solid (rubber): free energy of the equation of state plus that of an isochoric deformation,
+/// psi = psi_eos(rho, T) + G / (2 rho0) (tr b' - 3), b' = J^(-2/3) F F^T (docs/theory/material.md, section 12). Source:
+/// J. Bonet, R. D. Wood, Nonlinear Continuum Mechanics for Finite Element Analysis (Cambridge 2008), sec. 6.5.2.
 struct NeoHookean {
   double shear_modulus = 0.0;  ///< G, Pa
 
@@ -77,7 +76,7 @@ class NeoHookeanModel final : public Constitutive {
   }
 
  private:
-  /// Deviator, elastic energy, and G rho/rho0 tr b' (Pa).
+  /// Computes the deviator, the elastic energy, and G rho/rho0 tr b' (Pa).
   void stress(const Step& in, Chunk& out, Lanes& stiffness) const {
     const std::span<const Lanes, 9> f = out.field<9>(deformation_);
     SymmetricLanes& s = out.motion.deviator;
@@ -102,7 +101,7 @@ class NeoHookeanModel final : public Constitutive {
   }
 
   NeoHookean constants_;
-  std::size_t deformation_;  ///< lane
+  std::size_t deformation_;  ///< first lane of the field
 };
 
 }  // namespace whipple::material

@@ -14,7 +14,8 @@ using material::Chunk;
 using material::chunk_size;
 using material::Step;
 
-/// @param gradient_of  gradient_of(first, count): matrices or components of points from there on
+/// Updates `count` points in chunks.
+/// @param gradient_of  gradient_of(first, count): matrices or components of `count` points from `first`
 template <class IndexOf, class GradientOf>
 MaterialReport update_all(const Material& material, MaterialPoints& points, std::size_t count,
                           IndexOf index_of, GradientOf gradient_of, const UpdateSettings& settings,

@@ -11,25 +11,25 @@
 
 namespace whipple::solver {
 
-/// Where a sum of the ledger is shown besides checkpoints, which hold all of them.
+/// Selects where a sum of the ledger is shown in addition to checkpoints, which hold all sums.
 enum class Shown {
   nowhere,
   always,       ///< a column of history.csv
-  of_elements,  ///< the same, of cases with elements
-  limiter       ///< the same: how often a bound of the material or the time step took effect
+  of_elements,  ///< a column of history.csv in cases with elements
+  limiter       ///< a column of history.csv: how often a bound of the material or the time step took effect
 };
 
-/// A sum that a run accumulates: one entry for the ledger, checkpoints, history.csv, the end of the log, the report and the
-/// manual (docs/manual/output.md).
+/// Describes a sum that a run accumulates: one entry for the ledger, checkpoints, history.csv, the end of the log, the
+/// report and the manual (docs/manual/output.md).
 struct Account {
-  const char* name;  ///< in checkpoints and the column of history.csv
+  const char* name;  ///< in checkpoints, and of the column of history.csv
   const char* unit;
   double Ledger::* sum;
   Shown shown;
   const char* meaning;
-  /// Of energy that leaves the motion: by what, and where it goes. Empty: of none.
+  /// Mechanism that removes energy from the motion, and its destination; empty for all other sums.
   std::string_view taken_by, taken_to;
-  std::string_view reason;  ///< of a limiter: why there is that bound
+  std::string_view reason;  ///< of a limiter: why the bound exists
 };
 
 // clang-format off
@@ -103,7 +103,7 @@ inline constexpr auto accounts = [] {
 }();
 // clang-format on
 
-/// Every sum of the ledger is an account; a new one that is not would be neither added up, saved nor shown.
+/// Ensures that every sum of the ledger is an account; a sum without one would be neither added up, saved nor shown.
 static_assert(sizeof(Ledger) == 2 * sizeof(Totals) + sizeof(BodyOutflow) + 2 * sizeof(Vector3) +
                                     (accounts.size() + 3) * sizeof(double));
 

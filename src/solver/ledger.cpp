@@ -32,13 +32,13 @@ Totals totals_of(const Particles& particles, std::size_t p, double affine_inerti
 
 namespace {
 
-/// Sums over affine fields: of m |C|^2, and of the mass times twice the axial vector.
+/// Holds sums over affine fields: of m |C|^2, and of the mass times twice the axial vector.
 struct AffineSum {
   double square = 0.0;
   Vector3 rotation = Vector3::Zero();
 };
 
-/// Sums over particles one after the other, in a few registers.
+/// Sums the affine fields of a range of particles one after the other, in a few registers.
 AffineSum affine_sum(const Particles& particles, std::size_t begin, std::size_t end) {
   Lanes sum{};
   double rest = 0.0;
@@ -54,7 +54,7 @@ AffineSum affine_sum(const Particles& particles, std::size_t begin, std::size_t 
   return {sum4(sum) + rest, rotation};
 }
 
-/// Sums of particles, four at a time.
+/// Sums the totals of a range of particles, four at a time.
 Totals totals_of_range(const Particles& particles, std::size_t begin, std::size_t end,
                        double affine_inertia) {
   Lanes mass{}, x{}, y{}, z{}, scale{}, twice_kinetic{}, internal{};
@@ -84,7 +84,7 @@ Totals totals_of_range(const Particles& particles, std::size_t begin, std::size_
                 .internal_energy = sum4(internal)};
   for (; p < end; ++p) sum += totals_of(particles, p, 0.0);
   if (!particles.unresolved_energy.empty()) {
-    Lanes unresolved{};  // of those before `p` that were taken four at a time
+    Lanes unresolved{};  // of those before `p`, four at a time
     for (std::size_t i = begin; i + 4 <= end; i += 4) {
       unresolved += load(&particles.mass[i]) * load(&particles.unresolved_energy[i]);
     }
@@ -133,7 +133,7 @@ double moving_energy(const Totals& totals) {
          totals.hourglass_energy;
 }
 
-// The round-off of an internal energy at rest is no error of what little the run exchanges.
+// The round-off of an internal energy at rest is no error of the small energy that such a run exchanges.
 constexpr double round_off_of_internal_energy = 1e-10;
 
 }  // namespace

@@ -13,20 +13,20 @@
 #include "src/core/parallel/mpi.hpp"
 #include "src/particles/particles.hpp"
 
-/// Accounts for the conserved quantities: their sums, and where they went.
+/// Accounts of the conserved quantities: their sums and all contributions to their change.
 namespace whipple::solver {
 
-/// Sums over a set of particles and elements (SI).
+/// Holds sums over a set of particles and elements (SI units).
 struct Totals {
   double mass = 0.0;
   Vector3 momentum = Vector3::Zero();
-  double momentum_scale = 0.0;                 ///< sum m |v|, to judge momentum errors by
-  Vector3 angular_momentum = Vector3::Zero();  ///< about the origin, of positions and of affine fields
-  double kinetic_energy = 0.0;                 ///< of the particles' and nodes' own velocities
-  double affine_kinetic_energy = 0.0;          ///< of their affine fields: m inertia |C|^2 / 2
+  double momentum_scale = 0.0;                 ///< sum of m |v|, the scale of momentum errors
+  Vector3 angular_momentum = Vector3::Zero();  ///< about the origin, including affine fields
+  double kinetic_energy = 0.0;                 ///< of the velocities of particles and nodes
+  double affine_kinetic_energy = 0.0;          ///< of their affine fields: m I |C|^2 / 2
   double internal_energy = 0.0;
-  double unresolved_energy = 0.0;  ///< kinetic, of motion that the cells do not resolve
-  double hourglass_energy = 0.0;   ///< stored in the hourglass modes of elements, never negative
+  double unresolved_energy = 0.0;  ///< kinetic energy of motion that the cells do not resolve
+  double hourglass_energy = 0.0;   ///< stored in the hourglass modes of elements; not negative
 
   [[nodiscard]] double energy() const {
     return kinetic_energy + affine_kinetic_energy + unresolved_energy + internal_energy + hourglass_energy;
@@ -51,7 +51,7 @@ struct Totals {
   }
 };
 
-/// Holds the mass, momentum and energy of a part of the material, such as of one body, that have left (SI).
+/// Holds the mass, momentum and energy of a part of the material, such as a body, that has left the domain (SI units).
 struct BodyOutflow {
   double mass = 0.0;
   Vector3 momentum = Vector3::Zero();
@@ -64,7 +64,7 @@ struct BodyOutflow {
   }
 };
 
-/// Calls f(name, number) for every number of the sums: one list for checkpoints and sums over ranks.
+/// Calls f(name, number) for every number of the sums; used by checkpoints and sums over ranks.
 template <class T, class Function>
   requires std::same_as<std::remove_const_t<T>, Totals>
 void for_each_number(T& totals, Function&& f) {
@@ -83,33 +83,32 @@ void for_each_number(T& totals, Function&& f) {
   f("hourglass_energy", totals.hourglass_energy);
 }
 
-/// Returns twice the axial vector of a velocity gradient (1/s): times mass and affine inertia the angular
+/// Returns twice the axial vector of a velocity gradient (1/s): multiplied by mass and affine inertia it is the angular
 /// momentum of an affine field.
 inline Vector3 rotation_of(const Matrix3& gradient) {
   return {gradient(2, 1) - gradient(1, 2), gradient(0, 2) - gradient(2, 0), gradient(1, 0) - gradient(0, 1)};
 }
 
 /// Returns the totals of one particle.
-/// @param affine_inertia  of the affine field per mass, m^2 (`transfer::affine_inertia`)
+/// @param affine_inertia  inertia per mass of the affine field, m^2 (`transfer::affine_inertia`)
 Totals totals_of(const Particles& particles, std::size_t p, double affine_inertia);
 /// Sums over all particles of this rank; bitwise independent of the number of threads.
 Totals totals_of(const Particles& particles, double affine_inertia);
-/// Sums over the particles, and takes the sums of unchanged chunks from the last call.
-/// @param of_chunk  sums of each chunk of particles, by the last call
-/// @param stays     of each chunk: 1 if its particles are as they were then
+/// Sums over the particles, with the former sums for unchanged chunks.
+/// @param of_chunk  sums of each chunk of particles, from the last call
+/// @param stays     of each chunk: 1 if its particles have not changed since
 Totals totals_of(const Particles& particles, double affine_inertia, std::vector<Totals>& of_chunk,
                  std::span<const std::uint8_t> stays);
 
-/// Accumulates everything that enters and leaves, so that at every time
-/// energy = initial - outflow + external work, momentum = initial - outflow + impulse of walls and external
-/// forces.
+/// Accumulates all contributions that enter and leave, so that at any time energy = initial - outflow + external work
+/// and momentum = initial - outflow + impulse of walls and external forces.
 struct Ledger {
   Totals initial;
   Totals outflow;
-  BodyOutflow retired;                     ///< part of it: products of explosives, removed below a pressure
-  Vector3 wall_impulse = Vector3::Zero();  ///< N s, by mirror planes and walls, along y by hoop stresses
-  Vector3 external_impulse = Vector3::Zero();  ///< N s, by an external acceleration
-  // Unit and meaning of the following: `accounts` (src/solver/accounts.hpp).
+  BodyOutflow retired;  ///< part of the outflow: products of explosives removed below a pressure
+  Vector3 wall_impulse = Vector3::Zero();  ///< by mirror planes and walls, and along y by hoop stresses, N s
+  Vector3 external_impulse = Vector3::Zero();  ///< by external accelerations, N s
+  // Units and meanings of the following sums: `accounts` (src/solver/accounts.hpp).
   double external_work = 0.0, work = 0.0, viscous_work = 0.0, plastic_work = 0.0, dissipation = 0.0;
   double transfer_heat = 0.0, unresolved_kept = 0.0, unresolved_returned = 0.0, conducted_heat = 0.0;
   double contact_heat = 0.0, friction_heat = 0.0, contact_impulse = 0.0, friction_impulse = 0.0;
@@ -120,19 +119,19 @@ struct Ledger {
   double limited_bulking = 0.0, limited_domains = 0.0, limited_hourglass = 0.0, elements_beyond_range = 0.0;
   double held_pressures = 0.0, refused_divisions = 0.0, held_time_steps = 0.0;
 
-  double largest_kinetic_energy =
-      0.0;                        ///< J, with affine and hourglass energies, at the ends of the steps so far
-  double largest_heating = 0.0;   ///< J, the same of the change of internal energy
-  double largest_momentum = 0.0;  ///< kg m/s, the same of the sum of m |v|
+  /// Of all step ends so far, with affine, unresolved and hourglass energies, J.
+  double largest_kinetic_energy = 0.0;
+  double largest_heating = 0.0;   ///< of the change of internal energy, J
+  double largest_momentum = 0.0;  ///< of the sum of m |v|, kg m/s
 
-  /// Adds what happened in a step (its `initial` and what was largest are not used).
+  /// Adds the contributions of a step (its `initial` and maxima are not used).
   void add(const Ledger& step);
-  /// Notes what is largest so far.
+  /// Updates the maxima.
   void observe(const Totals& now);
-  /// Error of the total energy relative to the energies that the run exchanges: largest kinetic energy and
-  /// change of internal energy so far, and external work (docs/theory/mpm.md, section 4).
+  /// Returns the error of the total energy relative to the energies exchanged in the run: maxima of kinetic energy and
+  /// of the change of internal energy, and external work (docs/theory/mpm.md, section 4).
   [[nodiscard]] double energy_error(const Totals& now) const;
-  /// Error of the momentum relative to the largest sum of m |v| so far and the external impulse.
+  /// Returns the error of the momentum relative to the maximum of the sum of m |v| and the external impulse.
   [[nodiscard]] double momentum_error(const Totals& now) const;
 };
 

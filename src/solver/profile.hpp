@@ -8,7 +8,7 @@
 
 namespace whipple::solver {
 
-/// Wall-clock time per stage of the step, in the words of the step function.
+/// Measures the wall-clock time of each stage of the step, named as in the step function.
 class Profile {
  public:
   struct Stage {
@@ -24,7 +24,7 @@ class Profile {
     return work();
   }
 
-  /// Moves a time (s) from the stage in which it passed to the one that it belongs to.
+  /// Moves a time (s) from the stage in which it was measured to the stage to which it belongs.
   void reassign(std::string_view from, std::string_view to, double seconds) {
     stage(from).seconds -= seconds;
     stage(to).seconds += seconds;
@@ -55,7 +55,7 @@ class Profile {
     for (Stage& known : stages_) {
       if (known.name == name) return known;
     }
-    stages_.reserve(32);  // stages do not nest deeper, references stay valid
+    stages_.reserve(32);  // for all stages, so that references remain valid
     return stages_.emplace_back(Stage{std::string(name)});
   }
 

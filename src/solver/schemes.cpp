@@ -5,10 +5,10 @@
 #include "src/solver/carriers/domains.hpp"
 #include "src/solver/stages.hpp"
 
-/// The time steps, one function per scheme. Numbers are equations of docs/theory/mpm.md; superscripts give
-/// the time level of a quantity after the call. Particles are visited region by region (grid::BlockGrid::Region): those
-/// of a rank's border first when they bring something to the nodes, whose sums are sent while the interior follows, and
-/// last when they take something, so that the nodes of other ranks may arrive in between.
+/// The time steps, one function per scheme. Numbers are equations of docs/theory/mpm.md; superscripts give the time
+/// level of a quantity after the call. Particles are processed by region (grid::BlockGrid::Region): those of a rank's
+/// border first when they contribute to nodes, whose sums are sent while the interior is processed, and last when they
+/// gather from nodes, so that nodes of other ranks can arrive in the meantime.
 namespace whipple::solver {
 namespace {
 
@@ -18,14 +18,16 @@ using transfer::Region;
 using transfer::Stretch;
 using transfer::Sweep;
 
-/// dt = the least of its bounds (6.1), then the domain of particles that are too long is divided if asked for (2.5).
+/// Sets dt to the minimum of its bounds (6.1), then splits particles with too long domains where the case requests it
+/// (2.5).
 void begin_step(Stages& s, double until) {
   s.time_step.begin(until);
   s.contact.watch_touches(s.time_step.accurate_step());
   domains::split(s.state, s.carriers, s.particles);
 }
 
-/// Heat that is conducted, if the case asks for it (docs/theory/conduction.md): in shocks, and between particles.
+/// Conducts heat where the case requests it: in shocks (docs/theory/dissipation.md), and between particles
+/// (docs/theory/conduction.md).
 void conduct_heat(Stages& s) {
   s.transfers.conduct_in_shocks();
   if (!s.state.setup.heat.conduction) return;
@@ -33,13 +35,13 @@ void conduct_heat(Stages& s) {
   s.transfers.conduct_heat(s.contact.touch_at_node());
 }
 
-/// Surfaces that contact needs, from masses on the nodes.
+/// Finds the surfaces for contact from the masses of the nodes.
 void find_surfaces(Stages& s) {
   s.contact.find_surfaces(true);
   s.contact.find_surfaces_at_walls();
 }
 
-/// (3.1)-(3.3): m, (mv) and f of particles and nodes of elements on the nodes.
+/// Computes m, (mv) and f of the nodes from particles and nodes of elements, (3.1) to (3.3).
 void particles_to_grid(Stages& s) {
   s.state.profile.time("particles to grid", [&] {
     s.transfers.clear_grid();
@@ -51,7 +53,7 @@ void particles_to_grid(Stages& s) {
   s.transfers.account_for_hoops();
 }
 
-/// (5.3), (5.5): v of the nodes from m and (mv) of particles.
+/// Computes v of the nodes from m and (mv) of particles, (5.3), (5.5).
 void velocity_to_grid(Stages& s) {
   s.state.profile.time("momentum to grid", [&] {
     s.transfers.clear_momentum();
@@ -63,7 +65,8 @@ void velocity_to_grid(Stages& s) {
   });
 }
 
-/// (3.4)-(3.12): v^{n+1} = v^n + dt f^n / m, contact of bodies, then with mirror planes and walls.
+/// Advances the nodes, v^{n+1} = v^n + dt f^n / m, with contact of bodies, then mirror planes and walls, (3.4) to
+/// (3.12).
 void advance_grid(Stages& s) {
   s.state.profile.time("grid", [&] {
     s.transfers.solve_momentum();
@@ -73,7 +76,7 @@ void advance_grid(Stages& s) {
   s.transfers.apply_full_mass_matrix();
 }
 
-/// (5.1)-(5.2): v, x of particles apart from their material, which is strained later.
+/// Updates v and x of particles, (5.1), (5.2); their material is strained later.
 void move_particles(Stages& s) {
   s.state.profile.time("grid to particles", [&] {
     Sweep sweep(s.state.grid);
@@ -88,7 +91,7 @@ void move_particles(Stages& s) {
   });
 }
 
-/// (5.4), (5.6): strains the material by the gradients of v on the nodes.
+/// Strains the material by the gradients of v on the nodes, (5.4), (5.6).
 void strain_particles(Stages& s) {
   constexpr std::string_view stage = "velocity gradient";
   s.state.profile.time(stage, [&] {
@@ -98,17 +101,17 @@ void strain_particles(Stages& s) {
       if (region == Region::border) s.transfers.receive();
       sweep.for_each_stretch(region, [&](const Stretch& stretch) {
         s.transfers.gradient_to_particles(stretch);  // grad v
-        s.material.update(stretch);                  // by it stress, p, T, phase, e
+        s.material.update(stretch);                  // stress, p, T, phase, e from grad v
       });
     }
     s.material.end(stage);
   });
 }
 
-/// Ledger of energy and momentum, and what the next step is bounded by.
+/// Updates the ledger of energy and momentum and the rates that bound the next step.
 void end_step(Stages& s) {
   s.state.profile.time("boundaries", [&] {
-    // Elements first: the outflow is summed in this order.
+    // Elements first: this fixes the order of the sum of the outflow.
     for (Carrier* carrier : s.carriers | std::views::drop(1)) carrier->remove_outside();
     s.particles.remove_outside();
     s.particles.retire_products();
@@ -126,13 +129,13 @@ void end_step(Stages& s) {
   });
 }
 
-/// Symplectic scheme with exact energy (docs/theory/mpm.md, section 4).
+/// Performs a step of the symplectic scheme with exact energy (docs/theory/mpm.md, section 4).
 void step_symplectic(Stages& s, double until) {
   s.elements.adapt(s.contact.has_fields());  // distorted elements become particles (docs/theory/afemp.md)
   begin_step(s, until);                      // (6.1) dt from c, |v|, |a|; (2.5)-(2.7)
   s.elements.compute_forces();               // f^n of elements on their nodes (docs/theory/fem.md)
-  bin_particles(s);                          // blocks follow the material
-  conduct_heat(s);                           // e
+  bin_particles(s);                          // blocks are adapted to the material
+  conduct_heat(s);                           // changes e
   particles_to_grid(s);                      // (3.1)-(3.3) m, (mv)^n, f^n on nodes
   find_surfaces(s);
   advance_grid(s);  // (3.4)-(3.12) v^{n+1}
@@ -144,26 +147,27 @@ void step_symplectic(Stages& s, double until) {
       if (region == Region::border) s.transfers.receive();
       sweep.for_each_stretch(region, [&](const Stretch& stretch) {
         s.transfers.to_particles(stretch);  // (4.2)-(4.8) v, C, x, e at n+1, grad v^{n+1}
-        s.material.update(stretch);         // by it stress, p, T, phase
+        s.material.update(stretch);         // stress, p, T, phase from it
       });
     }
     s.transfers.account_for(sweep.balance());
-    s.transfers.to_nodes();  // the same of nodes of elements
-    s.transfers.fly();       // x of particles without a grid
+    s.transfers.to_nodes();  // the same for nodes of elements
+    s.transfers.fly();       // x of particles in free flight
     s.material.end(stage);
   });
   s.elements.advance();
   end_step(s);  // walls and outflow; energy and momentum
 }
 
-/// Update stress first (Bardenhagen, J. Comput. Phys. 180 (2002) 383; docs/theory/mpm.md, 5).
+/// Performs a step of the scheme "update stress first" (Bardenhagen, J. Comput. Phys. 180 (2002) 383;
+/// docs/theory/mpm.md, section 5).
 void step_usf(Stages& s, double until) {
   begin_step(s, until);  // (6.1)
   bin_particles(s);
   conduct_heat(s);
-  s.contact.find_surfaces_at_walls();  // not from this step, in which the grid has not been advanced
+  s.contact.find_surfaces_at_walls();  // here: the grid has not been advanced in this step
   velocity_to_grid(s);                 // (5.5) v^n on nodes
-  strain_particles(s);                 // (5.6) grad v^n, by it stress and e
+  strain_particles(s);                 // (5.6) grad v^n, stress and e from it
   particles_to_grid(s);                // (3.1)-(3.3) with the new stress
   find_surfaces(s);
   advance_grid(s);    // (3.4), (5.9)
@@ -171,8 +175,8 @@ void step_usf(Stages& s, double until) {
   end_step(s);
 }
 
-/// Update stress last (Sulsky, Chen & Schreyer, Comput. Methods Appl. Mech. Eng. 118 (1994) 179;
-/// docs/theory/mpm.md, 5).
+/// Performs a step of the scheme "update stress last" (Sulsky, Chen & Schreyer, Comput. Methods Appl. Mech. Eng. 118
+/// (1994) 179; docs/theory/mpm.md, section 5).
 void step_usl(Stages& s, double until) {
   begin_step(s, until);  // (6.1)
   bin_particles(s);
@@ -188,7 +192,7 @@ void step_usl(Stages& s, double until) {
       if (region == Region::border) s.transfers.receive();
       sweep.for_each_stretch(region, [&](const Stretch& stretch) {
         s.transfers.velocity_to_particles(stretch, Gradients::of_grid_velocity);  // (5.1)-(5.2) v, x at n+1
-        s.material.update(stretch);  // (5.7) by grad v^{n+1} stress, e
+        s.material.update(stretch);  // (5.7) stress, e from grad v^{n+1}
       });
     }
     s.transfers.account_for(sweep.balance());
@@ -198,8 +202,8 @@ void step_usl(Stages& s, double until) {
   end_step(s);
 }
 
-/// Modified update stress last (Sulsky, Zhou & Schreyer, Comput. Phys. Commun. 87 (1995) 236;
-/// docs/theory/mpm.md, 5).
+/// Performs a step of the scheme "modified update stress last" (Sulsky, Zhou & Schreyer, Comput. Phys. Commun. 87
+/// (1995) 236; docs/theory/mpm.md, section 5).
 void step_musl(Stages& s, double until) {
   begin_step(s, until);  // (6.1)
   bin_particles(s);
@@ -207,9 +211,9 @@ void step_musl(Stages& s, double until) {
   particles_to_grid(s);  // (3.1)-(3.3)
   find_surfaces(s);
   advance_grid(s);      // (3.4), (5.9)
-  move_particles(s);    // (5.1)-(5.2) v, x at n+1; the grid still has the former positions
+  move_particles(s);    // (5.1)-(5.2) v, x at n+1; the grid keeps the former positions
   velocity_to_grid(s);  // (5.3) grid velocity from the new v
-  strain_particles(s);  // (5.4) grad v at the former positions, by it stress and e
+  strain_particles(s);  // (5.4) grad v at the former positions, stress and e from it
   end_step(s);
 }
 

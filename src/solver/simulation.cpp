@@ -33,10 +33,10 @@ Simulation::Simulation(const cases::Case& setup, MPI_Comm communicator) {
   stages_->balance.sum();
   Ledger& ledger = state_->run.ledger;
   ledger.initial = state_->totals;
-  // Planes have stopped the nodes on them: their momentum was there before.
+  // Planes have stopped the nodes on them: the initial momentum includes the momentum that these lost.
   ledger.initial.momentum -= seeding.wall_impulse;
   ledger.wall_impulse += seeding.wall_impulse;
-  // What explosives will set free is exchanged by the run from its first step on.
+  // The chemical energy of explosives counts as exchanged from the first step.
   std::array<double, 1> chemical_energy = {Explosives(*state_).chemical_energy()};
   parallel::sum(communicator, chemical_energy);
   ledger.largest_heating = chemical_energy[0];

@@ -27,7 +27,7 @@ Stages::Stages(const cases::Case& setup, MPI_Comm communicator, const RunState& 
     if (!carrier->empty()) carriers.push_back(carrier);
   }
   if (!setup.gravity.acceleration.isZero(0.0)) loads.add(gravity(setup.gravity));
-  // The force on driven bodies is found with all others (Drive): as a load it keeps material from being at rest.
+  // The force on driven bodies is computed from all others (Drive); registered as a load, it prevents inactive blocks.
   if (std::ranges::any_of(setup.bodies, &cases::Body::driven))
     loads.add(uniform_load("drive", [](double) { return Vector3(Vector3::Zero()); }));
 }

@@ -18,8 +18,8 @@
 
 namespace whipple::solver {
 
-/// The stages of a step, the carriers and the state that they share: what a scheme is a function of. Stages refer to
-/// one another, so that this stays where it is.
+/// Holds the stages of a step, the carriers and the state that they share: the argument of a scheme. Stages hold
+/// references to each other, so that this object cannot be moved.
 struct Stages {
   Stages(const cases::Case& setup, MPI_Comm communicator, const RunState& run, std::vector<fem::Mesh> meshes,
          std::vector<fem::Bars> bars);
@@ -31,7 +31,7 @@ struct Stages {
   ParticleCarrier particles;
   Hexahedra hexahedra;
   Trusses trusses;
-  Carriers carriers;  ///< those that the case has
+  Carriers carriers;  ///< the carriers that the case has
   Activity activity;
   MaterialStage material;
   Transfers transfers;
@@ -44,10 +44,10 @@ struct Stages {
   Plausibility plausibility;
 };
 
-/// Makes one step of the scheme of the case; not beyond `until` (s).
+/// Performs one step of the scheme of the case, at most to the time `until` (s).
 void advance(Stages& s, double until);
 
-/// Assigns particles and nodes of elements to the grid as they are now.
+/// Assigns particles and nodes of elements to the grid at their present positions.
 void bin_particles(Stages& s);
 
 }  // namespace whipple::solver

@@ -23,7 +23,7 @@
 
 namespace whipple::solver {
 
-/// Bound that determined a time step (docs/theory/mpm.md, section 6).
+/// Lists the bounds that may determine a time step (docs/theory/mpm.md, section 6).
 enum class TimeStepBound : std::uint8_t {
   none,
   sound_speed,
@@ -50,64 +50,67 @@ constexpr std::array<Word<TimeStepBound>, 10> words(TimeStepBound) {
            {output_time, "time of output or end"}}};
 }
 
-/// What the next step needs to know of the force that keeps the velocity of a driven body.
+/// Holds the data of the last step from which the force on a driven body is computed (equation 3.5a).
 struct DrivenBody {
-  Vector3 velocity = Vector3::Zero();      ///< m/s, mean of the body at the beginning of the last step
-  Vector3 acceleration = Vector3::Zero();  ///< m/s^2, by the force in that step
-  double time_step = 0.0;                  ///< s, of that step; 0: there was none
+  Vector3 velocity = Vector3::Zero();  ///< mean velocity of the body at the beginning of the last step, m/s
+  Vector3 acceleration = Vector3::Zero();  ///< by the driving force in that step, m/s^2
+  double time_step = 0.0;                  ///< of that step, s; 0: no step yet
 };
 
-/// Holds the state of a run that changes with time, apart from what the carriers hold; what a checkpoint must hold.
+/// Holds the state of a run that changes with time, apart from the data of the carriers; saved in checkpoints.
 struct RunState {
   double time = 0.0;                  ///< s
-  double time_step = 0.0;             ///< s, of the last step; 0 before the first
-  double unclipped_step = 0.0;        ///< s, the same if it had not been shortened to meet a time
-  double largest_step = 0.0;          ///< s, in which nothing crossed more than a cell, the longest so far
-  double maximum_acceleration = 0.0;  ///< m/s^2, in the last step
-  double compression_rate =
-      0.0;  ///< 1/s, that all but a thousandth of the material under pressure kept below
-  double squeezed_beside_voids = 0.0;  ///< kg, intact, under pressure in cells that it does not fill
-  double first_touch = 1e300;  ///< s, at which bodies that have not touched yet next do; 1e300: not in sight
-  contact::FirstTouches::Words touched;  ///< what has
-  double releasable_energy = 0.0;        ///< J, that the materials could set free at the start
-  double reference_speed = 0.0;          ///< m/s, of the start: of what moved, and what that energy can make
+  double time_step = 0.0;             ///< of the last step, s; 0 before the first one
+  double unclipped_step = 0.0;        ///< of the last step without shortening to meet a time, s
+  double largest_step = 0.0;          ///< longest step so far in which nothing crossed more than a cell, s
+  double maximum_acceleration = 0.0;  ///< in the last step, m/s^2
+  /// Exceeded by material under pressure of at most a thousandth of the mass, 1/s.
+  double compression_rate = 0.0;
+  /// Mass of intact material under pressure in cells that it does not fill, kg.
+  double squeezed_beside_voids = 0.0;
+  double first_touch = 1e300;            ///< predicted time of the next first contact, s; 1e300: none
+  contact::FirstTouches::Words touched;  ///< fields that have touched
+  double releasable_energy = 0.0;        ///< energy that the materials could release at the start, J
+  /// Maximum initial speed plus the speed that this energy per mass can produce, m/s.
+  double reference_speed = 0.0;
   std::int64_t step = 0;
-  std::int64_t particles_at_rest = 0;  ///< of all ranks, left as they were by the last step
+  std::int64_t particles_at_rest = 0;  ///< of all ranks, in inactive blocks in the last step
   Ledger ledger;
-  std::vector<BodyOutflow> outflow_of_body;  ///< of each body, of all ranks
+  std::vector<BodyOutflow> outflow_of_body;  ///< of each body, over all ranks
   std::vector<DrivenBody> driven;            ///< of each body
 };
 
-/// Holds what several stages of a step read and write, on one rank. Every stage keeps what it alone needs.
+/// Holds the data that several stages of a step read and write, on one rank. Data of a single stage are kept there.
 struct State {
   State(const cases::Case& setup, MPI_Comm communicator, const RunState& run);
 
   cases::Case setup;
-  transfer::ShapeFunction shape;  ///< that of the case, in two dimensions its planar form
+  transfer::ShapeFunction shape;  ///< that of the case; in two dimensions its planar form
   MPI_Comm communicator;
   grid::BlockGrid grid;
-  Particles particles;                         ///< of this rank
-  std::vector<cases::BodySummary> bodies;      ///< as seeded; `first` and `count` are those of this rank now
+  Particles particles;  ///< of this rank
+  /// As created; `first` and `count` are the present ones of this rank.
+  std::vector<cases::BodySummary> bodies;
   transfer::TransitionNodes transition;        ///< nodes of elements that move with the grid in this step
-  std::vector<std::uint32_t> transition_body;  ///< of each of these nodes
-  std::vector<double> initial_density;         ///< kg/m^3, of each body
+  std::vector<std::uint32_t> transition_body;  ///< body of each of these nodes
+  std::vector<double> initial_density;         ///< of each body, kg/m^3
   RunState run;
-  TimeStepBound time_step_bound = TimeStepBound::none;  ///< that determined the last step
+  TimeStepBound time_step_bound = TimeStepBound::none;  ///< of the last step
   Totals totals;                                        ///< over all ranks, at the end of the last step
   std::size_t particle_count = 0, element_count = 0;    ///< of all ranks
-  Ledger booked;                                        ///< what happened on this rank in the step under way
-  std::vector<BodyOutflow> booked_outflow;              ///< the same, of each body
-  /// Largest rates in the step under way: what the next time step depends on.
+  Ledger booked;                                        ///< contributions of the current step on this rank
+  std::vector<BodyOutflow> booked_outflow;  ///< outflow of each body in the current step on this rank
+  /// Maximum rates of the current step, which bound the next one.
   struct Rates {
-    double squared_change = 0.0;       ///< m^2/s^2, of a particle's velocity
-    double compression = 0.0;          ///< 1/s, of particles under pressure
-    double element_compression = 0.0;  ///< 1/s, of elements under pressure
+    double squared_change = 0.0;       ///< squared change of a particle's velocity, m^2/s^2
+    double compression = 0.0;          ///< of particles under pressure, 1/s
+    double element_compression = 0.0;  ///< of elements under pressure, 1/s
   } rates;
   Profile profile;
 
   /// Returns the shape functions of forces, velocities and their gradients.
   [[nodiscard]] transfer::ShapeFunctions functions() const { return {shape, setup.transfer.slope_smoothing}; }
-  /// Returns the inertia per mass (m^2) of affine fields by this shape function; 0 if it cannot carry them.
+  /// Returns the inertia per mass (m^2) of affine fields with this shape function; 0 if it does not support them.
   [[nodiscard]] double affine_inertia() const;
   /// Returns the inertia per mass (m^2) of the affine fields that particles of this case carry; 0 without such fields.
   [[nodiscard]] double particle_affine_inertia() const;
@@ -119,13 +122,13 @@ struct State {
   [[nodiscard]] bool keeps_losses() const { return setup.dissipation.keeps_losses(); }
   [[nodiscard]] bool is_parallel() const { return parallel::size(communicator) > 1; }
 
-  /// Finds the ranges of the bodies; particles are sorted by body.
+  /// Determines the ranges of the bodies; requires that particles are sorted by body.
   void find_bodies();
-  /// Counts the part of a body that left the domain.
+  /// Accounts for a part of a body that has left the domain.
   void book_outflow(std::size_t body, const Totals& outflow);
-  /// Counts the part of a body that left the domain, by the totals of the body before and after.
+  /// Accounts for a part of a body that has left the domain, from the totals of the body before and after.
   void book_outflow(std::size_t body, const Totals& before, Totals after);
-  /// Describes a particle at a time (s) for an error message; the step is the one under way.
+  /// Describes a particle at a time (s) of the current step for an error message.
   [[nodiscard]] std::string describe_particle(std::size_t particle, double time,
                                               const std::string& reason) const;
 };

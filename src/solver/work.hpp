@@ -8,24 +8,26 @@
 #include "src/case/case.hpp"
 #include "src/fem/mesh.hpp"
 
-/// Work of a step, by which the blocks are shared out among the ranks: counted, not timed, so that a run on
-/// so many ranks gives the same bits every time (docs/manual/architecture.md). Unit: the transfers of one particle.
+/// Work of a step, which determines the distribution of the blocks over the ranks: counted, not timed, so that runs on
+/// the same number of ranks are bitwise reproducible (docs/manual/architecture.md). Unit: the transfers of one
+/// particle.
 namespace whipple::solver {
 
-/// Weighs the nodes of a block that holds particles, in transfers of a particle.
+/// Work of the nodes of a block with particles, in transfers of a particle.
 constexpr double work_of_block = 45.0;
 
-/// Weighs a particle at rest, as a fraction of one that moves: 1 to 3 ns, it is examined and sorted only.
+/// Work of a particle at rest as a fraction of that of a moving one: it is only examined and sorted, 1 to 3 ns.
 constexpr double share_of_rest = 0.02;
 
-/// Weighs an element with its material: 235 and 1380 ns against 233 ns (docs/theory/fem.md, 9).
+/// Returns the work of an element with its material: 235 and 1380 ns compared with 233 ns (docs/theory/fem.md, section
+/// 9).
 constexpr double work_of_element(fem::Quadrature quadrature) {
   return quadrature == fem::Quadrature::one_point ? 1.0 : 6.0;
 }
 
-/// Returns the work of every particle: its transfers and its material.
-/// @param bodies  the ranges of this rank's particles
-/// @param work    resized; its memory serves the next time (new pages cost more than the values)
+/// Computes the work of every particle: its transfers and its material.
+/// @param bodies  ranges of this rank's particles
+/// @param work    result; reuses its memory (new pages cost more than the values)
 void work_of_particles(const cases::Case& setup, std::span<const cases::BodySummary> bodies,
                        std::vector<double>& work);
 

@@ -10,9 +10,9 @@
 namespace whipple::material::parts {
 namespace {
 
-constexpr double greatest_bulking = 2.0;  ///< distension of bulked material
+constexpr double greatest_bulking = 2.0;  ///< maximum distension of bulked material
 
-/// Pressure that the material would have if it filled its gap as well.
+/// Computes the pressure that the material would have if it filled its voids as well.
 void fill_gaps(const Chunk& chunk, Lanes& pressure) {
   for (std::size_t k = 0; k < chunk.size; ++k) {
     const double modulus = chunk.density[k] * chunk.bulk_sound_speed[k] * chunk.bulk_sound_speed[k];
@@ -20,7 +20,7 @@ void fill_gaps(const Chunk& chunk, Lanes& pressure) {
   }
 }
 
-/// sqrt(2/3 e:e) of the deviator e of the strain rate.
+/// Computes the equivalent strain rate sqrt(2/3 e:e), e the deviator of the strain rate.
 void equivalent_rate(const Step& step, const Chunk& chunk, Lanes& rate) {
   const SymmetricLanes& e = chunk.motion.strain;
   for (std::size_t k = 0; k < chunk.size; ++k) {
@@ -80,7 +80,7 @@ void relax_brittle(const EosStrength& model, const Step& step, Chunk& chunk) {
       chunk.report.plastic_work += equivalent[k] * chunk.increment[k] * chunk.volume[k];
       for (Lanes& lane : chunk.motion.deviator) lane[k] *= equivalent[k] / chunk.motion.trial[k];
     }
-    if (gained[k] > 0.0) {  // (12): 1/alpha falls by the gain over K1
+    if (gained[k] > 0.0) {  // (13): 1/alpha decreases by the gain over K1
       const double closeness = 1.0 / distension[k] - gained[k] / step.material.reference_bulk_modulus;
       chunk.report.limited_bulking += closeness <= 1.0 / greatest_bulking ? 1 : 0;
       distension[k] = std::min(greatest_bulking, 1.0 / std::max(closeness, 1.0 / greatest_bulking));

@@ -23,7 +23,7 @@ void viscous_stress(const Step& step, Chunk& chunk) {
   }
 }
 
-/// Clears the elastic deviator: of fluids, and of chunks where everything has failed or melted.
+/// Clears the elastic deviator of fluids, and of chunks in which everything has failed or melted.
 void clear_deviator(Chunk& chunk) {
   Kinematics& motion = chunk.motion;
   for (Lanes* lane : {&chunk.solid_modulus, &motion.modulus, &motion.trial, &chunk.increment}) {
@@ -39,7 +39,7 @@ void find_strain(const Step& step, Chunk& chunk) {
 
 bool any_solid(const Chunk& chunk) { return any_positive(chunk.solid_fraction, chunk.size); }
 
-/// Tensors of points that carry the deviator; zero elsewhere and in the padding.
+/// Sets tensors to zero except for points that carry the deviator; also clears the padding.
 void mask_to_solids(const Chunk& chunk, std::span<Lanes, 6> tensors) {
   for (Lanes& lane : tensors) {
     for (std::size_t k = 0; k < chunk.size; ++k) lane[k] = chunk.solid_fraction[k] > 0.0 ? lane[k] : 0.0;
@@ -47,7 +47,7 @@ void mask_to_solids(const Chunk& chunk, std::span<Lanes, 6> tensors) {
   }
 }
 
-/// Modulus and elastic trial of a chunk with solids.
+/// Computes modulus and elastic trial of a chunk with solids.
 void find_trial(const EosStrength& model, const Step& step, Chunk& chunk) {
   Kinematics& motion = chunk.motion;
   step.material.strength->shear_modulus(chunk.strength_state(chunk.old_density, model.threshold_stress),
@@ -61,7 +61,8 @@ void find_trial(const EosStrength& model, const Step& step, Chunk& chunk) {
   material::elastic_trial(padded(chunk.size), step.settings.time_step, step.settings.rotation, motion);
 }
 
-/// Increments of the plastic strain. @param modulus  that the return sees
+/// Computes the increments of the plastic strain.
+/// @param modulus  effective shear modulus of the return
 void find_increment(const EosStrength& model, const Step& step, Chunk& chunk, Lanes& modulus) {
   step.material.strength->plastic_increment(chunk.strength_state(chunk.old_density, model.threshold_stress),
                                             chunk.view(chunk.motion.trial), chunk.view(modulus),
@@ -69,12 +70,13 @@ void find_increment(const EosStrength& model, const Step& step, Chunk& chunk, La
                                             chunk.view(chunk.increment));
 }
 
-/// Books the fraction of the plastic work per volume (J/m^3) that does not become heat (eq. 24).
+/// Adds the fraction of the plastic work per volume (J/m^3) that does not become heat to the stored energy (eq. 24).
 void add_cold_work(const Step& step, Chunk& chunk, Lanes& stored, std::size_t k, double work) {
   stored[k] += (1.0 - step.material.taylor_quinney) * work * chunk.volume[k] / chunk.mass[k];
 }
 
-/// The radial return by the increments of the plastic strain. @returns the plastic work (J)
+/// Performs the radial return for the given increments of the plastic strain.
+/// @returns the plastic work, J
 WHIPPLE_KERNEL double return_to_surface(Chunk& chunk) {
   Kinematics& motion = chunk.motion;
   Lanes kept;
@@ -92,7 +94,7 @@ WHIPPLE_KERNEL double return_to_surface(Chunk& chunk) {
   return work;
 }
 
-/// Equivalent stress beside the back stress, and what the return sees as modulus (eq. 16).
+/// Computes the equivalent stress relative to the back stress, and the effective modulus of the return (eq. 16).
 void shift_by_back_stress(const Step& step, Chunk& chunk, std::span<Lanes, 6> back_stress, Lanes& modulus) {
   const double third = step.material.strength->kinematic_modulus() / 3.0;
   Kinematics& motion = chunk.motion;

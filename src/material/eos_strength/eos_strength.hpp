@@ -13,12 +13,13 @@
 /// Equation of state, strength and failure as one constitutive model (docs/theory/material.md).
 namespace whipple::material {
 
-/// The update is a list of parts, each a function of the chunk, chosen once from what the material has.
+/// Combines equation of state, strength and failure. The update is a list of parts, each a function of the chunk, which
+/// is chosen once from the properties of the material.
 class EosStrength final : public Constitutive {
  public:
   using Part = void (*)(const EosStrength& model, const Step& in, Chunk& out);
 
-  EosStrength() = default;  ///< without parts: for `adapted`
+  EosStrength() = default;  ///< without parts, as input of `adapted`
   /// Chooses the parts of the update and declares their history fields.
   explicit EosStrength(const Material& material);
 
@@ -31,12 +32,12 @@ class EosStrength final : public Constitutive {
   void void_share(const Chunk& chunk, Lanes& share) const override;
   void update(const Step& in, Chunk& out) const override;
 
-  /// All fields that it may declare.
+  /// Returns all fields that it may declare.
   static std::vector<HistoryField> fields();
 
   std::shared_ptr<const BurningExplosive> burn;  ///< null: the material does not burn
 
-  /// First lanes of the history fields; of a field that is not declared: a lane that nobody else uses.
+  /// First lanes of the history fields; fields that are not declared have a lane that nothing else uses.
   static constexpr std::size_t undeclared = most_history - 1;
   std::size_t damage = undeclared, distension = undeclared, back_stress = undeclared, strain = undeclared,
               stored_cold_work = undeclared, burn_fraction = undeclared, lighting_time = undeclared,
@@ -47,7 +48,7 @@ class EosStrength final : public Constitutive {
 
   std::vector<Part> parts_of(const Material& material, Energy energy) const;
 
-  double initial_threshold_ = 0.0;  // Pa, of materials with the field
+  double initial_threshold_ = 0.0;  // of materials with the field, Pa
   std::vector<Part> from_grid_, integrated_;
   Share share_ = nullptr;  ///< null: that of `Constitutive`
 };

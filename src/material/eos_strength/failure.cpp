@@ -7,14 +7,15 @@
 namespace whipple::material::parts {
 namespace {
 
-/// Components of the deviator or the strain of the points of a chunk.
+/// Returns the components of the deviator or the strain of the points of a chunk.
 failure::Components<const double> view(const Chunk& chunk, const Lanes* lanes) {
   failure::Components<const double> components;
   for (std::size_t j = 0; j < 6; ++j) components.lane[j] = std::span(lanes[j].data(), chunk.size);
   return components;
 }
 
-/// Evaluates the criteria. @param strain  its components, or none
+/// Evaluates the criteria.
+/// @param strain  its components, or none
 void mark(const EosStrength& model, const Step& step, Chunk& chunk,
           const failure::Components<const double>& strain) {
   const failure::State state = {.time_step = step.settings.time_step,
@@ -64,14 +65,14 @@ void heal(const EosStrength& model, const Step& in, Chunk& out) {
     if (code == failure::intact) continue;
     for (std::size_t k = 0; k < out.size; ++k) {
       if (out.failed[k] != code || out.void_volume[k] > 0.0 || !(out.pressure[k] > 0.0)) continue;
-      out.failed[k] = failure::intact;  // its deviator starts from zero
+      out.failed[k] = failure::intact;  // the deviator starts from zero
       if (criterion->accumulates()) damage[k] = 0.0;
     }
   }
 }
 
 void grow_voids(const EosStrength& model, const Step& in, Chunk& out) {
-  // The flow stress is that of the end of the step without voids.
+  // Flow stress at the end of the step, without voids
   const failure::Criterion& criterion = *in.material.void_growth;
   const double dt = in.settings.time_step;
   Lanes rate, flow, equivalent, before;

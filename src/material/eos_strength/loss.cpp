@@ -10,24 +10,24 @@
 namespace whipple::material::parts {
 namespace {
 
-constexpr double greatest_void_step = 0.1;       ///< |dV/V| of material beside its void in one step
-constexpr double least_sound_speed_ratio = 0.1;  ///< of the bulk sound speed of the reference state
+constexpr double greatest_void_step = 0.1;       ///< maximum |dV/V| of material next to its void in one step
+constexpr double least_sound_speed_ratio = 0.1;  ///< minimum, as a fraction of the reference bulk sound speed
 
 using Four = whipple::Lanes;  // points at a time
 
-/// Points with cracks or voids.
+/// Holds the state of points with cracks or voids.
 struct Porous {
-  Four pressure;  ///< Pa, that acts
-  Four volume;    ///< m^3 of material
+  Four pressure;  ///< acting pressure, Pa
+  Four volume;    ///< of the material, m^3
   Four void_volume;
 };
 
-/// Pressure and division of the volume into material and void: the share `opening` of what exceeds the volume
-/// of zero pressure, or of the pressure `least` where it is all of it, is void (eq. 12, 13, 18). Tension
-/// opens the void, pressure lets the material grow into it.
+/// Computes pressure and division of the volume into material and void (eq. 12, 13, 18). The fraction `opening` of the
+/// excess over the volume at zero pressure is void; where it is 1, the excess over the volume at the pressure `least`.
+/// Tension opens the void, under pressure the material expands into it.
 /// @param modulus  rho c^2 (Pa), bounded from below
-/// @param count    of points: fewer than four at the end of a chunk
-/// @param limited  grows by the number of points that are kept from changing more in one step
+/// @param count    number of points: fewer than four at the end of a chunk
+/// @param limited  increased by the number of points whose change is limited
 Porous share_volume(const Porous& points, Four modulus, Four opening, Four least, std::size_t count,
                     std::size_t& limited) {
   const Four pressure = points.pressure, volume = points.volume, total = volume + points.void_volume;
@@ -46,12 +46,13 @@ Porous share_volume(const Porous& points, Four modulus, Four opening, Four least
           select(open, total - matter, Four{})};
 }
 
-/// What opens voids in points that have not failed: nothing, damage, or a tension beyond that of `least_pressure`.
+/// Selects the cause that opens voids in points that have not failed: none, damage, or a tension beyond
+/// `least_pressure`.
 enum class Opening : std::uint8_t { none, damage, tension };
 
-/// Reduces stress and energy of points that have failed, melt, or contain opening cracks or gaps; `kept` is
-/// the fraction of the deviator that they keep.
-/// @param squared  of the sound speed
+/// Reduces stress and energy of points that have failed, melt, or contain opening cracks or voids; sets `kept` to the
+/// fraction of the deviator that they retain.
+/// @param squared  squares of the sound speed
 template <Opening kind, bool viscous>
 inline void lose_strength(const EosStrength& model, Chunk& chunk, const Lanes& bulk, double least_sound_speed,
                           Lanes& squared) {
@@ -79,7 +80,7 @@ inline void lose_strength(const EosStrength& model, Chunk& chunk, const Lanes& b
     store(&chunk.volume[k], select(parts, shared.volume, before.volume));
     store(&chunk.void_volume[k], void_volume);
 
-    const LanesMask gaping = loose & (void_volume > 0.0);  // opened in this step, or before
+    const LanesMask gaping = loose & (void_volume > 0.0);  // opened in this step or before
     store(&chunk.artificial_viscosity[k], select(gaping, Four{}, of(chunk.artificial_viscosity)));
     const Four of_solid = of(bulk) + 4.0 / 3.0 * solid * of(chunk.solid_modulus) / density;
     const LanesMask slack = (failed & (pressure <= 0.0)) | (~failed & gaping);
@@ -97,7 +98,7 @@ void scale(std::span<Lanes, 6> tensors, const Chunk& chunk) {
   }
 }
 
-/// Elastic energy of the deviator (J) that points lose with their strength.
+/// Returns the elastic energy of the deviator (J) that points lose with their strength.
 double lost_energy(const Chunk& chunk) {
   double sum = 0.0;
   for (std::size_t k = 0; k < chunk.size; ++k) {
@@ -109,7 +110,7 @@ double lost_energy(const Chunk& chunk) {
   return sum;
 }
 
-/// Sound speed, and the loss of strength where there may be one.
+/// Computes the sound speed, and the loss of strength where points may lose it.
 template <Opening kind, bool viscous>
 inline void lose(const EosStrength& model, const Step& step, Chunk& chunk) {
   const double least_sound_speed = least_sound_speed_ratio * step.material.reference.sound_speed;
@@ -119,7 +120,7 @@ inline void lose(const EosStrength& model, const Step& step, Chunk& chunk) {
                        least_sound_speed * least_sound_speed);
     squared[k] = bulk[k] + 4.0 / 3.0 * chunk.solid_modulus[k] / chunk.density[k];
   }
-  // What melts or cracks takes its fraction of the stress with it; what freezes is free of stress.
+  // On melting or cracking the stress is scaled with the remaining fraction; freezing material has no stress.
   chunk.loses = kind != Opening::none || chunk.any_failed || any_positive(chunk.melted, chunk.size);
   if (chunk.loses) {
     lose_strength<kind, viscous>(model, chunk, bulk, least_sound_speed, squared);

@@ -3,8 +3,8 @@
 
 #include "src/material/eos_strength/eos_strength.hpp"
 
-/// Parts of the update by equation of state, strength and failure, in the order in which they follow one another. Names
-/// say what a part is for; which of several variants a material takes is decided in eos_strength.cpp.
+/// Parts of the update by equation of state, strength and failure, in the order of the update. eos_strength.cpp selects
+/// the variants for a material.
 namespace whipple::material::parts {
 
 // ---- start of the step (deviator.cpp)
@@ -12,46 +12,46 @@ namespace whipple::material::parts {
 void fetch_phases(const EosStrength& model, const Step& in, Chunk& out);
 /// Collects the old deviator, for the work of the step.
 void fetch_old_deviator(const EosStrength& model, const Step& in, Chunk& out);
-/// Determines the fraction of the stiffness that a point still has: that of the solid, 0 where it has failed.
+/// Determines the fraction of the stiffness that a point retains: that of the solid, 0 where it has failed.
 void find_solid_fraction(const EosStrength& model, const Step& in, Chunk& out);
-/// The same, less the damage.
+/// Determines the same fraction, multiplied by 1 - damage.
 void find_damaged_solid_fraction(const EosStrength& model, const Step& in, Chunk& out);
 
 // ---- deviator (deviator.cpp): rotation, elastic trial, radial return (eq. 3 to 7, 16)
-/// No deviator, no strain.
+/// Sets deviator and strain to zero.
 void no_deviator(const EosStrength& model, const Step& in, Chunk& out);
-/// No deviator, but the strain increment.
+/// Sets the deviator to zero and computes the strain increment.
 void strain_alone(const EosStrength& model, const Step& in, Chunk& out);
-/// Newtonian fluid: s = 2 eta dev D, without elastic energy.
+/// Computes the stress of a Newtonian fluid, s = 2 eta dev D, which has no elastic energy.
 void viscous_deviator(const EosStrength& model, const Step& in, Chunk& out);
-/// Elastic trial; of a chunk without solids, as `no_deviator`.
+/// Computes the elastic trial; for a chunk without solids as `no_deviator`.
 void elastic_trial(const EosStrength& model, const Step& in, Chunk& out);
-/// Elastic trial; of a chunk without solids, as `strain_alone`.
+/// Computes the elastic trial; for a chunk without solids as `strain_alone`.
 void elastic_trial_and_strain(const EosStrength& model, const Step& in, Chunk& out);
-/// Radial return with isotropic hardening.
+/// Performs the radial return with isotropic hardening.
 void return_radially(const EosStrength& model, const Step& in, Chunk& out);
-/// The same, and advances the threshold stress (eq. 31).
+/// Performs the radial return and advances the threshold stress (eq. 31).
 void return_radially_and_harden(const EosStrength& model, const Step& in, Chunk& out);
 /// Adds the part of the plastic work of `return_radially` that does not become heat to the cold work (eq. 24).
 void store_cold_work(const EosStrength& model, const Step& in, Chunk& out);
-/// Radial return with a back stress (eq. 16).
+/// Performs the radial return with a back stress (eq. 16).
 void return_kinematically(const EosStrength& model, const Step& in, Chunk& out);
-/// The same, and stores cold work.
+/// Performs the radial return with a back stress and stores cold work.
 void return_kinematically_and_store(const EosStrength& model, const Step& in, Chunk& out);
-/// Logarithmic strain, rotated with the material (eq. 17).
+/// Advances the logarithmic strain, rotated with the material (eq. 17).
 void advance_strain(const EosStrength& model, const Step& in, Chunk& out);
 
 // ---- energy and equation of state (energy.cpp)
-/// Takes the artificial viscosity from failed points beside an open void.
+/// Removes the artificial viscosity of failed points with an open void.
 void free_failed(const EosStrength& model, const Step& in, Chunk& out);
-/// Takes the artificial viscosity from all points beside an open void.
+/// Removes the artificial viscosity of all points with an open void.
 void free_brittle(const EosStrength& model, const Step& in, Chunk& out);
-/// Prepares the energy of the equation of state, by the way in which the energy of the step is known.
+/// Prepare the energy of the equation of state, from the grid or from the work of the stresses.
 void energy_from_grid(const EosStrength& model, const Step& in, Chunk& out);
 void energy_by_work(const EosStrength& model, const Step& in, Chunk& out);
-/// Takes the cold work out of the energy of the equation of state.
+/// Subtracts the cold work from the energy of the equation of state.
 void take_cold_work(const EosStrength& model, const Step& in, Chunk& out);
-/// Evaluates the equation of state: with or without phases, with or without pores.
+/// Evaluate the equation of state: with or without phases, with or without pores.
 void evaluate_simple(const EosStrength& model, const Step& in, Chunk& out);
 void evaluate_phases(const EosStrength& model, const Step& in, Chunk& out);
 void evaluate_porous(const EosStrength& model, const Step& in, Chunk& out);
@@ -62,38 +62,39 @@ void burn(const EosStrength& model, const Step& in, Chunk& out);
 void react(const EosStrength& model, const Step& in, Chunk& out);
 /// Evaluates the equation of state of an explosive that burns.
 void evaluate_burning(const EosStrength& model, const Step& in, Chunk& out);
-/// Makes the solved energy that of the points; with the cold work.
+/// Set the energy of the points to the solved one; the second adds the cold work.
 void accept_energy(const EosStrength& model, const Step& in, Chunk& out);
 void return_cold_work(const EosStrength& model, const Step& in, Chunk& out);
 
 // ---- failure (failure.cpp, brittle.cpp)
-/// Strength, damage and bulking of brittle material (docs/theory/concrete_and_ceramics.md).
+/// Updates strength, damage and bulking of brittle material (docs/theory/concrete_and_ceramics.md).
 void relax_brittle(const EosStrength& model, const Step& in, Chunk& out);
-/// Prepares what the criteria take.
+/// Prepares the input of the criteria.
 void prepare_failure(const EosStrength& model, const Step& in, Chunk& out);
-/// Makes failed points whole again whose void pressure has closed.
+/// Heals failed points whose void has been closed by pressure.
 void heal(const EosStrength& model, const Step& in, Chunk& out);
-/// Lets voids grow in porous material (eq. 20 to 22, 25, 26).
+/// Grows voids in porous material (eq. 20 to 22, 25, 26).
 void grow_voids(const EosStrength& model, const Step& in, Chunk& out);
-/// Evaluates the failure criteria; with the strain.
+/// Evaluate the failure criteria; the second with the strain.
 void mark_failed(const EosStrength& model, const Step& in, Chunk& out);
 void mark_failed_by_strain(const EosStrength& model, const Step& in, Chunk& out);
 
 // ---- loss of strength and sound speed (loss.cpp)
-/// Divides the volume between material and voids and takes the deviator from what has failed or melts; sound speed.
+/// Divides the volume between material and voids, reduces the deviator of failed and melting points, and computes the
+/// sound speed.
 void lose_in_failed(const EosStrength& model, const Step& in, Chunk& out);
-/// The same, where damage opens cracks and softens.
+/// Performs the same for materials in which damage opens cracks and softens.
 void lose_in_damaged(const EosStrength& model, const Step& in, Chunk& out);
-/// The same of brittle material, whose gaps open at a tension.
+/// Performs the same for brittle material, whose voids open at a tension.
 void lose_in_brittle(const EosStrength& model, const Step& in, Chunk& out);
-/// The same of fluids with viscosity, whose stress knows nothing of phases.
+/// Perform the same for viscous fluids, whose stress does not depend on phases; the second also with damage.
 void lose_in_viscous(const EosStrength& model, const Step& in, Chunk& out);
 void lose_in_damaged_viscous(const EosStrength& model, const Step& in, Chunk& out);
-/// Takes from the back stress what the deviator has lost.
+/// Scales the back stress like the deviator.
 void lose_back_stress(const EosStrength& model, const Step& in, Chunk& out);
 /// Converts the stored cold work of melting points to heat.
 void release_cold_work(const EosStrength& model, const Step& in, Chunk& out);
-/// Corrects the work of the step for points that act with less than the pressure of the equation of state (eq. 15).
+/// Corrects the work of the step for points whose acting pressure is below that of the equation of state (eq. 15).
 void correct_work_beside_voids(const EosStrength& model, const Step& in, Chunk& out);
 
 }  // namespace whipple::material::parts

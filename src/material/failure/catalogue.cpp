@@ -21,7 +21,8 @@
 namespace whipple::failure {
 namespace {
 
-/// `Law` has name, summary, theory, code, cause and parameters(); the criterion is made from it.
+/// Returns the entry of a law. `Law` has name, summary, theory, code, cause and parameters(); the criterion is
+/// constructed from it.
 template <class Law>
 CriterionEntry entry() {
   auto made = catalogue_entry<CriterionEntry>(
@@ -58,7 +59,7 @@ Code greatest_code() {
 
 const std::string& code_meanings() {
   static const std::string text = [] {
-    std::map<int, std::string> causes;  // criteria of one cause share a code
+    std::map<int, std::string> causes;  // criteria with the same cause share a code
     for (const CriterionEntry& entry : catalogue()) causes[entry.code] = entry.cause;
     std::string words;
     for (const auto& [code, cause] : causes)

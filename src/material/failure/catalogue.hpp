@@ -8,19 +8,19 @@
 
 namespace whipple::failure {
 
-/// One failure criterion of the catalogue.
+/// Describes one failure criterion of the catalogue.
 struct CriterionEntry : CatalogueEntry<const Criterion> {
-  Code code = intact;  ///< of the points that it makes fail
-  std::string cause;   ///< of their failure, in the words of the output
+  Code code = intact;  ///< code of points that fail by it
+  std::string cause;   ///< cause of failure, in the words of the output
 };
 
-/// All failure criteria, one line each.
+/// Returns all failure criteria.
 const Catalogue<CriterionEntry>& catalogue();
 
-/// Returns the greatest code that a criterion gives to its failed points.
+/// Returns the largest code that a criterion assigns to failed points.
 Code greatest_code();
 
-/// Returns what the codes of failed points mean: "0 intact; failed by 1 tension, 2 plastic strain, ...".
+/// Returns the meanings of the codes of failed points: "0 intact; failed by 1 tension, 2 plastic strain, ...".
 const std::string& code_meanings();
 
 }  // namespace whipple::failure

@@ -15,22 +15,21 @@
 
 namespace whipple::failure {
 
-/// Values of `MaterialPoints::failed`: what made the point fail.
+/// Lists the values of `MaterialPoints::failed`: the cause of failure.
 enum Code : std::uint8_t {
   intact = 0,
   tensile = 1,           ///< tensile pressure
   plastic = 2,           ///< plastic strain
-  principal_stress = 3,  ///< greatest principal stress
-  principal_strain = 4,  ///< greatest principal strain
+  principal_stress = 3,  ///< largest principal stress
+  principal_strain = 4,  ///< largest principal strain
   fractured = 5,         ///< ductile fracture by accumulated damage
   fragmented = 6,        ///< brittle fragmentation
   void_growth = 7,       ///< growth and coalescence of voids
   spalled = 8,           ///< accumulated tension
 };
-constexpr std::size_t code_count =
-    16;  ///< that there is room for: a law may take the next free one, `Code{9}`
+constexpr std::size_t code_count = 16;  ///< available codes: a new law may use the next free one, `Code{9}`
 
-/// Components xx, yy, zz, xy, yz, zx of a symmetric tensor, one entry per point.
+/// Holds the components xx, yy, zz, xy, yz, zx of a symmetric tensor, one entry per point.
 template <class Number>
 struct Components {
   std::array<std::span<Number>, 6> lane;
@@ -40,77 +39,81 @@ struct Components {
   }
 };
 
-/// State of a chunk of points after the equation of state (SI), one entry per point.
+/// Holds the state of a chunk of points after the equation of state (SI units), one entry per point.
 struct State {
   double time_step;                           ///< s
-  std::span<const double> pressure;           ///< Pa, positive in compression, of the equation of state
+  std::span<const double> pressure;           ///< acting pressure, positive in compression, Pa
   std::span<const double> temperature;        ///< K
-  std::span<const double> density;            ///< kg/m^3, of the material
-  std::span<const double> bulk_modulus;       ///< Pa, rho c^2
-  std::span<const double> shear_modulus;      ///< Pa, of the solid
-  std::span<const double> volume;             ///< m^3, of material and void
-  std::span<const double> band;               ///< m, width to which strain localises: a cell, an element
+  std::span<const double> density;            ///< of the material, kg/m^3
+  std::span<const double> bulk_modulus;       ///< rho c^2, Pa
+  std::span<const double> shear_modulus;      ///< of the solid, Pa
+  std::span<const double> volume;             ///< of material and void, m^3
+  std::span<const double> band;               ///< width to which strain localises, m: a cell, an element
   std::span<const double> plastic_strain;     ///< equivalent plastic strain
   std::span<const double> plastic_increment;  ///< its increment in this step
   std::span<const double> melted_fraction;    ///< mass fraction of liquid and vapour
   std::span<const double> threshold_factor;   ///< scatter of the failure threshold (1: none)
-  Components<const double> deviator;          ///< Pa, positive in tension
-  Components<const double> strain;            ///< logarithmic strain; empty unless some criterion needs it
+  Components<const double> deviator;          ///< positive in tension, Pa
+  Components<const double> strain;            ///< logarithmic strain; empty unless a criterion needs it
 };
 
-/// A chunk of points between the equation of state and the criteria, for models in which voids grow while the
-/// material still carries stress (SI). Volume and stress are those of the material between the voids.
+/// Holds a chunk of points between the equation of state and the criteria, for models in which voids grow while the
+/// material still carries stress (SI units). Volume and stress are those of the material between the voids.
 struct PorousState {
   double time_step;                         ///< s
-  std::span<const double> bulk_modulus;     ///< Pa, rho c^2
-  std::span<const double> shear_modulus;    ///< Pa, with melting
+  std::span<const double> bulk_modulus;     ///< rho c^2, Pa
+  std::span<const double> shear_modulus;    ///< with melting, Pa
   std::span<const double> melted_fraction;  ///< mass fraction of liquid and vapour
-  std::span<const double> flow_stress;  ///< Pa, of the material between the voids, with melting, if asked for
-  std::span<const double> trial;        ///< Pa, equivalent trial stress of the deviator
+  /// Of the material between the voids, with melting, Pa; only if needed.
+  std::span<const double> flow_stress;
+  std::span<const double> trial;             ///< equivalent trial stress of the deviator, Pa
   std::span<const double> threshold_factor;  ///< scatter of the failure threshold (1: none)
-  std::span<double> equivalent;              ///< Pa, equivalent stress: out
-  std::span<double> pressure;                ///< Pa, in and out
-  std::span<double> plastic_increment;       ///< in: of material without voids; out
-  std::span<double> plastic_strain;          ///< in: with that increment; out
-  std::span<double> volume;                  ///< m^3, of the material, in and out
-  std::span<double> void_volume;             ///< m^3, in and out
+  std::span<double> equivalent;              ///< equivalent stress, Pa; in and out
+  std::span<double> pressure;                ///< Pa; in and out
+  std::span<double> plastic_increment;       ///< in: of material without voids; out: with voids
+  std::span<double> plastic_strain;          ///< in: including that increment; out: with voids
+  std::span<double> volume;                  ///< of the material, m^3; in and out
+  std::span<double> void_volume;             ///< m^3; in and out
 };
 
-/// A failure criterion; one virtual call per chunk. A failed point stays failed, unless the criterion heals.
+/// Interface of the failure criteria, with one virtual call per chunk. A failed point remains failed, unless the
+/// criterion heals.
 class Criterion {
  public:
   virtual ~Criterion() = default;
   [[nodiscard]] virtual std::string_view model() const = 0;
-  /// Advances the damage of the points and sets the code of those that are intact and break the criterion.
+  /// Advances the damage of the points and sets the code of intact points that meet the criterion.
   /// @param damage  history field `damage`; only criteria that accumulate change it
   virtual void mark(const State& state, std::span<double> damage, std::span<std::uint8_t> failed) const = 0;
-  /// Lets voids grow and relaxes the stress of the material between them; sets damage and code.
+  /// Grows voids and relaxes the stress of the material between them; sets damage and code.
   virtual void grow_voids(const PorousState& /*state*/, std::span<double> /*damage*/,
                           std::span<std::uint8_t> /*failed*/) const {}
-  /// Does `grow_voids` do anything?
+  /// Returns whether `grow_voids` has any effect.
   [[nodiscard]] virtual bool grows_voids() const { return false; }
-  /// Does `grow_voids` return the deviator to a yield surface of its own, from the flow stress of the material?
+  /// Returns whether `grow_voids` returns the deviator to the criterion's yield surface, using the flow stress of the
+  /// material.
   [[nodiscard]] virtual bool returns_deviator() const { return false; }
-  /// The code that points lose again once pressure has closed their void; `intact`: they stay failed.
+  /// Returns the code that is reset once pressure has closed the void of a point; `intact`: points remain failed.
   [[nodiscard]] virtual Code healing_code() const { return intact; }
-  /// Volume fraction of the voids at the start.
+  /// Returns the initial volume fraction of the voids.
   [[nodiscard]] virtual double initial_porosity() const { return 0.0; }
-  /// Does it keep its past in the history field `damage`? One criterion of a material may.
+  /// Returns whether the criterion stores its past in the history field `damage`. At most one criterion of a material
+  /// may.
   [[nodiscard]] virtual bool accumulates() const { return false; }
-  /// Does the damage take stress away before it is complete (docs/theory/material.md, eq. 18, 19)?
+  /// Returns whether the damage reduces the stress before it is complete (docs/theory/material.md, eq. 18, 19).
   [[nodiscard]] virtual bool softens() const { return false; }
-  /// Does it ask for `State::strain`?
+  /// Returns whether the criterion needs `State::strain`.
   [[nodiscard]] virtual bool needs_strain() const { return false; }
-  /// All constants with units as TOML lines (provenance in output files).
+  /// Returns all constants with units as TOML lines (provenance in output files).
   [[nodiscard]] virtual std::string constants() const = 0;
 };
 
-/// The run-time face of a criterion. A law is a plain struct of constants with
+/// Implements the interface of the criteria for a law, a plain struct of constants with
 ///   name, summary, theory, parameters()                        for the catalogue
 ///   accumulates, softens, needs_strain                         static constexpr bool, see Criterion
 ///   mark(state, damage, failed), grow_voids(state, damage, failed), or both: see Criterion
 ///   require_consistent()                                       throws InputError
-/// and, of laws with voids, if they differ from what is said in Criterion,
+/// and, for laws with voids that differ from the defaults of Criterion,
 ///   grows_voids(), healing_code(), initial_porosity, returns_deviator
 template <class Law>
 class CriterionModel final : public Criterion {
@@ -156,12 +159,12 @@ class CriterionModel final : public Criterion {
   Law law_;
 };
 
-/// What a law is unless it says otherwise: a threshold of the present state.
+/// Provides the defaults of a law that is a threshold of the present state.
 struct Threshold {
   static constexpr bool accumulates = false;
   static constexpr bool softens = false;
   static constexpr bool needs_strain = false;
-  void require_consistent() const {}  // the ranges of the constants say it all
+  void require_consistent() const {}  // ensured by the ranges of the constants
 };
 
 }  // namespace whipple::failure

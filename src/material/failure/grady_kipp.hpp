@@ -16,15 +16,15 @@ namespace whipple::failure {
 ///   d(D^(1/3))/dt = (m+3)/3 alpha^(1/3) eps^(m/3),  alpha = 8 pi c_g^3 k / ((m+1)(m+2)(m+3)),
 /// with eps = sigma_1 / (K + 4/3 G), sigma_1 the largest principal stress of the material between the cracks,
 /// and c_g a fraction of the longitudinal sound speed. No flaw grows below eps_0 = (k V)^(-1/m) times the
-/// scatter of the threshold: at that strain the volume V of the point holds one flaw. Damage takes the stress
-/// away as docs/theory/material.md, eq. 18 and 19. Source: D. E. Grady, M. E. Kipp, Int. J. Rock Mech. Min.
+/// scatter of the threshold: at that strain the volume V of the point holds one flaw. Damage reduces
+/// the stress as in docs/theory/material.md, eq. 18 and 19. Source: D. E. Grady, M. E. Kipp, Int. J. Rock Mech. Min.
 /// Sci. 17 (1980) 147; explicit form: H. J. Melosh, E. V. Ryan, E. Asphaug, J. Geophys. Res. 97 (1992) 14735;
 /// crack speed: B. R. Lawn, T. R. Wilshaw, Fracture of Brittle Solids (Cambridge 1975).
 struct GradyKipp {
   static constexpr bool accumulates = true;
   static constexpr bool softens = true;
   static constexpr bool needs_strain = false;
-  /// Damage that counts as complete: the rest of the stiffness is below what the strain can be read from.
+  /// Damage that counts as complete: beyond it the strain cannot be computed from the remaining stiffness.
   static constexpr double complete = 0.999;
 
   double flaw_density = 0.0;       ///< k, 1/m^3
@@ -51,9 +51,9 @@ struct GradyKipp {
       "tension and deviator are multiplied by 1 - D; failed (code 6) at D = 0.999.\n"
       "Source: Grady and Kipp, Int. J. Rock Mech. Min. Sci. 17 (1980) 147; Melosh, Ryan and Asphaug,\n"
       "J. Geophys. Res. 97 (1992) 14735.";
-  void require_consistent() const {}  // the ranges of the constants say it all
+  void require_consistent() const {}  // ensured by the ranges of the constants
 
-  /// alpha^(1/3) / c_g, 1/m
+  /// Returns alpha^(1/3) / c_g, 1/m.
   [[nodiscard]] double growth() const {
     const double m = weibull_modulus;
     return std::cbrt(8.0 * std::numbers::pi * flaw_density / ((m + 1.0) * (m + 2.0) * (m + 3.0)));

@@ -83,27 +83,27 @@ struct Gurson {
           "'failure_porosity' times 'q1' exceeds 1: the material has no strength left before it");
     }
   }
-  /// f*
+  /// Returns f*.
   [[nodiscard]] double effective(double porosity) const {
     if (porosity <= critical_porosity || critical_porosity >= failure_porosity) return porosity;
     const double acceleration = (1.0 / q1 - critical_porosity) / (failure_porosity - critical_porosity);
     return critical_porosity + acceleration * (porosity - critical_porosity);
   }
-  /// g
+  /// Returns g.
   [[nodiscard]] double yield(double equivalent, double pressure, double flow, double porosity) const {
     const double a = q1 * effective(porosity), q = equivalent / flow;
     return q * q + 2.0 * a * std::cosh(1.5 * q2 * pressure / flow) - 1.0 - a * a;
   }
 
-  /// Stress on material and voids together, and the plastic strain increments of a return.
+  /// Holds the stress on material and voids together, and the plastic strain increments of a return.
   struct Return {
     double equivalent, pressure;     ///< Pa
     double equivalent_strain = 0.0;  ///< work-conjugate to the equivalent stress
-    double volumetric_strain = 0.0;  ///< positive: voids grow
+    double volumetric_strain = 0.0;  ///< positive if voids grow
   };
-  /// Along the normal of the surface from the trial stress. With the pressure P as the unknown, the normal
-  /// gives the multiplier lambda = (P_t - P)/(2 K a b sinh(b P)) and Q = Q_t/(1 + 6 G lambda/Y^2); g falls
-  /// monotonically from the trial pressure to P = 0, where it is -(1 - a)^2. Regula falsi (Illinois) between.
+  /// Returns the stress along the normal of the surface from the trial stress. With the pressure P as the unknown, the
+  /// normal gives the multiplier lambda = (P_t - P)/(2 K a b sinh(b P)) and Q = Q_t/(1 + 6 G lambda/Y^2); g decreases
+  /// monotonically from the trial pressure to P = 0, where it is -(1 - a)^2. Regula falsi (Illinois) between these.
   /// @param bulk, shear  moduli of material and voids together, Pa
   [[nodiscard]] Return return_to_surface(double trial, double trial_pressure, double bulk, double shear,
                                          double flow, double porosity) const {
@@ -147,7 +147,7 @@ struct Gurson {
       const double total = state.volume[i] + state.void_volume[i];
       const double porosity = state.void_volume[i] / total;
       if (porosity == 0.0 && nucleated_porosity == 0.0) continue;
-      if (!(state.flow_stress[i] > 0.0)) {  // molten: the voids make it a spray
+      if (!(state.flow_stress[i] > 0.0)) {  // molten: a spray with its voids
         if (porosity > 0.0) failed[i] = void_growth;
         continue;
       }
@@ -159,7 +159,7 @@ struct Gurson {
                                (share * state.flow_stress[i]);
       double grown = porosity + share * r.volumetric_strain;
       if (r.pressure < 0.0) grown += nucleation_rate(old_strain) * increment;
-      constexpr double greatest_step = 0.1;  // of the material's volume
+      constexpr double greatest_step = 0.1;  // fraction of the material's volume
       grown = std::clamp(grown, std::max(0.0, porosity - greatest_step), porosity + greatest_step * share);
       const double volume = total * (1.0 - grown);
       state.pressure[i] += state.bulk_modulus[i] * (state.volume[i] - volume) / state.volume[i];
@@ -172,7 +172,7 @@ struct Gurson {
       if (damage[i] >= 1.0) failed[i] = void_growth;
     }
   }
-  /// df/dep of the nucleation.
+  /// Returns df/dep of the nucleation.
   [[nodiscard]] double nucleation_rate(double plastic_strain) const {
     const double x = (plastic_strain - nucleation_strain) / nucleation_scatter;
     return nucleated_porosity / (nucleation_scatter * std::sqrt(2.0 * std::numbers::pi)) *

@@ -13,12 +13,13 @@ namespace whipple::failure {
 
 /// Ductile fracture by accumulated damage: dD = dep / (eps_f k), failed at D = 1, with
 ///   eps_f = [D1 + D2 exp(D3 t)] [1 + D4 ln max(1, rate/rate_0)] [1 + D5 T*],
-///   t = sigma_m / sigma_eq (mean over equivalent stress, tension positive), T* = (T - T_r)/(T_m - T_r) in
-/// [0, 1], k the scatter of the threshold. The tests behind the constants reach t = 1.5; beyond, t is taken as 1.5. Several
-/// published sets make eps_f negative below that: `least_failure_strain` bounds it. Plastic strain does no damage outside
-/// of `least_triaxiality` and `greatest_triaxiality`: nothing breaks in compression beyond that of upsetting, t = -1/3
-/// (Y. Bao, T. Wierzbicki, Eng. Fract. Mech. 72 (2005) 1049), and in strong tension voids grow, for which there is a
-/// criterion of its own. Source: G. R. Johnson, W. H. Cook, Eng. Fract. Mech. 21 (1985) 31-48, eq. 3 to 5.
+///   t = sigma_m / sigma_eq (mean over equivalent stress, tension positive), T* = (T - T_r)/(T_m - T_r) in [0, 1],
+/// k the scatter of the threshold. The tests behind the constants extend to t = 1.5, beyond which t is held constant.
+/// Several published sets give a negative eps_f below that: `least_failure_strain` is its lower bound. Plastic strain
+/// causes no damage outside of `least_triaxiality` and `greatest_triaxiality`: there is no fracture in compression
+/// beyond that of upsetting, t = -1/3 (Y. Bao, T. Wierzbicki, Eng. Fract. Mech. 72 (2005) 1049), and in strong tension
+/// voids grow, for which there is a separate criterion. Source: G. R. Johnson, W. H. Cook, Eng. Fract. Mech. 21 (1985)
+/// 31-48, eq. 3 to 5.
 struct JohnsonCookDamage {
   static constexpr bool accumulates = true;
   static constexpr bool softens = false;
@@ -78,7 +79,7 @@ struct JohnsonCookDamage {
       throw InputError("'melting_temperature' must be above 'reference_temperature'");
     }
   }
-  /// eps_f. An equation of state without temperature (NaN) counts as cold.
+  /// Returns eps_f. Without a temperature (NaN) of the equation of state there is no softening.
   [[nodiscard]] double failure_strain(double triaxiality, double rate, double temperature) const {
     return failure_strain(broadcast(triaxiality), broadcast(rate), broadcast(temperature))[0];
   }
@@ -106,7 +107,7 @@ struct JohnsonCookDamage {
       const Lanes limit = failure_strain(triaxiality, increment / state.time_step,
                                          load(&state.temperature[i], count, reference_temperature));
       for (std::size_t k = 0; k < count; ++k) {
-        // An equivalent stress of 0: no solid is left.
+        // At an equivalent stress of 0 there is no solid.
         if (failed[i + k] != intact || !(increment[k] > 0.0) || !(equivalent[k] > 0.0) ||
             triaxiality[k] < least_triaxiality || triaxiality[k] > greatest_triaxiality) {
           continue;

@@ -8,12 +8,13 @@
 
 namespace whipple::failure {
 
-/// Ductile failure that takes an energy per area: beyond a limit of the plastic strain stress falls in proportion to the
-/// opening of the band that the strain is localised in, one cell wide, only in tension (docs/theory/material.md, eq. 19a).
+/// Ductile failure with an energy per area: beyond a limit of the plastic strain the stress decreases in proportion to
+/// the opening of the band in which the strain is localised, one cell wide, only in tension (docs/theory/material.md,
+/// eq. 19a).
 struct Tearing : Threshold {
   static constexpr bool accumulates = true;
   static constexpr bool softens = true;
-  /// Damage that counts as complete: from less the stress between the cracks can be read.
+  /// Damage that counts as complete: beyond it the stress between the cracks cannot be computed.
   static constexpr double complete = 0.999;
 
   double failure_strain = 0.0;   ///< ep_f

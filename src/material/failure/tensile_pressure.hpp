@@ -9,7 +9,7 @@
 
 namespace whipple::failure {
 
-/// Response of a point at the spall strength.
+/// Selects the response of a point at the spall strength.
 enum class SpallResponse : std::uint8_t { failure, opening, cut_off };
 constexpr std::array<Word<SpallResponse>, 3> words(SpallResponse) {
   return {{{SpallResponse::failure, "failure"},
@@ -17,18 +17,18 @@ constexpr std::array<Word<SpallResponse>, 3> words(SpallResponse) {
            {SpallResponse::cut_off, "cut_off"}}};
 }
 
-/// Spall at a constant tensile pressure p_cut (1 - f) k (Pa), with the melted fraction f and the scatter k of
-/// the threshold; the tensile strength vanishes with the solid. What happens there is the `response`:
+/// Spall at a constant tensile pressure p_cut (1 - f) k (Pa), with the melted fraction f and the scatter k of the
+/// threshold; the tensile strength vanishes with the solid. The `response` is one of:
 ///   failure  p < -p_cut: the point fails permanently; it keeps its pressure, but neither tension nor deviator.
-///            Fully melted material fails as soon as p < 0: it parts into drops.
-///   opening  the same, but once pressure has closed its void the point is whole again: pressure, tension and,
-///            from zero on, the deviator.
-///   cut_off  the pressure is held at -p_cut, the rest of the volume is void; the deviator stays and nothing
-///            fails. Compression closes the void first.
-/// Source: D. R. Curran, L. Seaman, D. A. Shockey, Dynamic failure of solids, Phys. Rep. 147 (1987) 253-388,
-/// of which the constant spall strength is the simplest form; the three responses are those of hydrocodes
-/// (J. O. Hallquist, LS-DYNA Theory Manual (2006), spall models of material 10: cut-off, and zero deviator
-/// with tension no longer allowed); the linear loss with melting is this project's choice.
+///            Fully melted material fails as soon as p < 0: it breaks into drops.
+///   opening  as failure, but once pressure has closed its void the point is intact again: pressure, tension and,
+///            from zero, the deviator.
+///   cut_off  the pressure is held at -p_cut, the excess volume is void; the deviator is kept and nothing fails.
+///            Compression closes the void first.
+/// Source: D. R. Curran, L. Seaman, D. A. Shockey, Dynamic failure of solids, Phys. Rep. 147 (1987) 253-388, of which
+/// the constant spall strength is the simplest form; the three responses are those of hydrocodes (J. O. Hallquist,
+/// LS-DYNA Theory Manual (2006), spall models of material 10: cut-off, and zero deviator with tension no longer
+/// allowed); the linear decrease with melting is this project's choice.
 struct TensilePressure : Threshold {
   double spall_strength = 0.0;  ///< p_cut, Pa
   SpallResponse response = SpallResponse::failure;
@@ -66,10 +66,10 @@ struct TensilePressure : Threshold {
       if (failed[i] == intact && state.pressure[i] < -strength) failed[i] = tensile;
     }
   }
-  /// Holds the pressure at the cut-off: material and void share the volume so that p = -p_cut beside a void.
+  /// Holds the pressure at the cut-off: the volume is divided into material and void so that p = -p_cut next to a void.
   void grow_voids(const PorousState& state, std::span<double> /*damage*/,
                   std::span<std::uint8_t> failed) const {
-    constexpr double greatest_step = 0.1;  // of the material's volume
+    constexpr double greatest_step = 0.1;  // fraction of the material's volume
     for (std::size_t i = 0; i < failed.size(); ++i) {
       const double least = -spall_strength * (1.0 - state.melted_fraction[i]) * state.threshold_factor[i];
       const bool is_open = state.void_volume[i] > 0.0;

@@ -11,7 +11,7 @@
 
 namespace whipple::failure {
 
-/// The tension that accumulates.
+/// Selects the tension that accumulates.
 enum class Tension : std::uint8_t { principal_stress, mean_stress };
 constexpr std::array<Word<Tension>, 2> words(Tension) {
   return {{{Tension::principal_stress, "principal_stress"}, {Tension::mean_stress, "mean_stress"}}};
@@ -19,13 +19,13 @@ constexpr std::array<Word<Tension>, 2> words(Tension) {
 
 /// Spall by accumulated tension: a point fails (code 8) where
 ///   integral of (sigma/sigma_0 - 1)^lambda dt = tau,  sigma > sigma_0,
-/// the criterion integral of (sigma - sigma_0)^lambda dt = K of the source with K = sigma_0^lambda tau
-/// (Pa^lambda s): under a constant tension of 2 sigma_0 it takes the time tau. sigma is the greatest
-/// principal stress, the stress across the spall plane of the source, or the mean stress -p (both objective).
-/// sigma_0 is multiplied by the solid fraction and by the scatter of the threshold; fully melted material fails
-/// where p < 0 (code 1). Damage is the integral over tau and acts on nothing before it is complete. With
-/// `healing` a point that has failed is whole again, without damage and deviator, once pressure has closed
-/// its void. Source: F. R. Tuler, B. M. Butcher, Int. J. Fract. Mech. 4 (1968) 431-437.
+/// the criterion integral of (sigma - sigma_0)^lambda dt = K of the source with K = sigma_0^lambda tau (Pa^lambda s):
+/// under a constant tension of 2 sigma_0 failure takes the time tau. sigma is the largest principal stress, the stress
+/// across the spall plane of the source, or the mean stress -p (both objective). sigma_0 is multiplied by the solid
+/// fraction and by the scatter of the threshold; fully melted material fails where p < 0 (code 1). The damage is the
+/// integral over tau and has no effect before it is complete. With `healing` a failed point is intact again, without
+/// damage and deviator, once pressure has closed its void. Source: F. R. Tuler, B. M. Butcher, Int. J. Fract. Mech. 4
+/// (1968) 431-437.
 struct TulerButcher {
   static constexpr bool accumulates = true;
   static constexpr bool softens = false;
@@ -60,7 +60,7 @@ struct TulerButcher {
       "melted material fails (code 1) where p < 0. Constants K of the literature: time = "
       "K/threshold^exponent.\n"
       "Source: Tuler and Butcher, Int. J. Fract. Mech. 4 (1968) 431.";
-  void require_consistent() const {}  // the ranges of the constants say it all
+  void require_consistent() const {}  // ensured by the ranges of the constants
 
   [[nodiscard]] Code healing_code() const { return healing ? spalled : intact; }
 

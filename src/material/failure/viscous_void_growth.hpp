@@ -8,22 +8,22 @@
 
 namespace whipple::failure {
 
-/// Ductile spall by voids that grow at a rate: with the distension alpha = alpha_0 + V_v/V of the material V
-/// beside its voids V_v (m^3) and the mean pressure P = p/alpha on both (Pa, positive in compression),
+/// Ductile spall by rate-dependent growth of voids: with the distension alpha = alpha_0 + V_v/V of the material volume
+/// V and the void volume V_v (m^3), and the mean pressure P = p/alpha on both (Pa, positive in compression),
 ///   d(alpha)/dt = -(alpha_0 - 1)^(2/3)/eta alpha (alpha - 1)^(1/3) (P + P_s)  where P < -P_s,
 ///   the same with P - P_s                                                      where P > +P_s,
 ///   P_s = a_s k (1 - f)/alpha ln(alpha/(alpha - 1)),
-/// and nothing between. a_s is the resistance of the solid (2/3 of its yield stress in the static hollow
-/// sphere of Carroll and Holt), eta a viscosity (Pa s), times 1 - f, alpha_0 - 1 the volume of the nuclei
-/// from which the voids grow and to which they close (no void is stored for them, they have no weight), f the
-/// melted fraction, k the scatter of the threshold. The static spall strength is a_s ln(alpha_0/(alpha_0 -
-/// 1)), to a few parts in 1e4; above it the tension that the growth cannot relax rises with the rate. Growth
-/// takes tension off, not the deviator of the material, which acts on the fraction V of the volume; compression
-/// closes the voids. Where the porosity V_v/(V + V_v) reaches `failure_porosity` the voids have met: the
-/// point fails (code 7); melted material where p < 0 or with voids (code 1). With `healing` a failed point is
-/// whole again once pressure has closed its void. The step is implicit in alpha and p at a fixed V + V_v.
-/// Source: J. N. Johnson, J. Appl. Phys. 52 (1981) 2812-2825; M. M. Carroll, A. C. Holt, J. Appl. Phys. 43
-/// (1972) 1626. Nuclei apart from V_v and the factors k and 1 - f are this project's choice.
+/// and zero in between. a_s is the resistance of the solid (2/3 of its yield stress in the static hollow sphere of
+/// Carroll and Holt), eta a viscosity (Pa s), multiplied by 1 - f, alpha_0 - 1 the volume of the nuclei from which the
+/// voids grow and to which they close (they have no stored void volume and no weight), f the melted fraction, k the
+/// scatter of the threshold. The static spall strength is a_s ln(alpha_0/(alpha_0 - 1)), within a few parts in 1e4;
+/// above it the tension that the growth cannot relax increases with the rate. Growth reduces the tension, not the
+/// deviator of the material, which acts on the fraction V of the volume; compression closes the voids. Where the
+/// porosity V_v/(V + V_v) reaches `failure_porosity` the voids have coalesced and the point fails (code 7); melted
+/// material fails where p < 0 or with voids (code 1). With `healing` a failed point is intact again once pressure has
+/// closed its void. The step is implicit in alpha and p at a fixed V + V_v. Source: J. N. Johnson, J. Appl. Phys. 52
+/// (1981) 2812-2825; M. M. Carroll, A. C. Holt, J. Appl. Phys. 43 (1972) 1626. Nuclei separate from V_v and the factors
+/// k and 1 - f are this project's choice.
 struct ViscousVoidGrowth : Threshold {
   double resistance = 0.0;         ///< a_s, Pa
   double viscosity = 0.0;          ///< eta, Pa s
@@ -64,22 +64,23 @@ struct ViscousVoidGrowth : Threshold {
 
   [[nodiscard]] Code healing_code() const { return healing ? void_growth : intact; }
 
-  /// P_s, Pa, of a resistance
+  /// Returns P_s (Pa) for a resistance (Pa).
   [[nodiscard]] static double static_pressure(double resistance, double alpha) {
     return resistance / alpha * std::log(alpha / (alpha - 1.0));
   }
-  /// A point in the step: what moves from the material to the void changes both alpha and the pressure.
+  /// Describes a point in the step: volume that is moved from the material to the void changes both alpha and the
+  /// pressure.
   struct Point {
     double volume, void_volume;  ///< m^3
     double pressure, modulus;    ///< Pa
-    double resistance;           ///< Pa, with melting and scatter
-    double viscosity;            ///< Pa s, with melting
+    double resistance;           ///< with melting and scatter, Pa
+    double viscosity;            ///< with melting, Pa s
   };
   [[nodiscard]] double distension(const Point& point, double moved) const {
     return 1.0 + nuclei + (point.void_volume + moved) / (point.volume - moved);
   }
-  /// Excess of the growth (of alpha) over what the rate allows; 0 at the end of the step.
-  /// @param moved  m^3, from material to void
+  /// Returns the excess of the growth of alpha over that allowed by the rate; 0 at the end of the step.
+  /// @param moved  volume moved from material to void, m^3
   /// @param sign   1: in tension, -1: in compression
   [[nodiscard]] double excess(const Point& point, double moved, double sign, double time_step) const {
     const double alpha = distension(point, moved);
@@ -88,9 +89,9 @@ struct ViscousVoidGrowth : Threshold {
     const double rate = std::cbrt(nuclei * nuclei * (alpha - 1.0)) * alpha / point.viscosity * drive;
     return alpha - distension(point, 0.0) - time_step * rate;
   }
-  /// Volume (m^3) that moves from material to void in the step; negative: the void closes.
+  /// Returns the volume (m^3) that moves from material to void in the step; negative if the void closes.
   [[nodiscard]] double moved_volume(const Point& point, double time_step) const {
-    constexpr double greatest_step = 0.1;  // of the material's volume
+    constexpr double greatest_step = 0.1;  // fraction of the material's volume
     const double sign = point.pressure < 0.0 ? 1.0 : -1.0;
     const double at_rest = excess(point, 0.0, sign, time_step);
     if (sign * at_rest >= 0.0) return 0.0;  // within the static pressures

@@ -9,7 +9,7 @@
 namespace whipple::reaction {
 namespace {
 
-/// `Law` has name, summary, theory and parameters(); the rate law is made from it.
+/// Returns the entry of a law. `Law` has name, summary, theory and parameters(); the rate law is constructed from it.
 template <class Law>
 ReactionEntry entry() {
   return catalogue_entry<ReactionEntry>(

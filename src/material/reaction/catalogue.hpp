@@ -8,7 +8,7 @@ namespace whipple::reaction {
 
 using ReactionEntry = CatalogueEntry<const Reaction>;
 
-/// All rate laws of explosives, one line each.
+/// Returns all rate laws of explosives.
 const Catalogue<ReactionEntry>& catalogue();
 
 }  // namespace whipple::reaction

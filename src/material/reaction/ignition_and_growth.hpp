@@ -10,19 +10,19 @@
 
 namespace whipple::reaction {
 
-/// Ignition and growth (E. L. Lee, C. M. Tarver, Phys. Fluids 23 (1980) 2362, with the two growth terms of C.
-/// M. Tarver, J. O. Hallquist, L. M. Erickson, 8th Symp. (Int.) on Detonation (1985) 951), with P = p/p_r and
-/// eta = rho/rho0 - 1:
+/// Ignition and growth (E. L. Lee, C. M. Tarver, Phys. Fluids 23 (1980) 2362, with the two growth terms of C. M.
+/// Tarver, J. O. Hallquist, L. M. Erickson, 8th Symp. (Int.) on Detonation (1985) 951), with P = p/p_r and eta =
+/// rho/rho0 - 1:
 ///   dF/dt = I (1 - F)^b (eta - a)^x        while F < F_i and eta > a  (hot spots behind the shock)
 ///         + G1 (1 - F)^c F^d P^y           while F < F_1              (their growth)
-///         + G2 (1 - F)^e F^g P^z           from F = F_2 on            (completion)
-/// Rates count at the pressure p_r, by default 100 GPa: those of tables in Mbar and us are then in 1/us as
-/// they are printed. Reactant and products are at one pressure and temperature. Steps of F of at most
-/// `largest_step`, each by the midpoint rule, at constant compression and pressure.
+///         + G2 (1 - F)^e F^g P^z           for F >= F_2               (completion)
+/// Rates refer to the pressure p_r, by default 100 GPa: those of tables in Mbar and us are then in 1/us as printed.
+/// Reactant and products have one pressure and temperature. F advances in steps of at most `largest_step`, each by the
+/// midpoint rule, at constant compression and pressure.
 struct IgnitionAndGrowth {
   static constexpr Closure closure = Closure::equilibrium;
   static constexpr double largest_step = 0.02;
-  static constexpr double nearness = 1e-9;  ///< relative, to a limit at which a term begins or ends
+  static constexpr double nearness = 1e-9;  ///< relative distance from a limit at which a term begins or ends
 
   double rate_pressure = 1e11;        ///< p_r, Pa
   double ignition_rate = 0.0;         ///< I, 1/s
@@ -83,7 +83,7 @@ struct IgnitionAndGrowth {
           "'ignition_rate' and 'ignition_end' must be positive: growth starts from what has ignited");
     }
   }
-  /// dF/dt of a point.
+  /// Returns dF/dt of a point.
   [[nodiscard]] double rate(double F, double compression, double pressure) const {
     const double left = 1.0 - F, eta = compression - 1.0 - ignition_threshold, P = pressure / rate_pressure;
     if (!(left > 0.0)) return 0.0;
@@ -112,7 +112,7 @@ struct IgnitionAndGrowth {
         if (!(at_start > 0.0)) break;
         const double next = next_limit(F), room = std::min(next - F, largest_step);
         const double trial = std::min(left, room / at_start), middle = F + 0.5 * trial * at_start;
-        // Next to a limit, closer than numbers resolve, nothing lies in the middle.
+        // Closer to a limit than the resolution of numbers, the midpoint is not inside the step.
         const double slope = middle > F && middle < next ? rate_at(middle) : at_start;
         const double step = std::min(trial, room / slope), burns = step * slope;
         F = burns < (1.0 - nearness) * (next - F) ? F + burns : next;
@@ -122,7 +122,7 @@ struct IgnitionAndGrowth {
   }
 
  private:
-  /// The least burn fraction above F at which a term begins or ends: no step passes it.
+  /// Returns the smallest burn fraction above F at which a term begins or ends: no step crosses it.
   [[nodiscard]] double next_limit(double F) const {
     double next = 1.0;
     for (const double limit : {ignition_end, growth_end, completion_start})

@@ -12,27 +12,27 @@
 #include "src/core/base/parameter_table.hpp"
 #include "src/core/base/words.hpp"
 
-/// Rate laws by which an explosive turns into its products (docs/theory/burn.md, section 4).
+/// Rate laws by which an explosive burns to its products (docs/theory/burn.md, section 4).
 namespace whipple::reaction {
 
-/// Points of an explosive over a step (SI).
+/// Holds points of an explosive over a step (SI units).
 struct State {
   double time_step;                     ///< s
-  std::span<const double> compression;  ///< rho/rho0, at the end of the step
-  std::span<const double> pressure;  ///< Pa, of reactant and products together, at the beginning of the step
+  std::span<const double> compression;  ///< rho/rho0 at the end of the step
+  /// Common pressure of reactant and products at the beginning of the step, Pa.
+  std::span<const double> pressure;
 };
 
-/// What reactant and products have in common while a point burns.
+/// Selects the condition that couples reactant and products while a point burns.
 enum class Closure : std::uint8_t {
-  volume,       ///< they fill the point both: their pressures add with the weights 1 - F and F
+  volume,       ///< both fill the point: their pressures are added with the weights 1 - F and F
   equilibrium,  ///< they share its volume and energy at one pressure and temperature
 };
 constexpr std::array<Word<Closure>, 2> words(Closure) {
   return {{{Closure::volume, "volume"}, {Closure::equilibrium, "equilibrium"}}};
 }
 
-/// A rate law: the fraction F of the mass that has burnt follows the state of the point, dF/dt = r(F, rho,
-/// p).
+/// Interface of the rate laws: the burnt mass fraction F follows the state of the point, dF/dt = r(F, rho, p).
 class Reaction {
  public:
   virtual ~Reaction() = default;
@@ -41,11 +41,11 @@ class Reaction {
   [[nodiscard]] virtual Closure closure() const = 0;
   /// Advances the burn fractions over the step at constant compression and pressure; they do not decrease.
   virtual void advance(const State& state, std::span<double> burnt) const = 0;
-  /// All constants with units as lines of a table [reaction].
+  /// Returns all constants with units as lines of a table [reaction].
   [[nodiscard]] virtual std::string constants() const = 0;
 };
 
-/// `Law` has name, parameters(), closure, require_consistent() and advance().
+/// Implements the interface for a law. `Law` has name, parameters(), closure, require_consistent() and advance().
 template <class Law>
 class ReactionModel final : public Reaction {
  public:

@@ -11,35 +11,36 @@
 #include "src/material/strength/elastic_constants.hpp"
 #include "src/material/strength/strength.hpp"
 
-/// Brittle material: strength that follows the pressure and falls with damage (docs/theory/
-/// concrete_and_ceramics.md).
+/// Brittle material: the strength follows the pressure and decreases with damage
+/// (docs/theory/concrete_and_ceramics.md).
 namespace whipple::strength {
 
-/// A chunk of points after the equation of state (SI), one entry per point.
+/// Holds a chunk of points after the equation of state (SI units), one entry per point.
 struct BrittleState {
-  double bulk_modulus;                       ///< Pa, rho c^2 of the reference state
-  std::span<const double> pressure;          ///< Pa, of the equation of state; no gaps left if there were any
-  std::span<const double> modulus;           ///< Pa, shear, with melting
-  std::span<const double> solid_fraction;    ///< 1 - melted fraction
-  std::span<const double> trial;             ///< Pa, equivalent trial stress of the deviator
-  std::span<const double> rate;              ///< 1/s, equivalent strain rate
-  std::span<const double> lode_cosine;       ///< cos 3 theta of the trial deviator; empty unless asked for
-  std::span<const double> compaction;        ///< growth of the compression at rest by crushed pores
-  std::span<const double> crush_pressure;    ///< Pa, at which the pores give way; infinite: none left
+  double bulk_modulus;               ///< rho c^2 of the reference state, Pa
+  std::span<const double> pressure;  ///< of the equation of state, as if the material filled its voids, Pa
+  std::span<const double> modulus;   ///< shear modulus with melting, Pa
+  std::span<const double> solid_fraction;    ///< solid fraction; 0 where the point has failed
+  std::span<const double> trial;             ///< equivalent trial stress of the deviator, Pa
+  std::span<const double> rate;              ///< equivalent strain rate, 1/s
+  std::span<const double> lode_cosine;       ///< cos 3 theta of the trial deviator; empty unless needed
+  std::span<const double> compaction;        ///< increase of the compression at rest by crushed pores
+  std::span<const double> crush_pressure;    ///< at which the pores collapse, Pa; infinite: no pores
   std::span<const double> threshold_factor;  ///< scatter of the failure strain (1: none)
-  std::span<double> equivalent;              ///< Pa, equivalent stress: out
+  std::span<double> equivalent;              ///< equivalent stress, Pa; out
   std::span<double> plastic_increment;       ///< out
   std::span<double> plastic_strain;          ///< in and out
   std::span<double> damage;                  ///< in and out
-  std::span<double> least_pressure;          ///< Pa, tension at which gaps open: out
-  std::span<double> bulking_pressure;        ///< Pa, gained by bulking: out
+  std::span<double> least_pressure;          ///< pressure at which voids open, Pa; out
+  std::span<double> bulking_pressure;        ///< pressure gained by bulking, Pa; out
 };
 
-/// The part of a strength model that acts once the pressure of the step is known; one virtual call per chunk.
+/// Interface of the part of a strength model that acts once the pressure of the step is known, with one virtual call
+/// per chunk.
 class Brittle {
  public:
   virtual ~Brittle() = default;
-  /// Returns the deviator to the strength, lets damage grow, says at which tension gaps open.
+  /// Returns the deviator to the strength, advances the damage, and computes the pressure at which voids open.
   virtual void relax(const BrittleState& state) const = 0;
   /// Returns whether lost shear energy is converted to pressure (bulking).
   [[nodiscard]] virtual bool bulks() const { return false; }
@@ -47,9 +48,9 @@ class Brittle {
   [[nodiscard]] virtual bool needs_lode_angle() const { return false; }
 };
 
-/// State of a point in a step.
+/// Describes the state of a point in a step.
 struct BrittlePoint {
-  double pressure;  ///< Pa, tension at most that at which gaps open
+  double pressure;  ///< not below the pressure at which voids open, Pa
   double rate;      ///< 1/s
   double lode_cosine = 1.0;
   double plastic_strain = 0.0;
@@ -58,12 +59,11 @@ struct BrittlePoint {
   double crush_pressure = std::numeric_limits<double>::infinity();
 };
 
-/// Strength at a pressure and a rate, linear in the damage up to a bound, Y = min(whole - D fall, greatest),
-/// not below 0,
-/// and the plastic strain over which the damage goes from 0 to 1.
+/// Describes the strength at a pressure and a rate, linear in the damage up to a bound, Y = min(whole - D fall,
+/// greatest), not below 0, and the plastic strain over which the damage increases from 0 to 1.
 struct BrittleSurface {
-  double whole;     ///< Pa, at D = 0
-  double fall;      ///< Pa, >= 0
+  double whole;     ///< at D = 0, Pa
+  double fall;      ///< >= 0, Pa
   double greatest;  ///< Pa
   double failure_strain;
 
@@ -74,12 +74,12 @@ struct BrittleSurface {
 
 struct BrittleReturn {
   double increment;  ///< of the equivalent plastic strain
-  double damage;     ///< after it
+  double damage;     ///< after the return
 };
 
-/// Closed solution of q - 3 G x = Y(D + x/eps_f), the return to a surface that falls while it is returned to
-/// (docs/theory/concrete_and_ceramics.md, eq. 8). Where it falls faster than the stress, the point breaks at
-/// once: D = 1.
+/// Returns the closed solution of q - 3 G x = Y(D + x/eps_f), the return to a surface that decreases during the return
+/// (docs/theory/concrete_and_ceramics.md, eq. 8). Where it decreases faster than the stress, the point breaks at once:
+/// D = 1.
 inline BrittleReturn brittle_return(double trial, double stiffness, const BrittleSurface& y, double damage) {
   if (trial <= y.strength(damage)) return {0.0, damage};
   if (damage < 1.0 && y.failure_strain > 0.0) {
@@ -92,13 +92,13 @@ inline BrittleReturn brittle_return(double trial, double stiffness, const Brittl
   return {std::max(0.0, trial - y.strength(1.0)) / stiffness, 1.0};
 }
 
-/// The run-time face of a brittle law. A law is a plain struct of constants that derives from
+/// Implements the interfaces for a brittle law. A law is a plain struct of constants that derives from
 /// ElasticConstants, with name, summary, theory, parameters(), require_consistent() and
 ///   surface(point) -> BrittleSurface              strength and failure strain at point.pressure, point.rate
 ///   least_pressure(point) -> double               Pa, <= 0, at point.damage
 ///   crushed_strain(point) -> double               strain that crushed pores add to the damage
-/// and, where it does more, bulking (fraction of the lost shear energy that becomes pressure), or
-/// hardening(trial, stiffness, surface, point) -> BrittleReturn (strain hardening before any damage).
+/// and optionally bulking (fraction of the lost shear energy that becomes pressure) or hardening(trial, stiffness,
+/// surface, point) -> BrittleReturn (strain hardening before any damage).
 template <class Law>
 class BrittleModel final : public Strength, public Brittle {
  public:
@@ -111,7 +111,7 @@ class BrittleModel final : public Strength, public Brittle {
   void shear_modulus(const State&, std::span<double> modulus) const override {
     std::ranges::fill(modulus, modulus_);
   }
-  /// None before the pressure is known: the trial deviator goes through to `relax`.
+  /// Returns no increment: the pressure is not yet known, and the trial deviator is passed to `relax`.
   void plastic_increment(const State&, std::span<const double>, std::span<const double>,
                          std::span<const double>, double, std::span<double> increment) const override {
     std::ranges::fill(increment, 0.0);
@@ -164,7 +164,7 @@ class BrittleModel final : public Strength, public Brittle {
       const BrittleReturn r = step(state.trial[i], stiffness, y, point);
       increment = r.increment;
       point.damage = r.damage;
-      // Broken material lies on its surface to the last bit: without strength it has no stress at all.
+      // The stress of broken material is exactly that of its surface: without strength it has no stress at all.
       const bool broken = increment > 0.0 && r.damage == 1.0;
       state.equivalent[i] =
           broken ? std::min(state.trial[i], y.strength(1.0)) : state.trial[i] - stiffness * increment;
@@ -183,8 +183,8 @@ class BrittleModel final : public Strength, public Brittle {
       return brittle_return(trial, stiffness, y, point.damage);
     }
   }
-  /// Returns the pressure increment from the fraction `bulking` of the shear energy that is lost with the
-  /// strength (docs/theory/concrete_and_ceramics.md, eq. 12).
+  /// Returns the pressure increment from the fraction `bulking` of the shear energy that is lost with the strength
+  /// (docs/theory/concrete_and_ceramics.md, eq. 12).
   double bulking_pressure(const BrittleState& state, std::size_t i, const BrittlePoint& point, double before,
                           const BrittleSurface& y) const {
     if constexpr (requires { law_.bulking; }) {
@@ -200,7 +200,7 @@ class BrittleModel final : public Strength, public Brittle {
   double modulus_;
 };
 
-/// 1 + C ln max(1, rate/rate_0), the rate factor of Johnson and his co-authors; 1 below the reference rate.
+/// Returns 1 + C ln max(1, rate/rate_0), the rate factor of Johnson and co-authors; 1 below the reference rate.
 inline double logarithmic_rate_factor(double coefficient, double rate, double reference_rate) {
   if (coefficient == 0.0 || !(rate > reference_rate)) return 1.0;
   return 1.0 + coefficient * std::log(rate / reference_rate);

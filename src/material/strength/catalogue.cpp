@@ -21,7 +21,7 @@
 namespace whipple::strength {
 namespace {
 
-/// `Constants` has name, summary, theory and parameters(); `Law` is made from them.
+/// Returns the entry of a law. `Constants` has name, summary, theory and parameters(); `Law` is constructed from them.
 template <class Constants, class Law>
 ModelEntry entry() {
   return catalogue_entry<ModelEntry>(

@@ -7,7 +7,7 @@
 namespace whipple::strength {
 
 using ModelEntry = CatalogueEntry<const Strength>;
-/// All strength models, one line each.
+/// Returns all strength models.
 const Catalogue<ModelEntry>& catalogue();
 
 }  // namespace whipple::strength

@@ -8,8 +8,8 @@
 
 namespace whipple::strength {
 
-/// Isotropic elasticity without yield: the deviator follows the objective rate 2 G dev D. Volumetric stress
-/// is that of the equation of state.
+/// Isotropic elasticity without yield: the deviator follows the objective rate 2 G dev D. The equation of state
+/// determines the volumetric stress.
 struct Elastic : ElasticConstants {
   static ParameterTable<Elastic> parameters() { return ElasticConstants::parameters<Elastic>({}); }
   static constexpr const char* name = "elastic";

@@ -8,14 +8,14 @@
 
 namespace whipple::strength {
 
-/// Shear stiffness as it is published: the shear modulus itself, or Young's modulus and Poisson's ratio with
-/// G = E / (2 (1 + nu)). The volumetric stiffness comes from the equation of state alone.
+/// Holds the shear stiffness as published: the shear modulus, or Young's modulus and Poisson's ratio with G = E / (2 (1
+/// + nu)). The equation of state alone determines the volumetric stiffness.
 struct ElasticConstants {
   double shear_modulus = 0.0;   ///< Pa; 0: not given
   double youngs_modulus = 0.0;  ///< Pa; 0: not given
   double poisson_ratio = 0.0;
 
-  /// The table of a model that derives from this struct: the rows of these constants, then its own.
+  /// Returns the table of a model that derives from this struct: these constants, then those of the model.
   template <class Owner>
   static ParameterTable<Owner> parameters(const ParameterTable<Owner>& own) {
     ParameterTable<Owner> table = {
@@ -32,6 +32,7 @@ struct ElasticConstants {
     return table;
   }
 
+  /// Returns the shear modulus, Pa.
   /// @throws InputError unless exactly one of G and E is positive
   [[nodiscard]] double stiffness() const {
     if ((shear_modulus > 0.0) == (youngs_modulus > 0.0)) {

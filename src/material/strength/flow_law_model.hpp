@@ -12,12 +12,13 @@
 
 namespace whipple::strength {
 
-/// The run-time face of a flow law with a constant shear modulus. A law is a plain struct of constants that
-/// derives from ElasticConstants, with
+/// Implements Strength for a flow law with a constant shear modulus. A law is a plain struct of constants that derives
+/// from ElasticConstants, with
 ///   flow_stress(plastic_strain, rate, temperature)                                Pa, of the solid
 ///   increment(trial, plastic_strain, temperature, modulus, solid_fraction, dt)    see Strength
 ///   require_consistent()                                                          throws InputError
-/// and, if it hardens kinematically, kinematic_modulus                             Pa
+/// and, if it hardens kinematically,
+///   kinematic_modulus                                                             Pa
 /// and, if it is a BatchLaw,
 ///   may_yield(trial, temperature, modulus, solid_fraction)                        false: the increment is 0
 ///   solve(points, dt)                                                             instead of `increment`

@@ -8,11 +8,10 @@
 namespace whipple::strength {
 
 /// Common part of the von Mises models whose isotropic hardening depends on the plastic strain alone: elastic
-/// constants, initial yield stress and linear kinematic hardening. The yield surface moves with the back
-/// stress,
+/// constants, initial yield stress and linear kinematic hardening. The yield surface moves with the back stress,
 ///   sqrt(3/2 (s - a):(s - a)) = Y(ep),  da = 2/3 H d(plastic strain),
-/// W. Prager, Proc. Inst. Mech. Eng. 169 (1955) 41; for this surface H. Ziegler's rule, Quart. Appl. Math. 17
-/// (1959) 55, is the same. A law derives from HardeningLaw<Law> and has flow(plastic_strain) -> FlowStress.
+/// W. Prager, Proc. Inst. Mech. Eng. 169 (1955) 41; for this surface H. Ziegler's rule, Quart. Appl. Math. 17 (1959)
+/// 55, is equivalent. A law derives from HardeningLaw<Law> and has flow(plastic_strain) -> FlowStress.
 template <class Law>
 struct HardeningLaw : ElasticConstants {
   double yield_stress = 0.0;       ///< A, Pa
@@ -27,7 +26,7 @@ struct HardeningLaw : ElasticConstants {
                         .optional());
     return ElasticConstants::parameters<Law>(table);
   }
-  void require_consistent() const {}  // the ranges of the constants say it all
+  void require_consistent() const {}  // ensured by the ranges of the constants
 
   [[nodiscard]] double flow_stress(double strain, double /*rate*/ = 0.0, double /*temperature*/ = 0.0) const {
     return law().flow(strain).value;

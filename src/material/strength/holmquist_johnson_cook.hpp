@@ -60,7 +60,7 @@ struct HolmquistJohnsonCook : ElasticConstants {
       "Stresses over f_c, rate that of the total strain; fully damaged material keeps B P*^N.\n"
       "Source: Holmquist, Johnson and Cook, 14th Int. Symp. Ballistics (1993) 591.";
 
-  void require_consistent() const {}  // the ranges of the constants say it all
+  void require_consistent() const {}  // ensured by the ranges of the constants
   [[nodiscard]] double least_pressure(const BrittlePoint& point) const {
     return -tensile_strength * (1.0 - point.damage);
   }

@@ -12,9 +12,9 @@
 namespace whipple::strength {
 namespace {
 
-constexpr double least_strain = 1e-300;  ///< whose power is taken to be 0
+constexpr double least_strain = 1e-300;  ///< largest strain whose power counts as 0
 
-/// (1 + t)^n for 0 <= t <= 0.01: the terms that are left out are below 1e-16.
+/// Computes (1 + t)^n for 0 <= t <= 0.01 by its series; the neglected terms are below 1e-16.
 class Binomial {
  public:
   explicit Binomial(double n) {
@@ -33,18 +33,18 @@ class Binomial {
   std::array<double, 8> c_;
 };
 
-/// Work arrays of the solution, for points that are not finished.
+/// Holds the work arrays of the solution for unfinished points.
 struct Work {
   std::size_t size = 0;
   std::array<std::size_t, batch_size> point;
   BatchValues trial, strain, power, softening, stiffness, lower, upper;
-  BatchValues x;       ///< the increment so far
+  BatchValues x;       ///< current increment
   BatchValues raised;  ///< (strain + x)^n
-  BatchValues rate;    ///< ln of x over that of the reference rate, at least 0
+  BatchValues rate;    ///< ln of the ratio of x to that of the reference rate, at least 0
   std::array<std::uint64_t, batch_size> active;
 };
 
-/// x^n of the first values, in place; 0 for what is too small.
+/// Replaces the first values by x^n; 0 for values that are too small.
 void raise(BatchValues& values, std::size_t size, double n) {
   BatchValues base;
   for (std::size_t k = 0; k < size; ++k) {
@@ -78,7 +78,7 @@ void raise_strains(Work& w, double n, const Binomial& binomial) {
   for (std::size_t k = 0; k < count; ++k) w.raised[large[k]] = values[k];
 }
 
-/// The increments go to their points; those that are still active stay.
+/// Stores the increments of all points and removes the finished ones.
 void drop_solved(Work& w, YieldingPoints& points) {
   std::array<std::size_t, batch_size> left;
   std::size_t count = 0;
@@ -99,11 +99,11 @@ void drop_solved(Work& w, YieldingPoints& points) {
 
 }  // namespace
 
-/// Root of f(x) = q - 3 G x - w Y(ep + x, x/dt, T). f falls monotonically from f(0) > 0 to
-/// f((q - w Y(ep, 0, T)) / 3G) <= 0, which brackets it. Halley's method from the root for linear hardening;
-/// where a step leaves the bracket (the logarithm is steep for small increments), Newton in ln x, which
-/// approaches from the right, replaces it, and bisection at the kink of the reference rate. Mostly one
-/// evaluation. Every point takes the steps that it would take alone.
+/// Solves f(x) = q - 3 G x - w Y(ep + x, x/dt, T) = 0. f decreases monotonically from f(0) > 0 to f((q - w Y(ep, 0, T))
+/// / 3G) <= 0, which brackets the root. Halley's method starts from the root for linear hardening; where a step leaves
+/// the bracket (the logarithm is steep for small increments), it is replaced by a Newton step in ln x, which approaches
+/// from the right, and by bisection at the kink of the reference rate. Usually one evaluation suffices. The iteration
+/// of a point does not depend on the other points.
 WHIPPLE_KERNEL void JohnsonCook::solve(YieldingPoints& points, double dt) const {
   const std::size_t n = points.size;
   const double A = yield_stress, B = hardening_coefficient, C = rate_coefficient,
@@ -133,8 +133,8 @@ WHIPPLE_KERNEL void JohnsonCook::solve(YieldingPoints& points, double dt) const 
   } else {
     std::fill_n(w.power.begin(), n, 0.0);
   }
-  // Bracket, and the root without the rate. With rate it is, for linear hardening, the root of
-  // S x + a ln(x/l) = b, b = q - w Y(ep, 0, T) and a = C w Y: z + ln z = K of z = S x/a.
+  // Bracket, and the root without rate effect. With it, for linear hardening, x is the root of S x + a ln(x/l) = b, b =
+  // q - w Y(ep, 0, T) and a = C w Y: z + ln z = K with z = S x/a.
   BatchValues slope, logarithmic, logarithm, argument;
   for (std::size_t k = 0; k < n; ++k) {
     const double yield = w.softening[k] * (A + B * w.power[k]);
@@ -152,9 +152,9 @@ WHIPPLE_KERNEL void JohnsonCook::solve(YieldingPoints& points, double dt) const 
     argument[k] = yields ? excess / a : 1.0;
   }
   if (C > 0.0) {
-    // z by the asymptotic series of Wright's omega function (R. M. Corless and D. J. Jeffrey, LNCS 2385
-    // (2002) 76), for K < 1 roughly, and a step of fourth order (F. N. Fritsch, R. E. Shafer and W. P.
-    // Crowley, Commun. ACM 16 (1973) 123); then what the rate adds to the hardening.
+    // z by the asymptotic series of Wright's omega function (R. M. Corless and D. J. Jeffrey, LNCS 2385 (2002) 76),
+    // approximately for K < 1, and one step of fourth order (F. N. Fritsch, R. E. Shafer and W. P. Crowley, Commun. ACM
+    // 16 (1973) 123); then the contribution of the rate to the hardening.
     BatchValues start;
     for (std::size_t k = 0; k < n; ++k) {
       logarithm[k] = rough_log(logarithmic[k] * per_least);
@@ -217,8 +217,7 @@ WHIPPLE_KERNEL void JohnsonCook::solve(YieldingPoints& points, double dt) const 
     for (std::size_t k = 0; k < w.size; ++k) {
       const bool open = w.active[k] != 0, inside = next[k] > w.lower[k] && next[k] < w.upper[k];
       const double instead = w.lower[k] > 0.0 ? 0.5 * (w.lower[k] + w.upper[k]) : w.x[k] * newton[k];
-      // The error of a step of Halley's method goes with the third power of the one before, over three at
-      // most.
+      // The error after a step of Halley's method is at most about a third of the cube of the previous one.
       const bool near = inside && std::abs(next[k] - w.x[k]) <= 3e-4 * w.x[k];
       w.x[k] = open ? (inside ? next[k] : instead) : w.x[k];
       w.active[k] = open && !near && w.upper[k] - w.lower[k] > 1e-15 * w.upper[k] ? 1 : 0;

@@ -58,7 +58,7 @@ struct JohnsonCook : ElasticConstants {
       throw InputError("'melting_temperature' must be above 'reference_temperature'");
     }
   }
-  /// 1 - T*^m; an equation of state without temperature (NaN) does not soften.
+  /// Returns 1 - T*^m; without a temperature (NaN) of the equation of state there is no softening.
   [[nodiscard]] double thermal_factor(double temperature) const {
     const double homologous =
         (temperature - reference_temperature) / (melting_temperature - reference_temperature);
@@ -72,15 +72,15 @@ struct JohnsonCook : ElasticConstants {
     return (yield_stress + hardening) * rate_factor * thermal_factor(temperature);
   }
 
-  /// False where a point stays elastic whatever its hardening: spares the powers of most elastic points.
+  /// Returns false if a point remains elastic whatever its hardening: avoids the powers for most elastic points.
   [[nodiscard]] bool may_yield(double trial, double temperature, double /*modulus*/, double solid) const {
-    const double per_span = 1.0 / (melting_temperature - reference_temperature);  // the same for all points
+    const double per_span = 1.0 / (melting_temperature - reference_temperature);  // equal for all points
     const double homologous = (temperature - reference_temperature) * per_span;
     // T*^m <= T* for m >= 1
     const double least = thermal_exponent >= 1.0 ? std::max(1.0 - homologous, 0.0) : 0.0;
     return trial > solid * yield_stress * (homologous > 0.0 ? least : 1.0);
   }
-  /// The increments: see BatchLaw.
+  /// Solves for the increments (BatchLaw).
   void solve(YieldingPoints& points, double dt) const;
   [[nodiscard]] double increment(double trial, double plastic_strain, double temperature, double modulus,
                                  double solid, double dt) const {

@@ -10,12 +10,11 @@
 namespace whipple::strength {
 
 /// Johnson-Holmquist 2, ceramics and glass. Strength over sigma_HEL = 3/2 (HEL - P_HEL), pressure over P_HEL:
-///   Y* = Yi* - D (Yi* - Yf*),  Yi* = A (P* + T*)^N f,  Yf* = min(B P*^M f, bound),  f = 1 + C ln max(1,
-///   rate/rate_0), dD = dep/eps_f,  eps_f = D1 (P* + T*)^D2,  P >= -T (1 - D);
-/// the fraction beta of the shear energy that damage sets free becomes pressure (bulking). Source: G. R.
-/// Johnson, T. J. Holmquist, in High-Pressure Science and Technology 1993, AIP Conf. Proc. 309 (1994)
-/// 981-984; input and constants: D. S. Cronin et al., 4th European LS-DYNA Users Conf. (2003). docs/theory/
-/// concrete_and_ceramics.md, section 4.
+///   Y* = Yi* - D (Yi* - Yf*),  Yi* = A (P* + T*)^N f,  Yf* = min(B P*^M f, bound),
+///   f = 1 + C ln max(1, rate/rate_0),  dD = dep/eps_f,  eps_f = D1 (P* + T*)^D2,  P >= -T (1 - D);
+/// the fraction beta of the shear energy released by damage becomes pressure (bulking). Source: G. R. Johnson, T. J.
+/// Holmquist, in High-Pressure Science and Technology 1993, AIP Conf. Proc. 309 (1994) 981-984; input and constants: D.
+/// S. Cronin et al., 4th European LS-DYNA Users Conf. (2003). docs/theory/concrete_and_ceramics.md, section 4.
 struct JohnsonHolmquist2 : ElasticConstants {
   double hugoniot_elastic_limit = 0.0;                                          ///< HEL, Pa
   double pressure_at_elastic_limit = 0.0;                                       ///< P_HEL, Pa

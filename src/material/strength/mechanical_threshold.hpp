@@ -12,15 +12,16 @@
 
 namespace whipple::strength {
 
-/// Mechanical threshold stress: flow stress of metals by thermal activation, with a threshold stress of the dislocations
-/// that evolves and is a state of each point,
+/// Mechanical threshold stress: flow stress of metals by thermal activation, with an evolving threshold stress of the
+/// dislocations, which is a state of each point,
 ///   Y = sigma_a + [S_i sigma_i + S_e sigma_e] G/G0,        S_i, S_e: ThermalBarrier
 ///   d sigma_e/d ep = theta_0 [1 - F] + theta_IV F,         F = tanh(alpha sigma_e/sigma_es)/tanh(alpha)
-///   theta_0 = a0 + a1 ln(rate) + a2 sqrt(rate) - a3 T,     ln(sigma_es/sigma_es0) = kT/(g_es b^3 G) ln(rate/rate_es)
+///   theta_0 = a0 + a1 ln(rate) + a2 sqrt(rate) - a3 T
+///   ln(sigma_es/sigma_es0) = kT/(g_es b^3 G) ln(rate/rate_es)
 ///   G = [G0 - D/(exp(T_0/T) - 1)] [1 + A p/eta^(1/3)],     eta = rho/rho0.
-/// Source: P. S. Follansbee, U. F. Kocks, Acta Metall. 36 (1988) 81; G of temperature: Y. P. Varshni, Phys. Rev. B 2 (1970)
-/// 3952. The dependence of G on pressure is that of Steinberg, Cochran and Guinan. Rates count between `least_rate` and
-/// rate_es; at and above T_m there is no strength.
+/// Source: P. S. Follansbee, U. F. Kocks, Acta Metall. 36 (1988) 81; G of temperature: Y. P. Varshni, Phys. Rev. B 2
+/// (1970) 3952. The dependence of G on pressure is that of Steinberg, Cochran and Guinan. Rates are limited to the
+/// range from `least_rate` to rate_es; at and above T_m there is no strength.
 struct MechanicalThreshold {
   double reference_density = 0.0;         ///< rho0, kg/m^3
   double shear_modulus = 0.0;             ///< G0, Pa, at 0 K
@@ -88,7 +89,8 @@ struct MechanicalThreshold {
         with_part(std::move(table), &P::intrinsic, ThermalBarrier::parameters("intrinsic", "sigma_i", false));
     return with_part(std::move(table), &P::forest, ThermalBarrier::parameters("forest", "sigma_e", true));
   }
-  /// Slower flow has the stress of this rate (1/s), the slowest of the tests behind the published constants.
+  /// Minimum rate (1/s) of the formula, the slowest of the tests behind the published constants: slower flow has the
+  /// stress at this rate.
   static constexpr double least_rate = 1e-4;
   static constexpr const char* name = "mechanical_threshold";
   static constexpr const char* summary =
@@ -111,22 +113,23 @@ struct MechanicalThreshold {
     }
     if (last_hardening > hardening) throw InputError("'last_hardening' is above 'hardening'");
   }
-  /// An equation of state without temperature (NaN) counts as 300 K.
+  /// Returns a temperature in K; without a temperature (NaN) of the equation of state 300 K.
   static double kelvin(double temperature) { return std::isnan(temperature) ? 300.0 : temperature; }
-  /// G of the solid, Pa. @param compressed  1 + A p/eta^(1/3)
+  /// Returns G of the solid, Pa.
+  /// @param compressed  1 + A p/eta^(1/3)
   [[nodiscard]] double modulus_of(double compressed, double temperature) const {
     const double drop =
         temperature > 0.0 ? modulus_drop / std::expm1(modulus_temperature / temperature) : 0.0;
     return compressed * (shear_modulus - drop);
   }
-  /// G of the solid, Pa, up to the melting temperature; at least G0/1000.
+  /// Returns G of the solid (Pa) up to the melting temperature; at least G0/1000.
   [[nodiscard]] double modulus(double density, double pressure, double temperature) const {
     const double compressed = 1.0 + pressure_coefficient * pressure / std::cbrt(density / reference_density);
     return std::max(1e-3 * shear_modulus,
                     modulus_of(compressed, std::min(kelvin(temperature), melting_temperature)));
   }
 
-  /// What the stress of a point depends on besides its threshold and its rate.
+  /// Holds the variables of the stress of a point other than its threshold and its rate.
   struct Condition {
     double temperature;  ///< K
     double thermal;      ///< kT/(b^3 G)
@@ -136,16 +139,17 @@ struct MechanicalThreshold {
     const double T = kelvin(temperature);
     return {T, boltzmann_per_volume * T / modulus, modulus / shear_modulus};
   }
-  /// ln of a rate within the bounds of the formula.
+  /// Returns the logarithm of a rate, limited to the range of the formula.
   [[nodiscard]] double log_rate(double rate) const {
     return std::log(std::clamp(rate, least_rate, std::max(least_rate, saturation_rate)));
   }
-  /// sigma_es, Pa.
+  /// Returns sigma_es, Pa.
   [[nodiscard]] double saturation_of(double log_rate, const Condition& at) const {
     return saturation * std::exp(at.thermal / saturation_energy * (log_rate - std::log(saturation_rate)));
   }
-  /// sigma_e after a plastic strain x at constant rate and temperature, and its slope by x at constant rate. The
-  /// hardening is linearised about its beginning and solved exactly: of second order in x, without theta_IV never beyond saturation.
+  /// Returns sigma_e after a plastic strain x at constant rate and temperature, and its derivative with respect to x at
+  /// constant rate. The hardening is linearised about its beginning and solved exactly: of second order in x; without
+  /// theta_IV never beyond saturation.
   [[nodiscard]] FlowStress threshold(double before, double x, double log_rate, const Condition& at) const {
     const double initial = std::max(0.0, hardening + hardening_by_log_rate * log_rate +
                                              hardening_by_root_rate * std::exp(0.5 * log_rate) -
@@ -154,8 +158,8 @@ struct MechanicalThreshold {
     const double end = saturation_of(log_rate, at);
     const double whole = std::tanh(hardening_shape), now = std::tanh(hardening_shape * before / end);
     const double slope = initial - (initial - last) * now / whole;
-    const double bend =
-        -(initial - last) * hardening_shape * (1.0 - now * now) / (end * whole);  // of the slope
+    // Derivative of the slope
+    const double bend = -(initial - last) * hardening_shape * (1.0 - now * now) / (end * whole);
     const double path = bend * x, mean = std::abs(path) > 1e-12 ? std::expm1(path) / path : 1.0;
     const double after = before + slope * mean * x;
     if (slope < 0.0 && after < end) return {std::min(before, end), 0.0};  // softens to saturation
@@ -169,7 +173,8 @@ struct MechanicalThreshold {
       stress += intrinsic.passed(at.thermal, slowest).value * intrinsic_threshold;
     return athermal_stress + at.stiffness * stress;
   }
-  /// Y of the solid and its slope by x at the plastic strain x reached in dt from the threshold `before`.
+  /// Returns Y of the solid and its derivative with respect to x at the plastic strain x reached in dt from the
+  /// threshold `before`.
   [[nodiscard]] FlowStress flow(double before, double x, double dt, const Condition& at) const {
     const double rate = x / dt, log = log_rate(rate);
     const FlowStress hardened = threshold(before, x, log, at), passed = forest.passed(at.thermal, log);

@@ -16,7 +16,7 @@
 
 namespace whipple::strength {
 
-/// The run-time face of MechanicalThreshold.
+/// Implements Strength for MechanicalThreshold.
 class MechanicalThresholdModel final : public Strength {
  public:
   /// @throws InputError if the constants contradict one another
@@ -36,7 +36,7 @@ class MechanicalThresholdModel final : public Strength {
                          std::span<double> increment) const override {
     for (std::size_t i = 0; i < increment.size(); ++i) {
       const double solid = molten(state, i) ? 0.0 : solid_fraction[i];
-      // Y is never below its part without activation: it spares most elastic points the formula.
+      // Y is never below its athermal part: avoids the formula for most elastic points.
       if (trial[i] <= solid * constants_.athermal_stress) {
         increment[i] = 0.0;
         continue;

@@ -17,9 +17,9 @@
 
 namespace whipple::strength {
 
-/// Preston-Tonks-Wallace: flow stress of metals from 1e-3 to 1e12 1/s, thermal activation at ordinary rates, dislocation
-/// drag in strong shocks. With T^ = T/T_m and r = rate/(gamma Xi), Xi = (1/2) (4 pi rho/(3 m))^(1/3) (G/rho)^(1/2) of the
-/// atomic mass m,
+/// Preston-Tonks-Wallace: flow stress of metals from 1e-3 to 1e12 1/s, thermal activation at ordinary rates,
+/// dislocation drag in strong shocks. With T^ = T/T_m and r = rate/(gamma Xi), Xi = (1/2) (4 pi rho/(3 m))^(1/3)
+/// (G/rho)^(1/2) of the atomic mass m,
 ///   G     = G0 [1 + A p/eta^(1/3)] (1 - alpha T^),  eta = rho/rho0,
 ///   tau_s = max{s0 - (s0 - s_inf) erf[kappa T^ ln(1/r)], s0 r^beta}                              saturation
 ///   tau_y = max{y0 - (y0 - y_inf) erf[kappa T^ ln(1/r)], min[y1 r^y2, s0 r^beta]}                yield
@@ -27,8 +27,9 @@ namespace whipple::strength {
 ///           a = p (tau_s - tau_y)/(s0 - tau_y),                      e = ep + ep_i
 ///   tau   = tau_s - (tau_s - tau_y) exp[-theta e/(tau_s - tau_y)]                                where p = 0
 ///   Y     = 2 tau G.
-/// Source: D. L. Preston, D. L. Tonks, D. C. Wallace, J. Appl. Phys. 93 (2003) 211. The dependence of G on pressure is that
-/// of Steinberg, Cochran and Guinan, T_m is constant, and ep_i, the strain of a cold-worked temper, is this project's.
+/// Source: D. L. Preston, D. L. Tonks, D. C. Wallace, J. Appl. Phys. 93 (2003) 211. The dependence of G on pressure is
+/// that of Steinberg, Cochran and Guinan; T_m is constant; ep_i, the plastic strain of a cold-worked temper, is this
+/// project's addition.
 struct PrestonTonksWallace {
   double reference_density = 0.0;       ///< rho0, kg/m^3
   double shear_modulus = 0.0;           ///< G0, Pa, at 0 K
@@ -80,7 +81,7 @@ struct PrestonTonksWallace {
             .optional(),
     };
   }
-  /// The formula begins at this rate (1/s): slower flow has the stress of this one.
+  /// Minimum rate (1/s) of the formula: slower flow has the stress at this rate.
   static constexpr double least_rate = 1e-3;
   static constexpr const char* name = "preston_tonks_wallace";
   static constexpr const char* summary =
@@ -97,23 +98,23 @@ struct PrestonTonksWallace {
     if (cold_yield > cold_saturation) throw InputError("'cold_yield' is above 'cold_saturation'");
     if (hot_yield > hot_saturation) throw InputError("'hot_yield' is above 'hot_saturation'");
   }
-  /// T^ in [0, 1]. An equation of state without temperature (NaN) counts as 300 K.
+  /// Returns T^ in [0, 1]; without a temperature (NaN) of the equation of state that of 300 K.
   [[nodiscard]] double homologous(double temperature) const {
     return std::clamp((std::isnan(temperature) ? 300.0 : temperature) / melting_temperature, 0.0, 1.0);
   }
-  /// G of the solid, Pa; at least G0/1000.
+  /// Returns G of the solid, Pa; at least G0/1000.
   [[nodiscard]] double modulus(double density, double pressure, double temperature) const {
     const double compressed = 1.0 + pressure_coefficient * pressure / std::cbrt(density / reference_density);
     return shear_modulus * std::max(1e-3, compressed * (1.0 - thermal_softening * homologous(temperature)));
   }
-  /// gamma Xi, 1/s.
+  /// Returns gamma Xi, 1/s.
   [[nodiscard]] double frequency(double density, double modulus) const {
     constexpr double avogadro = 6.02214076e23;  // 1/mol
     const double atoms = density * avogadro / molar_mass;
     return attempt_rate * 0.5 * std::cbrt(4.0 / 3.0 * std::numbers::pi * atoms) *
            std::sqrt(modulus / density);
   }
-  /// Y of the solid and its slope by x at the plastic strain ep0 + x reached in dt.
+  /// Returns Y of the solid and its derivative with respect to x at the plastic strain ep0 + x reached in dt.
   [[nodiscard]] FlowStress flow(double plastic_strain, double x, double dt, double homologous, double modulus,
                                 double frequency) const {
     const double rate = std::max(x / dt, least_rate), r = rate / frequency, lag = -std::log(r);
@@ -141,7 +142,8 @@ struct PrestonTonksWallace {
       const double a = hardening_shape * span / room, growth = std::expm1(a);
       const double hardened = hardening_shape * hardening * strain / (room * growth);
       const double left = -std::expm1(-a) * std::exp(-hardened), odds = left / (1.0 - left);
-      const double by_a = (1.0 + hardened * (growth + 1.0)) / growth;  // of ln(left)
+      // Derivative of ln(left) with respect to a
+      const double by_a = (1.0 + hardened * (growth + 1.0)) / growth;
       tau = saturation + room / hardening_shape * std::log1p(-left);
       by_strain = hardening * odds / growth;
       by_saturation = 1.0 - odds * by_a;
@@ -175,7 +177,7 @@ class PrestonTonksWallaceModel final : public Strength {
                          std::span<double> increment) const override {
     for (std::size_t i = 0; i < increment.size(); ++i) {
       const double solid = solid_fraction[i], of_solid = modulus[i] / solid;
-      // Y is never below that of fully activated flow: it spares most elastic points the formula.
+      // Y is never below that of fully activated flow: avoids the formula for most elastic points.
       if (trial[i] <= 2.0 * modulus[i] * constants_.hot_yield) {
         increment[i] = 0.0;
         continue;

@@ -11,12 +11,11 @@
 
 namespace whipple::strength {
 
-/// Riedel-Hiermaier-Thoma (RHT), concrete: an elastic limit that hardens to a failure surface with three
-/// meridians, which damage lowers to a residual one. Stresses over the compressive strength f_c. Source: W.
-/// Riedel, K. Thoma, S. Hiermaier, E. Schmolinske, 9th Int. Symp. Interaction of the Effects of Munitions
-/// with Structures, Berlin-Strausberg (1999) 315-322; T. Borrvall, W. Riedel, 8th European LS-DYNA Users
-/// Conf., Strasbourg (2011). Equations and what is left out: docs/theory/concrete_and_ceramics.md, section 5.
-/// The pores are those of the equation of state (`p_alpha`).
+/// Riedel-Hiermaier-Thoma (RHT), concrete: an elastic limit that hardens to a failure surface with three meridians,
+/// which damage reduces to a residual one. Stresses over the compressive strength f_c. Source: W. Riedel, K. Thoma, S.
+/// Hiermaier, E. Schmolinske, 9th Int. Symp. Interaction of the Effects of Munitions with Structures, Berlin-Strausberg
+/// (1999) 315-322; T. Borrvall, W. Riedel, 8th European LS-DYNA Users Conf., Strasbourg (2011). Equations and
+/// omissions: docs/theory/concrete_and_ceramics.md, section 5. The equation of state (`p_alpha`) describes the pores.
 struct RiedelHiermaierThoma : ElasticConstants {
   static constexpr bool needs_lode_angle = true;
 
@@ -108,7 +107,7 @@ struct RiedelHiermaierThoma : ElasticConstants {
     }
   }
 
-  /// R3: equivalent stress over that of the compressive meridian (Willam and Warnke 1975), 1 in uniaxial
+  /// Returns R3, the equivalent stress over that of the compressive meridian (Willam and Warnke 1975): 1 in uniaxial
   /// compression, the tensile ratio in uniaxial tension.
   [[nodiscard]] double meridian(double lode_cosine, double pressure_ratio) const {
     const double q = std::clamp(lode_ratio + lode_ratio_slope * pressure_ratio, 0.5, 1.0);
@@ -130,28 +129,29 @@ struct RiedelHiermaierThoma : ElasticConstants {
         std::max(damage_coefficient * std::pow(std::max(0.0, p + (1.0 - point.damage) * tensile_limit(point)),
                                                damage_exponent),
                  least_failure_strain);
-    // In tension (1 - D) times the surface at p/(1 - D): a line in D as well.
+    // In tension (1 - D) times the surface at p/(1 - D), which is also linear in D.
     const double fall = p > 0.0
                             ? std::max(0.0, whole - residual)
                             : scale * rate_factor(p, point.rate) * relative_shear_strength / shear_meridian();
     return {whole, fall, std::numeric_limits<double>::infinity(), strain};
   }
-  /// Elastic limit over the failure surface at a hardening h in [0, 1].
+  /// Returns the elastic limit over the failure surface at a hardening h in [0, 1] (eq. 16).
   [[nodiscard]] double hardened_share(double h, const BrittlePoint& point) const {
     const double p = point.pressure / compressive_strength, limit = elastic_share(point);
     const double g = h + (1.0 - h) * limit, whole = failure(p, point);
     return g > 0.0 && whole > 0.0 ? g * failure(p / g, point) / whole : 0.0;
   }
-  /// Plastic strain between elastic limit and failure surface.
+  /// Returns the plastic strain between elastic limit and failure surface (eq. 16).
   [[nodiscard]] double hardening_strain(double whole, const BrittlePoint& point) const {
     return whole * (1.0 - elastic_share(point)) / (3.0 * hardening_modulus_ratio * stiffness());
   }
-  /// @param y  at this pressure, with melting
+  /// Returns to the hardening surface, and beyond it to the failure surface.
+  /// @param y  surface at this pressure, with melting
   [[nodiscard]] BrittleReturn hardening(double trial, double stiffness, const BrittleSurface& y,
                                         const BrittlePoint& point) const {
     const double span = hardening_strain(y.whole, point), left = span - point.plastic_strain;
     if (point.damage > 0.0 || !(left > 0.0)) return brittle_return(trial, stiffness, y, point.damage);
-    const double slope = 3.0 * hardening_modulus_ratio * this->stiffness();  // of the straight hardening
+    const double slope = 3.0 * hardening_modulus_ratio * this->stiffness();  // slope of the linear hardening
     const auto strength = [&](double x) {
       return y.whole * hardened_share(std::min(1.0, (point.plastic_strain + x) / span), point);
     };
@@ -163,7 +163,7 @@ struct RiedelHiermaierThoma : ElasticConstants {
   }
 
  private:
-  /// Q1 = R3 in pure shear at zero pressure.
+  /// Returns Q1 = R3 in pure shear at zero pressure.
   [[nodiscard]] double shear_meridian() const { return meridian(0.0, 0.0); }
   [[nodiscard]] double compressive_factor(double rate) const {
     return std::pow(std::max(1.0, rate / compressive_reference_rate), compressive_rate_exponent);
@@ -171,19 +171,19 @@ struct RiedelHiermaierThoma : ElasticConstants {
   [[nodiscard]] double tensile_factor(double rate) const {
     return std::pow(std::max(1.0, rate / tensile_reference_rate), tensile_rate_exponent);
   }
-  /// F_r, from that of compression to that of tension in a straight line.
+  /// Returns F_r, linear between that of compression and that of tension.
   [[nodiscard]] double rate_factor(double p, double rate) const {
     const double c = compressive_factor(rate), t = tensile_factor(rate);
     const double s = std::clamp((c - 3.0 * p) / (c + t * relative_tensile_strength), 0.0, 1.0);
     return c + s * (t - c);
   }
-  /// p_t*, tensile pressure at the tip of the failure surface over f_c.
+  /// Returns p_t*, the tensile pressure at the tip of the failure surface over f_c.
   [[nodiscard]] double tensile_limit(const BrittlePoint& point) const {
     const double shear = lode_ratio * relative_shear_strength;
     return tensile_factor(point.rate) * shear * relative_tensile_strength /
            (3.0 * (shear - shear_meridian() * relative_tensile_strength));
   }
-  /// The failure surface on the compressive meridian.
+  /// Returns the failure surface on the compressive meridian over f_c (eq. 15).
   [[nodiscard]] double failure(double p, const BrittlePoint& point) const {
     const double f = rate_factor(p, point.rate), shear = relative_shear_strength / shear_meridian();
     if (3.0 * p >= f) {
@@ -193,7 +193,7 @@ struct RiedelHiermaierThoma : ElasticConstants {
     if (p >= 0.0) return f * shear + 3.0 * p * (1.0 - shear);
     return std::max(0.0, f * shear - 3.0 * p * (1.0 / lode_ratio - shear / relative_tensile_strength));
   }
-  /// F_e F_c: elastic limit over failure surface, with the cap where the pores give way.
+  /// Returns F_e F_c: elastic limit over failure surface, with the cap at which the pores collapse (eq. 17).
   [[nodiscard]] double elastic_share(const BrittlePoint& point) const {
     const double p = point.pressure / compressive_strength,
                  crush = point.crush_pressure / compressive_strength;

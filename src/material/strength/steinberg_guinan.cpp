@@ -10,15 +10,14 @@
 
 namespace whipple::strength {
 
-/// Newton's method from the tangent at x = 0, which for hardening that slackens is the smaller side of the
-/// root, inside a bracket. A step of less than 1e-7 x is the last one: the error of the next one goes with
-/// its square.
+/// Newton's method from the tangent at x = 0, which for decreasing hardening is below the root, inside a bracket. A
+/// step of less than 1e-7 x is the last one, since the next error is proportional to its square.
 WHIPPLE_KERNEL void SteinbergGuinan::solve(YieldingPoints& points, double) const {
   const std::size_t n = points.size;
   const double slope_of_base = hardening_exponent * hardening_coefficient;
   BatchValues base, flow, slope, ratio, stiffness, lower, upper;
   std::array<std::uint64_t, batch_size> active;
-  // Flow stress at the strains of the end of the step, and its slope.
+  // Flow stress at the strains of the end of the step, and its slope
   const auto harden = [&] {
     for (std::size_t k = 0; k < n; ++k) {
       const double strain = points.plastic_strain[k] + points.increment[k] + initial_plastic_strain;
@@ -35,7 +34,7 @@ WHIPPLE_KERNEL void SteinbergGuinan::solve(YieldingPoints& points, double) const
     }
   };
   for (std::size_t k = 0; k < n; ++k) {
-    ratio[k] = points.modulus[k] / shear_modulus;  // G/G0, and w with it
+    ratio[k] = points.modulus[k] / shear_modulus;  // G/G0, including w
     stiffness[k] = 3.0 * points.modulus[k];
     points.increment[k] = lower[k] = 0.0;
   }

@@ -14,7 +14,7 @@
 namespace whipple::strength {
 
 /// Steinberg-Cochran-Guinan: shear modulus and flow stress of metals at high rates (above 1e5 1/s, where the
-/// rate no longer matters), rising with pressure and falling with temperature,
+/// rate has no further effect), rising with pressure and falling with temperature,
 ///   G = G0 [1 + A p/eta^(1/3) - B (T - 300 K)],  eta = rho/rho0,
 ///   Y = min(Y0 [1 + beta (ep + ep_i)]^n, Y_max) G/G0.
 /// Melting is that of the equation of state (its Lindemann law is the same as that of GRAY). Source: D. J.
@@ -56,8 +56,8 @@ struct SteinbergGuinan {
       "both times the solid fraction; eta = rho/rho0.\n"
       "Source: Steinberg, Cochran and Guinan, J. Appl. Phys. 51 (1980) 1498.";
 
-  /// G/G0, at least 1e-3: a solid so soft keeps no stress to speak of, and melting takes the rest. An
-  /// equation of state without temperature (NaN) does not soften.
+  /// Returns G/G0, at least 1e-3: so soft a solid has almost no stress, and melting removes the rest. Without a
+  /// temperature (NaN) of the equation of state there is no softening.
   [[nodiscard]] double stiffness_ratio(double density, double pressure, double temperature) const {
     const double compression = std::cbrt(density / reference_density);
     const double thermal = std::isnan(temperature) ? 0.0 : temperature_coefficient * (temperature - 300.0);
@@ -70,7 +70,7 @@ struct SteinbergGuinan {
         select(temperature == temperature, temperature_coefficient * (temperature - 300.0), Lanes{});
     return maximum(1.0 + pressure_coefficient * pressure / compression - thermal, broadcast(1e-3));
   }
-  /// At 300 K and no pressure, with its slope.
+  /// Returns the flow stress at 300 K and zero pressure, with its slope.
   [[nodiscard]] FlowStress hardening(double plastic_strain) const {
     const double base = 1.0 + hardening_coefficient * (plastic_strain + initial_plastic_strain);
     const double power = yield_stress * std::pow(base, hardening_exponent);
@@ -78,11 +78,11 @@ struct SteinbergGuinan {
     return {power, power * hardening_exponent * hardening_coefficient / base};
   }
 
-  /// False where a point stays elastic: Y >= Y_0 G/G_0 spares the powers of most elastic points.
+  /// Returns false if a point remains elastic: Y >= Y_0 G/G_0 avoids the powers for most elastic points.
   [[nodiscard]] bool may_yield(double trial, double /*temperature*/, double modulus, double /*solid*/) const {
     return trial > modulus * (yield_stress / shear_modulus);
   }
-  /// The increments: see BatchLaw.
+  /// Solves for the increments (BatchLaw).
   void solve(YieldingPoints& points, double dt) const;
   [[nodiscard]] double increment(double trial, double plastic_strain, double modulus, double solid) const {
     return increment_of_one(*this, trial, plastic_strain, 0.0, modulus, solid, 0.0);
@@ -108,7 +108,8 @@ class SteinbergGuinanModel final : public Strength {
       store(&modulus[i], constants_.shear_modulus * ratio, count);
     }
   }
-  /// @param modulus  as of `shear_modulus`, times the solid fraction
+  /// Solves for the increments of the plastic strain.
+  /// @param modulus  result of `shear_modulus`, times the solid fraction
   void plastic_increment(const State& state, std::span<const double> trial, std::span<const double> modulus,
                          std::span<const double> solid_fraction, double dt,
                          std::span<double> increment) const override {

@@ -10,8 +10,8 @@
 
 namespace whipple::strength {
 
-/// Newtonian fluid: s = 2 eta dev D. Its work is heat; no elastic energy. Source: G. K. Batchelor, An
-/// Introduction to Fluid Dynamics (Cambridge 1967), sec. 3.3; bulk viscosity zero.
+/// Newtonian fluid: s = 2 eta dev D. Its work is heat; it has no elastic energy. Source: G. K. Batchelor, An
+/// Introduction to Fluid Dynamics (Cambridge 1967), sec. 3.3; zero bulk viscosity.
 struct ViscousFluid {
   double viscosity = 0.0;  ///< eta, Pa s
 

@@ -7,9 +7,9 @@
 
 namespace whipple::strength {
 
-/// Isotropic hardening that saturates, Y = A + Q1 [1 - exp(-b1 ep)] + Q2 [1 - exp(-b2 ep)], independent of
-/// rate and temperature. Source: E. Voce, J. Inst. Metals 74 (1948) 537; two terms as in F. Grytten et al.,
-/// Int. J. Impact Eng. 36 (2009) 416.
+/// Saturating isotropic hardening, Y = A + Q1 [1 - exp(-b1 ep)] + Q2 [1 - exp(-b2 ep)], independent of rate and
+/// temperature. Source: E. Voce, J. Inst. Metals 74 (1948) 537; two terms as in F. Grytten et al., Int. J. Impact Eng.
+/// 36 (2009) 416.
 struct Voce : HardeningLaw<Voce> {
   double first_saturation = 0.0, first_rate = 0.0;    ///< Q1, Pa; b1
   double second_saturation = 0.0, second_rate = 0.0;  ///< Q2, Pa; b2

@@ -9,10 +9,10 @@
 
 namespace whipple::strength {
 
-/// Linear hardening: Y(ep) = min(A + B ep, Y_max), independent of rate and temperature.
-/// The return is closed: x = (q - w Y(ep)) / (3 G + w B), or (q - w Y_max) / (3 G) on the plateau.
-/// Source: M. L. Wilkins, Calculation of elastic-plastic flow, UCRL-7322 (1963); radial return with
-/// hardening: J. C. Simo, T. J. R. Hughes, Computational Inelasticity (Springer 1998), box 3.1.
+/// Linear hardening: Y(ep) = min(A + B ep, Y_max), independent of rate and temperature. The return has a closed form: x
+/// = (q - w Y(ep)) / (3 G + w B), or (q - w Y_max) / (3 G) on the plateau. Source: M. L. Wilkins, Calculation of
+/// elastic-plastic flow, UCRL-7322 (1963); radial return with hardening: J. C. Simo, T. J. R. Hughes, Computational
+/// Inelasticity (Springer 1998), box 3.1.
 struct VonMises : HardeningLaw<VonMises> {
   double hardening_modulus = 0.0;                                        ///< B, Pa
   double maximum_flow_stress = std::numeric_limits<double>::infinity();  ///< Y_max, Pa
@@ -49,14 +49,14 @@ struct VonMises : HardeningLaw<VonMises> {
                                           : FlowStress{maximum_flow_stress, 0.0};
   }
 
-  /// Increment of the equivalent plastic strain from the equivalent trial stress.
+  /// Returns the increment of the equivalent plastic strain from the equivalent trial stress.
   [[nodiscard]] double increment(double trial, double plastic_strain, double /*temperature*/, double modulus,
                                  double solid, double /*dt*/) const {
     const double yield = solid * flow(plastic_strain).value;
     if (trial <= yield) return 0.0;
     const double hardening = (trial - yield) / (3.0 * modulus + solid * hardening_modulus);
     const double plateau = (trial - solid * maximum_flow_stress) / (3.0 * modulus);
-    return std::max(hardening, plateau);  // the larger is the one whose flow stress is the smaller
+    return std::max(hardening, plateau);  // the larger one has the smaller flow stress
   }
 };
 

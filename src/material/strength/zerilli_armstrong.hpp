@@ -58,7 +58,7 @@ struct ZerilliArmstrong : ElasticConstants {
       throw InputError("'athermal_stress' or 'thermal_stress' must be positive");
     }
   }
-  /// At plastic strain ep0 + x reached in dt, with its slope by x.
+  /// Returns the flow stress at the plastic strain ep0 + x reached in dt, with its derivative with respect to x.
   [[nodiscard]] FlowStress flow(double plastic_strain, double x, double dt, double temperature) const {
     const double strain = plastic_strain + x, rate = x / dt;
     const double T = std::isnan(temperature) ? 300.0 : temperature;
@@ -81,7 +81,8 @@ struct ZerilliArmstrong : ElasticConstants {
   }
   [[nodiscard]] double increment(double trial, double plastic_strain, double temperature, double modulus,
                                  double solid, double dt) const {
-    const double least = flow(plastic_strain, 0.0, dt, temperature).value;  // Y rises with strain and rate
+    // Y increases with strain and rate
+    const double least = flow(plastic_strain, 0.0, dt, temperature).value;
     return radial_return(trial, modulus, solid, least,
                          [&](double x) { return flow(plastic_strain, x, dt, temperature); });
   }

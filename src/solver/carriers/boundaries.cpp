@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Particles that leave: at the faces of the domain, and spent products of explosives.
+// Removal of particles: at the faces of the domain, and products of burnt explosives.
 #include <array>
 #include <cstdint>
 #include <span>
@@ -15,13 +15,13 @@
 namespace whipple::solver {
 namespace {
 
-/// Particles outside of the domain, ascending; those at rest were inside before. Four are passed over at once
-/// where none of them is.
+/// Returns the particles outside of the domain, ascending; inactive chunks are skipped, as they were inside before.
+/// Tests four particles at once.
 std::vector<std::uint32_t> outside_of(const grid::Geometry& g, std::span<const Vector3> position,
                                       const grid::BlockGrid& grid) {
   const Lanes lower = {g.lower[0], g.lower[1], g.lower[2], 0.0};
   const Lanes upper = {g.upper(0), g.upper(1), g.upper(2), 0.0};
-  const auto turned = [](Lanes bound) {  // beside x y z x, y z x y, z x y z of four positions
+  const auto turned = [](Lanes bound) {  // bounds in the order x y z x, y z x y, z x y z of four positions
     return std::array{Lanes{bound[0], bound[1], bound[2], bound[0]},
                       Lanes{bound[1], bound[2], bound[0], bound[1]},
                       Lanes{bound[2], bound[0], bound[1], bound[2]}};
@@ -52,8 +52,8 @@ std::vector<std::uint32_t> outside_of(const grid::Geometry& g, std::span<const V
   return all;
 }
 
-/// Mirrors the tensors of a particle, and the vectors and tensors that its material declares; the velocity and its
-/// affine field depend on the kind of wall.
+/// Mirrors the tensors of a particle and the vectors and tensors of its material history; velocity and affine field
+/// depend on the kind of wall and are not included.
 void mirror_tensors(Particles& particles, std::size_t p, const Matrix3& mirror) {
   for_each_field(particles, [&](const auto& field) {
     auto& values = field.of(particles);
@@ -70,7 +70,7 @@ void mirror_tensors(Particles& particles, std::size_t p, const Matrix3& mirror) 
 
 }  // namespace
 
-/// Reflects particles at mirror planes and walls, and removes those beyond faces of outflow.
+/// Reflects particles at mirror planes and walls, and removes those beyond outflow faces.
 void ParticleCarrier::remove_outside() {
   const grid::Geometry& g = state_.setup.geometry;
   const std::vector<std::uint32_t> outside = outside_of(g, state_.particles.position, state_.grid);
@@ -86,13 +86,12 @@ void ParticleCarrier::remove_outside() {
         leaves = true;
         continue;
       }
-      // Interpolation gives no normal velocity at a mirror plane, so only the finite time step brings a
-      // particle across: it is put back as its own image.
+      // The interpolated normal velocity vanishes at a mirror plane, so that a particle crosses it only because of the
+      // finite time step: it is replaced by its image.
       x = 2.0 * (low ? g.lower[a] : g.upper(a)) - x;
       Matrix3 mirror = Matrix3::Identity();
       mirror(a, a) = -1.0;
-      // At a no-slip wall all components of the image's velocity are reversed, its place along one axis
-      // only.
+      // At a no-slip wall all components of the image's velocity are reversed, but its position along one axis only.
       const Matrix3 image = boundary == grid::Boundary::no_slip ? Matrix3(-Matrix3::Identity()) : mirror;
       const Vector3 velocity = image * state_.particles.velocity[p];
       state_.booked.wall_impulse += state_.particles.mass[p] * (velocity - state_.particles.velocity[p]);

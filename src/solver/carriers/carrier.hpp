@@ -16,58 +16,58 @@
 
 namespace whipple::solver {
 
-/// Holds what a checkpoint is written from.
+/// Holds the data of a checkpoint.
 struct Contents {
   const Particles* particles = nullptr;
-  std::vector<fem::Mesh> meshes;  ///< each node on one rank only, the corners numbered over all ranks
+  std::vector<fem::Mesh> meshes;  ///< each node on one rank only; corners numbered over all ranks
   std::vector<fem::Bars> bars;    ///< all on one rank
 };
 
-/// Holds what a snapshot is written from: the part of this rank, as long as no step is made.
+/// Holds the data of a snapshot: this rank's part, valid until the next step.
 struct View {
   const Particles* particles = nullptr;
   std::span<const fem::Mesh> meshes;
   std::span<const fem::Bars> bars;
 };
 
-/// Figures for the history: greatest values and sums over a part of the material (SI).
+/// Holds maxima and sums over a part of the material for the history (SI units).
 struct Figures {
   double speed = 0.0;
   double pressure = -std::numeric_limits<double>::infinity();
   double temperature = -std::numeric_limits<double>::infinity();
   double stored_cold_work = 0.0;                           ///< J
-  double chemical_energy = 0.0;                            ///< J, of unburnt explosive
-  double bars = 0.0, broken_bars = 0.0, bar_energy = 0.0;  ///< numbers, and J
+  double chemical_energy = 0.0;                            ///< of unburnt explosive, J
+  double bars = 0.0, broken_bars = 0.0, bar_energy = 0.0;  ///< numbers of bars, and their energy, J
 };
 
-/// Energy that material can set free: what it holds above the zero of its equation of state, that of unburnt
-/// explosive included, and four times the elastic energy of its pressure.
+/// Holds the energy that material can release: internal energy above the zero of its equation of state, including that
+/// of unburnt explosive, and four times the elastic energy of its pressure.
 struct Releasable {
-  double energy = 0.0;   ///< J, in all
-  double largest = 0.0;  ///< J/kg
+  double energy = 0.0;   ///< in total, J
+  double largest = 0.0;  ///< maximum per mass, J/kg
 };
 
-/// A particle, or a node of elements.
+/// Describes a particle or a node of elements.
 struct Point {
   std::size_t body;
   const Vector3 &position, &velocity;  ///< m, m/s
-  double sound_speed;                  ///< m/s, of nodes that of the reference state
-  bool is_stressed;                    ///< its pressure is more than a millionth of rho c^2; nodes carry none
+  double sound_speed;                  ///< m/s; for nodes that of the reference state
+  bool is_stressed;                    ///< pressure above a millionth of rho c^2; nodes have none
 };
 
-/// A particle, or one of the eight that an element may become: what gauges sample.
+/// Describes a particle, or one of the eight particles that an element may become, as sampled by gauges.
 struct Part {
   std::uint64_t id;
   Vector3 position, velocity;    ///< m, m/s
   double mass, volume;           ///< kg, m^3
-  const MaterialPoints& points;  ///< its state, at `p`
+  const MaterialPoints& points;  ///< the state is at index `p`
   std::size_t p;
 };
-/// Selects elements by number, centre (m) and largest distance of a corner from it (m).
+/// Selects elements by number, centre (m) and maximum distance of a corner from the centre (m).
 using SelectElement = std::function<bool(std::uint64_t element, const Vector3& centre, double reach)>;
 
-/// Interface of what carries the material of bodies: particles, hexahedra, trusses; on each rank its part of them.
-/// Stages loop over the carriers of a run, which are those that the case has.
+/// Interface of the carriers of the material of bodies: particles, hexahedra, trusses; each rank holds its part of
+/// them. Stages loop over the carriers of a run, which are those that the case has.
 class Carrier {
  public:
   explicit Carrier(State& state) : state_(state) {}
@@ -75,62 +75,60 @@ class Carrier {
   Carrier& operator=(const Carrier&) = delete;
   virtual ~Carrier() = default;
 
-  /// Returns whether the case has no such bodies; the same on all ranks.
+  /// Returns whether the case has no such bodies; equal on all ranks.
   [[nodiscard]] virtual bool empty() const = 0;
 
   /// @name In the order of the step
-  /// @{
-  /// Computes the forces on the carrier's nodes, loads included. Particles have their stresses instead.
+  /// @{ Computes the forces on the carrier's nodes, including loads. Particles have stresses instead.
   virtual void compute_forces() {}
   /// Appends the nodes that move with the grid in this step to `State::transition`.
   virtual void collect() {}
-  /// Joins the forces, masses and sound speeds of the copies of nodes on several ranks. Collective.
+  /// Combines the forces, masses and sound speeds of nodes that exist on several ranks. Collective.
   virtual void join_shared_nodes() {}
-  /// Returns the largest stable time step (s) by the stiffness of elements of this rank; infinite without any.
+  /// Returns the stable time step (s) from the stiffness of this rank's elements; infinite without elements.
   [[nodiscard]] virtual double critical_time_step() const { return std::numeric_limits<double>::infinity(); }
-  /// Moves nodes by themselves or as the grid moved them, and updates strain, work, heat and stress of their elements.
+  /// Moves nodes, freely or with the motion of the grid, and updates strain, work, heat and stress of their elements.
   /// @returns an error that ends the run, or nothing
   virtual std::string advance() { return {}; }
-  /// Removes what is outside of the domain and counts it as outflow. Collective.
+  /// Removes material outside of the domain and counts it as outflow. Collective.
   virtual void remove_outside() = 0;
   /// @}
 
-  /// @name Sums over the part of this rank
+  /// @name Sums over this rank's part
   /// @{
   virtual void add_totals(Totals& sum) = 0;
   virtual void add_phases(std::span<PhaseMasses> of_body) const = 0;
   virtual void add_figures(Figures& figures) const = 0;
   /// Returns the largest speed (m/s) of a particle or node relative to a velocity (m/s).
   [[nodiscard]] virtual double largest_speed(const Vector3& frame) = 0;
-  /// Adds what its material can set free.
+  /// Adds the energy that the material can release.
   virtual void add_releasable(Releasable& /*sum*/) const {}
   [[nodiscard]] virtual std::size_t particle_count() const { return 0; }
   [[nodiscard]] virtual std::size_t element_count() const { return 0; }
-  /// Returns the largest id of a particle that is there, or that an element may become.
+  /// Returns the largest id of an existing particle, or of one that an element may become.
   [[nodiscard]] virtual std::uint64_t largest_particle_id() const { return 0; }
   [[nodiscard]] virtual std::size_t bytes() const = 0;
   /// Visits every particle or node.
   virtual void for_each_point(const std::function<void(const Point& point)>& visit) const = 0;
-  /// Visits all particles, or the parts of the selected elements.
+  /// Visits all particles, or the eight parts of the selected elements.
   virtual void for_each_part(const SelectElement& /*select*/,
                              const std::function<void(const Part& part)>& /*visit*/) const {}
-  /// Describes the part of a body by its numbers over all ranks, empty if it has none. Collective.
+  /// Describes this carrier's part of a body by its numbers over all ranks; empty if it has none. Collective.
   [[nodiscard]] virtual std::string count_text(std::size_t body) const = 0;
   /// @}
 
   /// @name Ranks and files
-  /// @{
-  /// Keeps the part of this rank of what all ranks hold at the start. Collective.
+  /// @{ Reduces the data, which all ranks hold at the start, to this rank's part. Collective.
   virtual void keep_share() {}
-  /// Gathers what this rank needs after each has read any part of a checkpoint. Collective.
+  /// Gathers the data that this rank needs after each rank has read any part of a checkpoint. Collective.
   virtual void gather() {}
   /// Sends elements to the ranks that own the blocks of their centres. Collective.
   virtual void share_out() {}
-  /// Returns whether its elements count as work where blocks are shared out among the ranks.
+  /// Returns whether its elements count as work in the distribution of the blocks.
   [[nodiscard]] virtual bool weighs() const { return false; }
-  /// Appends centres (m) and work of the elements.
+  /// Appends the centres (m) and the work of the elements.
   virtual void add_work(std::vector<Vector3>& /*centres*/, std::vector<double>& /*work*/) const {}
-  /// Collective.
+  /// Adds the data of a checkpoint. Collective.
   virtual void save(Contents& contents) const = 0;
   virtual void show(View& view) const = 0;
   /// @}
@@ -139,7 +137,7 @@ class Carrier {
   State& state_;
 };
 
-/// The carriers of a run that have bodies, particles first.
+/// Carriers of a run that have bodies, particles first.
 using Carriers = std::vector<Carrier*>;
 
 }  // namespace whipple::solver

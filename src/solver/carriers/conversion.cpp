@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From elements to particles (docs/theory/afemp.md).
+// Conversion of elements to particles (docs/theory/afemp.md).
 #include "src/afemp/conversion.hpp"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ afemp::ElementRange range(const cases::ElementRange& control) {
 }  // namespace
 
 void Hexahedra::convert(ParticleCarrier& particles, double grid_step) {
-  std::array<double, 2> counts = {0.0, 0.0};  // of elements that became particles, that were deleted
+  std::array<double, 2> counts = {0.0, 0.0};  // of elements converted to particles, and deleted
   std::string error;
   for (fem::Mesh& mesh : meshes_) {
     const cases::Body& body = state_.setup.bodies[mesh.body];
@@ -79,11 +79,12 @@ void Hexahedra::convert(ParticleCarrier& particles, double grid_step) {
     elements_removed();
     particles.reallocated();
   }
-  // Last: the state of a failed run is saved, whole.
+  // At the end, so that the saved state of a failed run is complete.
   parallel::throw_together(state_.communicator, error);
 }
 
-/// @returns how many elements became particles
+/// Converts the chosen elements.
+/// @returns number of converted elements
 std::size_t Hexahedra::convert(fem::Mesh& mesh, std::span<const std::uint8_t> chosen) {
   const afemp::ConversionBalance balance =
       afemp::convert_elements(mesh, chosen, state_.particle_affine_inertia(), state_.particles,

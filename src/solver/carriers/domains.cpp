@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Domains of the particles: deformation with the material, particle splitting, particles that have parted
-// (docs/theory/mpm.md, section 2).
+// Domains of the particles: deformation with the material, particle splitting, separated particles (docs/theory/mpm.md,
+// section 2).
 #include "src/solver/carriers/domains.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -20,13 +20,14 @@ using cases::Divided;
 
 Fluidity fluidity_of(const State& state, std::size_t body) { return fluidity(*state.setup.materials[body]); }
 
-/// Not less than the largest eigenvalue (Gershgorin).
+/// Returns an upper bound of the largest eigenvalue (Gershgorin).
 double largest_at_most(const SymmetricTensor& e) {
   const double xy = std::abs(e.xy), yz = std::abs(e.yz), zx = std::abs(e.zx);
   return std::max({e.xx + xy + zx, e.yy + xy + yz, e.zz + zx + yz});
 }
 
-/// Principal directions of a domain, in two dimensions of its section with the plane: eigenvalues (m^2) ascending.
+/// Computes the principal directions of a domain, in two dimensions of its section with the plane; eigenvalues (m^2)
+/// ascending.
 Eigen::SelfAdjointEigenSolver<Matrix3> principal_directions(const SymmetricTensor& extent, bool planar) {
   Matrix3 moments = extent.matrix();
   if (planar) {
@@ -36,7 +37,7 @@ Eigen::SelfAdjointEigenSolver<Matrix3> principal_directions(const SymmetricTenso
   return Eigen::SelfAdjointEigenSolver<Matrix3>(moments);
 }
 
-/// Returns whether a particle is of material that stays together when it stretches.
+/// Returns whether a particle's material remains continuous when it is stretched, and may be split further.
 bool may_be_divided(const Particles& particles, std::size_t p, const cases::Splitting& splitting,
                     Fluidity fluidity) {
   if (particles.generation[p] >= splitting.maximum_generations) return false;
@@ -44,7 +45,7 @@ bool may_be_divided(const Particles& particles, std::size_t p, const cases::Spli
          (splitting.of == Divided::all && particles.failed[p] == failure::intact);
 }
 
-/// Longest half-edges of the particles to divide, by ascending numbers of the particles.
+/// Longest half-edges of the particles to split, in ascending order of the particles.
 using Divisions = std::vector<std::pair<std::uint32_t, Vector3>>;
 Divisions find_divisions(const State& state) {
   const Particles& particles = state.particles;
@@ -66,7 +67,7 @@ Divisions find_divisions(const State& state) {
       if (principal.eigenvalues()[2] <= limit) continue;
       const Vector3 half_edge = std::sqrt(principal.eigenvalues()[2]) * principal.eigenvectors().col(2);
       bool inside = true;
-      for (int a = 0; a < (geometry.is_planar() ? 2 : 3); ++a) {  // no ring of radius 0
+      for (int a = 0; a < (geometry.is_planar() ? 2 : 3); ++a) {  // excludes rings of radius 0
         const double reach = 0.5 * std::abs(half_edge[a]);
         inside = inside && particles.position[p][a] - reach > geometry.lower[a] &&
                  particles.position[p][a] + reach < geometry.upper(a);
@@ -162,7 +163,7 @@ double divide(Particles& particles, std::size_t p, std::size_t other, const Vect
       SymmetricTensor::from(particles.extent[p].matrix() - 0.75 * half_edge * half_edge.transpose());
   const Vector3 offset = 0.5 * half_edge;
   Vector3 difference = Vector3::Zero();
-  double heat = 0.0;  // per mass
+  double heat = 0.0;  // J/kg
   if (inertia > 0.0) {
     Matrix3& c = particles.affine_velocity[p];
     const double most = std::max(inertia, offset.squaredNorm());
@@ -176,7 +177,7 @@ double divide(Particles& particles, std::size_t p, std::size_t other, const Vect
   }
   for_each_field(particles, [&](const auto& field) {
     auto& values = field.of(particles);
-    if (!values.empty()) values[other] = values[p];  // optional fields may not be in use
+    if (!values.empty()) values[other] = values[p];  // optional field that may not be in use
   });
   particles.position[p] -= offset;
   particles.velocity[p] -= difference;
@@ -191,7 +192,7 @@ void split(State& state, const Carriers& carriers, ParticleCarrier& of_particles
     const Divisions divisions = find_divisions(state);
     if (!parallel::any(state.communicator, !divisions.empty())) return;
 
-    // New particles take the numbers above all present ones, rank by rank.
+    // New particles are numbered above all existing ones, rank by rank.
     std::uint64_t largest = 0;
     for (const Carrier* carrier : carriers) largest = std::max(largest, carrier->largest_particle_id());
     largest = static_cast<std::uint64_t>(parallel::maximum(state.communicator, static_cast<double>(largest)));

@@ -6,10 +6,10 @@
 #include "src/case/case.hpp"
 #include "src/fem/step.hpp"
 
-/// Collects the options of a case about elements for the functions of elements.
+/// Conversion of the options of a case for elements to arguments of the element functions.
 namespace whipple::solver {
 
-/// Returns the resistance to hourglass modes.
+/// Returns the control of hourglass modes.
 inline fem::HourglassControl hourglass(const cases::Discretization& control) {
   return {control.hourglass, control.hourglass_coefficient};
 }

@@ -10,7 +10,7 @@
 namespace whipple::solver {
 namespace {
 
-/// A vector that begins at zero.
+/// Holds a vector that is initially zero.
 struct VectorSum {
   Vector3 value = Vector3::Zero();
   VectorSum& operator+=(const VectorSum& other) {

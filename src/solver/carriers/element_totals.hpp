@@ -8,9 +8,9 @@
 namespace whipple::solver {
 
 /// Sums over the elements of a mesh and their nodes; bitwise independent of the number of threads.
-/// @param affine_inertia  of the affine field per mass, m^2 (`transfer::affine_inertia`)
+/// @param affine_inertia  inertia per mass of the affine field, m^2 (`transfer::affine_inertia`)
 Totals totals_of(const fem::Mesh& mesh, double affine_inertia);
-/// Sums over bars and their nodes, the same.
+/// Sums over bars and their nodes; bitwise independent of the number of threads.
 Totals totals_of(const fem::Bars& bars, double affine_inertia);
 
 }  // namespace whipple::solver

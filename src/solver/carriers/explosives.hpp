@@ -10,7 +10,7 @@
 
 namespace whipple::solver {
 
-/// The particles of a rank that burn, or will: what the solver asks of them (docs/theory/burn.md, section 5).
+/// Evaluates the burn state of the explosive particles of a rank (docs/theory/burn.md, section 5).
 class Explosives {
  public:
   explicit Explosives(const State& state)
@@ -32,22 +32,22 @@ class Explosives {
   [[nodiscard]] bool burns(std::size_t p) const {
     return any() && velocity_[state_.particles.body[p]] > 0.0 && (*fraction_)[p] < 1.0;
   }
-  /// Returns whether a particle is the products of an explosive that has burnt out.
+  /// Returns whether a particle consists of the products of a burnt-out explosive.
   [[nodiscard]] bool is_burnt(std::size_t p) const {
     return any() && velocity_[state_.particles.body[p]] > 0.0 && (*fraction_)[p] >= 1.0;
   }
-  /// Returns whether detonation has arrived at a particle, or does so before a time (s).
+  /// Returns whether detonation has arrived at a particle, or will before a time (s).
   [[nodiscard]] bool is_lit(std::size_t p, double before) const {
     return burns(p) && (*lighting_)[p] >= 0.0 && (*lighting_)[p] <= before;
   }
-  /// Returns whether a particle burns or is about to: it is at a front of detonation of given lighting times.
+  /// Returns whether a particle burns or is about to, at a detonation front with prescribed lighting times.
   [[nodiscard]] bool is_at_front(std::size_t p) const {
     if (!burns(p) || reacts_[state_.particles.body[p]]) return false;
     const double ahead = early_ / velocity_[state_.particles.body[p]];
     return (*fraction_)[p] > 0.0 || is_lit(p, state_.run.time + ahead);
   }
-  /// Returns the largest detonation velocity (m/s) of particles in [begin, end) that have not burnt out: a front crosses
-  /// them faster than sound does.
+  /// Returns the maximum detonation velocity (m/s) of particles in [begin, end) that have not burnt out: a front
+  /// crosses them faster than sound.
   [[nodiscard]] double fastest(std::size_t begin, std::size_t end) const {
     double fastest = 0.0;
     for (std::size_t p = begin; p < end; ++p) {
@@ -55,7 +55,7 @@ class Explosives {
     }
     return fastest;
   }
-  /// Returns the energy (J) that unburnt explosive still holds.
+  /// Returns the energy (J) that is stored in unburnt explosive.
   [[nodiscard]] double chemical_energy() const {
     if (!any()) return 0.0;
     const Particles& q = state_.particles;
@@ -65,11 +65,11 @@ class Explosives {
 
  private:
   const State& state_;
-  double early_;                                   // m, ahead of a front
-  const std::vector<double>* fraction_ = nullptr;  // null: nothing burns
+  double early_;                                   // distance ahead of a front, m
+  const std::vector<double>* fraction_ = nullptr;  // null: the case has no explosive
   const std::vector<double>* lighting_ = nullptr;
-  std::vector<double> velocity_, store_;  // of each body, m/s and J/kg; 0: it does not burn
-  std::vector<bool> reacts_;              // of each body: it burns by a rate law
+  std::vector<double> velocity_, store_;  // of each body, m/s and J/kg; 0: no explosive
+  std::vector<bool> reacts_;              // of each body: whether it burns by a rate law
 };
 
 }  // namespace whipple::solver

@@ -10,16 +10,16 @@
 #include "src/core/parallel/threads.hpp"
 #include "src/solver/carriers/carrier.hpp"
 
-/// Sums and greatest values that the carriers have in common.
+/// Sums and maxima common to the carriers.
 namespace whipple::solver {
 
-/// Returns the largest speed (m/s) relative to a velocity (m/s).
+/// Returns the maximum speed (m/s) relative to a velocity (m/s).
 inline double largest_speed_of(const std::vector<Vector3>& velocity, const Vector3& frame) {
   return std::sqrt(parallel::maximum(velocity.size(), 0.0,
                                      [&](std::size_t p) { return (velocity[p] - frame).squaredNorm(); }));
 }
 
-/// Adds what material points can set free.
+/// Adds the energy that material points can release.
 inline void add_releasable_of(const MaterialPoints& points, Releasable& sum) {
   const auto of_mass = [&](std::size_t p) {
     const double c = points.sound_speed[p], work = points.pressure[p] * points.volume[p] / points.mass[p];
@@ -31,12 +31,12 @@ inline void add_releasable_of(const MaterialPoints& points, Releasable& sum) {
   sum.largest = parallel::maximum(points.mass.size(), sum.largest, of_mass);
 }
 
-/// Raises the greatest speed.
+/// Updates the maximum speed.
 inline void add_speeds(const std::vector<Vector3>& velocity, Figures& figures) {
   figures.speed = std::max(figures.speed, largest_speed_of(velocity, Vector3::Zero()));
 }
 
-/// Adds the state of material points.
+/// Updates the figures with the state of material points.
 inline void add_state(const MaterialPoints& points, Figures& figures) {
   const auto largest = [](const std::vector<double>& values, double so_far) {
     return parallel::maximum(values.size(), so_far, [&](std::size_t p) { return values[p]; });
@@ -50,7 +50,7 @@ inline void add_state(const MaterialPoints& points, Figures& figures) {
   }
 }
 
-/// Returns the memory of all fields.
+/// Returns the memory of all fields, bytes.
 template <class Points>
 std::size_t bytes_of(const Points& points) {
   std::size_t bytes = 0;
@@ -61,7 +61,7 @@ std::size_t bytes_of(const Points& points) {
   return bytes;
 }
 
-/// Visits the nodes of the elements of a body.
+/// Visits the element nodes of a body.
 template <class Visit>
 void visit_nodes(const fem::Nodes& nodes, std::size_t body, const State& state, const Visit& visit) {
   const double sound_speed = state.setup.materials[body]->reference.sound_speed;

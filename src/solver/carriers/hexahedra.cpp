@@ -41,7 +41,7 @@ void Hexahedra::compute_forces() {
   }
 }
 
-/// The marked nodes; those of other carriers come after them.
+/// Collects the marked nodes; those of other carriers follow them.
 void Hexahedra::collect() {
   transfer::TransitionNodes& to = state_.transition;
   afemp::collect(meshes_, to);
@@ -61,7 +61,7 @@ double Hexahedra::critical_time_step() const {
   return dt;
 }
 
-/// Nodes by themselves or as the grid moved them, and what that does to their elements.
+/// Moves the nodes, freely or with the motion of the grid, and updates their elements.
 std::string Hexahedra::advance() {
   motions_.resize(meshes_.size());
   node_heat_.resize(meshes_.size());
@@ -76,7 +76,7 @@ std::string Hexahedra::advance() {
   if (error.empty()) error = too_dense;
   const std::vector<double>& of_contact = state_.transition.contact_heat;
   for (std::size_t i = 0; i < count_; ++i)
-    state_.booked.transfer_heat -= of_contact[i];  // counted by contact
+    state_.booked.transfer_heat -= of_contact[i];  // already counted by contact
   return error;
 }
 
@@ -103,8 +103,8 @@ std::string Hexahedra::advance_mesh(std::size_t m, SqueezedPoints& squeezed) {
   return error;
 }
 
-/// Strain, work, heat, new stresses and their forces of the elements of a mesh, block by block.
-/// @param heated  is there heat at any of its nodes?
+/// Updates strain, work, heat and stress of the elements of a mesh, and computes their forces, block by block.
+/// @param heated  whether any of its nodes has heat to distribute
 /// @returns an error that ends the run, or nothing
 std::string Hexahedra::deform(std::size_t m, bool heated, SqueezedPoints& squeezed) {
   using Clock = std::chrono::steady_clock;
@@ -131,7 +131,7 @@ std::string Hexahedra::deform(std::size_t m, bool heated, SqueezedPoints& squeez
   state_.booked.hourglass_work += report.hourglass_work;
   state_.booked.hourglass_overdrawn += report.hourglass_overdrawn;
   state_.booked.limited_hourglass += report.limited_hourglass;
-  Clock::duration in_material{};  // of all threads
+  Clock::duration in_material{};  // sum over all threads
   MaterialReport sum;
   for (std::size_t i = 0; i < reports.size(); ++i) {
     sum.merge(reports[i]);
@@ -156,11 +156,11 @@ std::string Hexahedra::deform(std::size_t m, bool heated, SqueezedPoints& squeez
                         "valid range earlier");
 }
 
-/// Elements that lie outside of the domain as a whole are gone, and their contributions to the nodes.
+/// Removes the elements that are outside of the domain as a whole, with their contributions to the nodes.
 void Hexahedra::remove_outside() {
   bool gone_any = false;
   for (fem::Mesh& mesh : meshes_) {
-    // (Nodes on walls may stand beyond them by round-off: those faces do not count.)
+    // Only outflow faces count: nodes on walls may be beyond these by round-off.
     const auto is_outside = [&](std::size_t a) {
       return state_.setup.geometry.has_left(mesh.nodes.position[a]);
     };
@@ -187,8 +187,8 @@ void Hexahedra::remove_outside() {
   if (parallel::any(state_.communicator, gone_any)) elements_removed();
 }
 
-/// Deletes elements of a mesh; what they had is outflow.
-/// @returns kg
+/// Deletes elements of a mesh and counts their contents as outflow.
+/// @returns their mass, kg
 double Hexahedra::remove(fem::Mesh& mesh, std::span<const std::uint8_t> removed) {
   const Totals before = totals_of(mesh, state_.particle_affine_inertia());
   for (std::size_t e = 0; e < removed.size(); ++e) {

@@ -14,26 +14,25 @@
 
 namespace whipple::solver {
 
-/// The bodies of hexahedra, as far as they are still elements (docs/theory/fem.md), and their transition to particles
+/// Carries the bodies of hexahedra, except converted elements (docs/theory/fem.md), and their conversion to particles
 /// (docs/theory/afemp.md).
 class Hexahedra : public Carrier {
  public:
   Hexahedra(State& state, const Loads& loads, std::vector<fem::Mesh> meshes);
 
-  /// Returns the part of this rank, with copies of the nodes that it shares with other ranks
-  /// (src/fem/distribution.hpp).
+  /// Returns this rank's part, with copies of the nodes that it shares with other ranks (src/fem/distribution.hpp).
   [[nodiscard]] const std::vector<fem::Mesh>& meshes() const { return meshes_; }
-  /// Returns the faces of each mesh that belong to one element of all ranks only. Collective.
+  /// Returns the faces of each mesh that belong to only one element of all ranks. Collective.
   [[nodiscard]] const std::vector<std::vector<fem::Facet>>& free_facets();
 
-  /// Turns distorted elements into particles, and deals with those that have left their valid range as the case says.
+  /// Converts distorted elements to particles, and treats those outside their valid range as the case specifies.
   /// Collective.
-  /// @param grid_step  s, that the grid allows
-  /// @throws StateError on all ranks, if one has left its range on any and is to stop the run
+  /// @param grid_step  time step that the grid allows, s
+  /// @throws StateError on all ranks if an element on any rank has left its range and the case specifies to stop
   void convert(ParticleCarrier& particles, double grid_step);
-  /// Marks the nodes at particles or at other bodies: they move with the grid. Collective.
+  /// Marks the nodes near particles or other bodies: they move with the grid. Collective.
   void mark_transition();
-  /// Warns of bodies within reach of each other at the start: they push each other from the first step on. Collective.
+  /// Warns of bodies within reach of each other at the start: they are in contact from the first step. Collective.
   void warn_of_contact() const;
 
   [[nodiscard]] bool empty() const override { return meshes_.empty(); }
@@ -77,13 +76,14 @@ class Hexahedra : public Carrier {
   const Loads& loads_;
   std::vector<fem::Mesh> meshes_;
   std::vector<std::vector<fem::Facet>> free_facets_;  // of each mesh
-  bool surfaces_changed_ = true;                      // since they were found
+  bool surfaces_changed_ = true;                      // since they were determined
   fem::SharedNodes shared_nodes_;
-  std::vector<std::array<double, 5>> shared_;  // force (N), mass (kg), sound speed of all copies of each
-  // In the step under way:
+  // Of each shared node over all its copies: force (N), mass (kg), sound speed (m/s)
+  std::vector<std::array<double, 5>> shared_;
+  // In the current step:
   std::size_t first_ = 0, count_ = 0;   // of the nodes in State::transition
   struct Motion {                       // of each mesh
-    std::vector<Vector3> acceleration;  // m/s^2, of the nodes by loads
+    std::vector<Vector3> acceleration;  // of the nodes by loads, m/s^2
     fem::VelocityGradients gradient;
   };
   std::vector<Motion> of_mesh_;

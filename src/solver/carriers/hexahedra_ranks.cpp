@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hexahedra on several ranks (docs/theory/fem.md, 10), their sums and files.
+// Hexahedra on several ranks (docs/theory/fem.md, section 10), their sums and files.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,12 +38,12 @@ void Hexahedra::share_out() {
   surfaces_changed_ = true;
 }
 
-/// After elements became particles or left, on whatever rank.
+/// Updates shared nodes and fields after elements were converted or removed on any rank.
 void Hexahedra::elements_removed() {
   surfaces_changed_ = true;
   if (!state_.is_parallel()) return;
   shared_nodes_.elements_removed(meshes_);
-  // Optional fields are in use on all ranks or on none.
+  // An optional field is in use on all ranks or on none.
   for_each_field(state_.particles, [&](const auto& field) {
     if (!field.optional) return;
     const bool in_use = parallel::any(state_.communicator, !field.of(state_.particles).empty());
@@ -51,7 +51,7 @@ void Hexahedra::elements_removed() {
   });
 }
 
-/// Forces, masses and sound speeds of all copies of the shared nodes.
+/// Sums forces and masses, and takes the maximum sound speed, over all copies of the shared nodes.
 void Hexahedra::join_shared_nodes() {
   if (!state_.is_parallel()) return;
   const std::span<const fem::SharedNodes::Place> places = shared_nodes_.places();
@@ -83,8 +83,8 @@ void Hexahedra::join_shared_nodes() {
   }
 }
 
-/// v <- v + dt f/m of the nodes of a mesh that are not in transition, with the forces of all ranks on those
-/// that they share.
+/// Advances v <- v + dt f/m of the nodes of a mesh that are not interface nodes; shared nodes have the forces of all
+/// ranks.
 fem::ConstraintBalance Hexahedra::advance_free_nodes(std::size_t m) {
   fem::Mesh& mesh = meshes_[m];
   const double dt = state_.run.time_step;
@@ -148,7 +148,7 @@ std::size_t Hexahedra::element_count() const {
   return count;
 }
 
-/// An element may become eight particles.
+/// Returns the largest possible id: an element may become eight particles.
 std::uint64_t Hexahedra::largest_particle_id() const {
   std::uint64_t largest = 0;
   for (const fem::Mesh& mesh : meshes_) {

@@ -12,7 +12,7 @@
 namespace whipple::solver {
 
 /// Evaluates the accelerations of the nodes at a time (s) and adds the forces.
-/// @param acceleration  m/s^2, for `book_loads`; empty without a load
+/// @param acceleration  result for `book_loads`, m/s^2; empty without a load
 inline void add_loads(const Loads& loads, double time, fem::Nodes& nodes,
                       std::vector<Vector3>& acceleration) {
   loads.evaluate({nodes.id, nodes.position, nodes.velocity}, time, acceleration);

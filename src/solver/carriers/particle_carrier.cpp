@@ -27,12 +27,12 @@ void ParticleCarrier::complete_seeded(bool extent) {
 
 void ParticleCarrier::complete_read(bool extent) {
   require_fields(extent);
-  sort_by_body(state_.particles);  // checkpoints hold the particles of several ranks one after the other
+  sort_by_body(state_.particles);  // checkpoints hold the particles rank by rank
   state_.find_bodies();
 }
 
-/// Returns for each chunk of particles 1 if it is at rest since its values were found.
-/// @param arrangement  of the particles then; set to that of now
+/// Returns, for each chunk of particles, 1 if it has been inactive since its values were computed.
+/// @param arrangement  arrangement of the particles at that time; set to the present one
 std::vector<std::uint8_t> ParticleCarrier::stays_since(std::size_t& arrangement) const {
   const bool same = std::exchange(arrangement, state_.grid.arrangement()) == state_.grid.arrangement();
   std::vector<std::uint8_t> stays(parallel::chunk_count(state_.particles.size()), 0);

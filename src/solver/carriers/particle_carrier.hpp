@@ -9,28 +9,29 @@
 
 namespace whipple::solver {
 
-/// The particles, `State::particles`. Their forces and their motion are those of the transfers (Transfers).
+/// Carries the particles, `State::particles`. Their forces and motion are computed by the transfers (Transfers).
 class ParticleCarrier : public Carrier {
  public:
   using Carrier::Carrier;
 
-  /// Prepares the fields that the case needs of particles that have just been seeded.
-  /// @param extent  do they need domains?
+  /// Prepares the fields that the case requires in newly created particles.
+  /// @param extent  whether domains are required
   void complete_seeded(bool extent);
-  /// Prepares particles of a checkpoint.
-  /// @throws InputError if they have no field that the case needs
+  /// Prepares the particles of a checkpoint.
+  /// @throws InputError if a field that the case requires is missing
   void complete_read(bool extent);
 
-  /// Returns the greatest sum of sound speed and velocity component, m/s, of this rank.
+  /// Returns the maximum sum of sound speed and velocity component on this rank, m/s.
   double fastest();
-  /// Sorts by body (so that a material is a range), then by block, then by stencil.
+  /// Sorts by body (so that a body is a contiguous range), then by block, then by stencil.
   void sort();
-  /// Puts all in order after particles came, went or changed their places.
+  /// Restores order and ranges after particles were added, removed or moved.
   void reallocated();
 
   [[nodiscard]] bool empty() const override { return false; }
   void remove_outside() override;
-  /// Removes products of explosives below the pressure of the case and counts them as outflow; where the case has one.
+  /// Removes products of explosives below the minimum pressure of the case, if it specifies one, and counts them as
+  /// outflow.
   void retire_products();
   void add_totals(Totals& sum) override;
   void add_phases(std::span<PhaseMasses> of_body) const override;
@@ -48,22 +49,22 @@ class ParticleCarrier : public Carrier {
   void show(View& view) const override { view.particles = &state_.particles; }
 
  private:
-  /// Values of each chunk of particles that are kept from step to step: those of material at rest stay.
+  /// Holds values of each chunk of particles from step to step; those of inactive chunks remain valid.
   template <class Value>
   struct KeptByChunk {
     std::vector<Value> values;
-    std::size_t arrangement = 0;  // of the particles then
+    std::size_t arrangement = 0;  // of the particles at that time
   };
   [[nodiscard]] std::vector<std::uint8_t> stays_since(std::size_t& arrangement) const;
   void require_fields(bool extent) const;
-  /// Removes particles, numbers ascending, and counts them as outflow.
+  /// Removes particles (ascending) and counts them as outflow.
   void remove_as_outflow(const std::vector<std::uint32_t>& leaving);
 
   KeptByChunk<Totals> totals_;
   KeptByChunk<double> fastest_;                     // m/s
   KeptByChunk<double> largest_squares_;             // of speeds in the frame below, m^2/s^2
   Vector3 frame_of_speeds_ = Vector3::Zero();       // m/s
-  std::vector<std::uint32_t> by_stencil_, sorted_;  // of the last sort; their memory is kept for the next
+  std::vector<std::uint32_t> by_stencil_, sorted_;  // of the last sort; the memory is reused
   SortBuffers sort_buffers_;
 };
 

@@ -10,7 +10,7 @@
 
 namespace whipple::solver {
 
-/// A checkpoint of the same case holds the optional fields that it needs; of another case, perhaps not.
+/// Requires all optional fields that the case needs; a checkpoint of another case may lack some.
 void ParticleCarrier::require_fields(bool extent) const {
   Particles needed;
   needed.mass.resize(state_.particles.size());

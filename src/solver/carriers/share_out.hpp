@@ -9,14 +9,14 @@
 #include "src/fem/distribution.hpp"
 #include "src/grid/block_grid.hpp"
 
-/// Distribution of elements over the ranks: they follow the blocks of their centres, with copies of the nodes that
-/// several ranks share (docs/theory/fem.md, 10).
+/// Distribution of elements over the ranks: they are on the rank that owns the block of their centre, with copies of
+/// the nodes that several ranks share (docs/theory/fem.md, section 10).
 namespace whipple::solver {
 
-/// Rank that holds all bars in files: they are few.
+/// Rank that holds all bars in files, as they are few.
 constexpr int rank_of_bars_in_files = 0;
 
-/// Lists the nodes of every element.
+/// Returns the nodes of every element.
 inline const std::vector<fem::Corners>& nodes_of_elements(const fem::Mesh& mesh) {
   return mesh.elements.corners;
 }
@@ -24,7 +24,7 @@ inline const std::vector<std::array<std::uint32_t, 2>>& nodes_of_elements(const 
   return bars.elements.ends;
 }
 
-/// Computes the centres (m) of the elements of all bodies, moved into the domain where they are outside.
+/// Computes the centres (m) of the elements of all bodies; centres outside of the domain are moved into it.
 template <class Body>
 std::vector<Vector3> centres_of(const std::vector<Body>& bodies, const grid::Geometry& geometry) {
   const Vector3 upper(geometry.upper(0), geometry.upper(1), geometry.upper(2));
@@ -40,11 +40,12 @@ std::vector<Vector3> centres_of(const std::vector<Body>& bodies, const grid::Geo
   return centres;
 }
 
-/// Sends elements to the ranks that own the blocks of their centres if enough of them are elsewhere. Collective.
-/// @returns whether they were sent
+/// Sends elements to the ranks that own the blocks of their centres if enough of them are on other ranks. Collective.
+/// @returns whether elements were sent
 template <class Body>
 bool share_out(std::vector<Body>& bodies, const grid::BlockGrid& grid, MPI_Comm communicator) {
-  constexpr double astray = 0.05;  // fraction of a rank's elements elsewhere before elements move
+  // Fraction of a rank's elements with another owner above which elements are sent
+  constexpr double astray = 0.05;
   const std::vector<int> owners = grid.owners(centres_of(bodies, grid.geometry()));
   const auto elsewhere = static_cast<double>(
       owners.size() - static_cast<std::size_t>(std::ranges::count(owners, parallel::rank(communicator))));

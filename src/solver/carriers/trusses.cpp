@@ -17,7 +17,7 @@
 
 namespace whipple::solver {
 
-/// Completes what is not in files.
+/// Completes the data that are not in files.
 void Trusses::connect() {
   for (fem::Bars& bars : bars_) {
     bars.material = cases::bar_material(*state_.setup.materials[bars.body], state_.setup.bodies[bars.body]);
@@ -33,7 +33,7 @@ void Trusses::compute_forces() {
   }
 }
 
-/// All of their nodes move with the grid.
+/// Collects all nodes: they move with the grid.
 void Trusses::collect() {
   transfer::TransitionNodes& to = state_.transition;
   std::size_t i = first_ = to.size();
@@ -59,7 +59,7 @@ double Trusses::critical_time_step() const {
   return dt;
 }
 
-/// Takes the motion of the grid; strain, work and heat of the bars.
+/// Applies the motion of the grid; updates strain, work and heat of the bars.
 std::string Trusses::advance() {
   const double dt = state_.run.time_step;
   const transfer::TransitionNodes& from = state_.transition;
@@ -86,7 +86,7 @@ std::string Trusses::advance() {
   return {};
 }
 
-/// Bars with an end outside of the domain are gone.
+/// Removes the bars with an end outside of the domain.
 void Trusses::remove_outside() {
   for (fem::Bars& bars : bars_) {
     std::vector<std::uint8_t> removed(bars.elements.size());
@@ -157,7 +157,7 @@ void Trusses::keep_share() {
   connect();
 }
 
-/// All go to one rank, and from there to the owners of their blocks.
+/// Gathers all bars on one rank; from there they are sent to the owners of their blocks.
 void Trusses::gather() {
   const auto all_to_one = [&](auto& points) {
     std::vector<std::vector<std::uint32_t>> leaving(

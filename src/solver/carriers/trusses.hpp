@@ -8,13 +8,14 @@
 
 namespace whipple::solver {
 
-/// The bodies of bars: their nodes move with the velocity field of the grid (docs/theory/fem.md, 6; afemp.md, 4).
+/// Carries the bodies of bars: their nodes move with the velocity field of the grid (docs/theory/fem.md, section 6;
+/// afemp.md, section 4).
 class Trusses : public Carrier {
  public:
   Trusses(State& state, const Loads& loads, std::vector<fem::Bars> bars)
       : Carrier(state), loads_(loads), bars_(std::move(bars)) {}
 
-  /// Returns the bars of this rank, with copies of the nodes that it shares with other ranks.
+  /// Returns this rank's bars, with copies of the nodes that it shares with other ranks.
   [[nodiscard]] const std::vector<fem::Bars>& bars() const { return bars_; }
 
   [[nodiscard]] bool empty() const override { return bars_.empty(); }
@@ -41,9 +42,8 @@ class Trusses : public Carrier {
 
   const Loads& loads_;
   std::vector<fem::Bars> bars_;
-  std::vector<std::vector<Vector3>>
-      acceleration_;       // of the nodes of each body by loads, in the step under way
-  std::size_t first_ = 0;  // of their nodes in State::transition
+  std::vector<std::vector<Vector3>> acceleration_;  // of the nodes of each body by loads, in the current step
+  std::size_t first_ = 0;                           // index of their first node in State::transition
 };
 
 }  // namespace whipple::solver

@@ -17,22 +17,22 @@ namespace whipple::solver {
 namespace {
 
 constexpr std::int64_t look_for_rest_every = 20;  // steps
-/// Has the blocks distributed over the ranks again once the material at rest is less than this part of what it was then.
+/// Fraction of the former number of particles at rest below which the blocks are distributed over the ranks again.
 constexpr double rest_of_old_shares = 0.8;
 
-/// Returns the first time (s), from the given one on, at which a material changes although it is at rest.
+/// Returns the first time (s), not before the given one, at which a material changes although it is at rest.
 double next_event(const Material& material, const cases::HeatControl& heat, double time) {
   return heat.conduction && material.conductivity > 0.0 ? time : std::numeric_limits<double>::infinity();
 }
 
-/// A number in [0, 1) that depends on its arguments only: the same on all ranks and after a restart.
+/// Returns a number in [0, 1) that depends on the arguments only: equal on all ranks and after a restart.
 double random_number(std::uint64_t seed, std::uint64_t step, std::uint64_t axis) {
   return static_cast<double>(random_bits((seed << 40U) + 4 * step + axis, 0) >> 11U) * 0x1p-53;
 }
 
 }  // namespace
 
-/// Walls lie on nodes, so the grid keeps its place along their normals.
+/// Shifts the grid along axes without walls: walls are located on nodes.
 void Activity::shift_grid() {
   if (!state_.setup.transfer.random_shift) return;
   Vector3 cells = Vector3::Zero();
@@ -52,13 +52,13 @@ void Activity::shift_grid() {
 void Activity::find() {
   flying_.clear();
   const double end = state_.run.time + state_.run.time_step;
-  // Loads act through the grid.
+  // Loads act on particles through the grid.
   if (state_.setup.transfer.free_flight && loads_.next_event(state_.run.time) >= end) find_free_flight();
   let_material_rest();
 }
 
-/// A failed particle without stress whose surroundings of two cells hold no other one moves on by itself: the
-/// transfers would give back what they were given.
+/// Finds failed particles without stress that have no other particle within two cells: for them the transfers are the
+/// identity, so that they move freely.
 void Activity::find_free_flight() {
   const auto without_stress = [&](std::size_t p) {
     return state_.particles.failed[p] != 0 && state_.particles.pressure[p] == 0.0 &&
@@ -101,7 +101,7 @@ bool Activity::material_may_rest() const {
   return state_.setup.transfer.rest_tolerance > 0.0 && next_event() >= state_.run.time + state_.run.time_step;
 }
 
-/// Returns whether explosive burns, or begins to before a time (s). Collective.
+/// Returns whether explosive burns, or begins to burn before a time (s). Collective.
 bool Activity::explosives_are_lit(double before) const {
   if (!state_.setup.has_burn()) return false;
   const Explosives explosives(state_);
@@ -115,8 +115,8 @@ bool Activity::has_much_woken() const {
                                      rest_of_old_shares * static_cast<double>(most_at_rest_);
 }
 
-/// How often particles bring something to the nodes in a step: each time, motion gets to blocks that share
-/// nodes with those where it was (docs/theory/mpm.md, section 8).
+/// Returns how often particles contribute to nodes in a step: each time, motion propagates to blocks that share nodes
+/// with moving ones (docs/theory/mpm.md, section 8).
 int Activity::layers_ahead_of_motion() const {
   const int layers = cases::transfers_per_step(state_.setup.time.scheme);
   return state_.setup.transfer.particle_update == cases::ParticleUpdate::fmpm
@@ -124,21 +124,21 @@ int Activity::layers_ahead_of_motion() const {
              : layers;
 }
 
-/// Blocks without motion and stress keep their state until motion may reach them. The layers between take
-/// part and are quiet: what is missing at their outer nodes is below the tolerance. What takes part keeps
-/// mass, momentum and energy among itself.
+/// Deactivates blocks without motion and stress until motion may reach them. The layers around moving blocks are active
+/// and quiescent: the missing contributions at their outer nodes are below the tolerance. The active blocks conserve
+/// mass, momentum and energy among themselves.
 void Activity::let_material_rest() {
   if (!material_may_rest()) {
-    state_.grid.wake();  // a load may have begun
+    state_.grid.wake();  // a load may have begun to act
     state_.run.particles_at_rest = 0;
     return;
   }
-  // What has been stirred hardly comes to rest again: where nothing rests, that is seldom looked for.
+  // Disturbed material rarely comes to rest again: if nothing is at rest, this is checked rarely.
   if (state_.run.particles_at_rest == 0 && state_.run.step % look_for_rest_every != 0) return;
   const Explosives explosives(state_);
   const double end = state_.run.time + state_.run.time_step;
   if (explosives_are_lit(end))
-    state_.grid.wake();  // detonation begins in material at rest, too: it is looked at again
+    state_.grid.wake();  // detonation begins in material at rest, too: all blocks are examined
   const std::size_t at_rest = state_.grid.let_rest(layers_ahead_of_motion(), [&](std::size_t slot) {
     return std::ranges::any_of(state_.grid.particles_in(slot),
                                [&](std::uint32_t p) { return is_restless(p) || explosives.is_lit(p, end); });

@@ -9,28 +9,28 @@
 
 namespace whipple::solver {
 
-/// Particles and grid apart: free flight, material at rest, and random shifts of the grid (docs/theory/mpm.md,
-/// section 8).
+/// Manages the relation of particles and grid: free flight, inactive blocks, and random shifts of the grid
+/// (docs/theory/mpm.md, section 8).
 class Activity {
  public:
   Activity(State& state, const Loads& loads) : state_(state), loads_(loads) {}
 
-  /// Moves the grid by a random fraction of a cell where the case asks for it, before particles are binned.
+  /// Moves the grid by a random fraction of a cell where the case requests it, before particles are binned.
   void shift_grid();
-  /// Finds the particles that fly without the grid in this step, and the blocks that stay as they are. Collective.
+  /// Finds the particles in free flight in this step, and the inactive blocks. Collective.
   void find();
 
-  /// Returns the particles that fly without the grid in this step.
+  /// Returns the particles in free flight in this step.
   [[nodiscard]] const std::vector<std::uint32_t>& flying() const { return flying_; }
-  /// Returns the first time (s), from now on, at which loads or materials act on material at rest.
+  /// Returns the first time (s), not before the present one, at which loads or materials act on material at rest.
   [[nodiscard]] double next_event() const;
-  /// Returns whether blocks without motion and stress may stay as they are in this step.
+  /// Returns whether blocks without motion and stress may be inactive in this step.
   [[nodiscard]] bool material_may_rest() const;
-  /// Returns whether a particle moves or bears a stress.
+  /// Returns whether a particle moves or carries a stress.
   [[nodiscard]] bool is_restless(std::size_t particle) const;
-  /// Returns whether much less material is at rest than when the blocks were shared out among the ranks.
+  /// Returns whether much less material is at rest than when the blocks were distributed over the ranks.
   [[nodiscard]] bool has_much_woken() const;
-  /// Takes note that the blocks have been shared out.
+  /// Records that the blocks have been distributed again.
   void blocks_shared_out() { most_at_rest_ = 0; }
 
  private:
@@ -42,7 +42,7 @@ class Activity {
   State& state_;
   const Loads& loads_;
   std::vector<std::uint32_t> flying_;
-  std::int64_t most_at_rest_ = 0;  // since the blocks were shared out among the ranks
+  std::int64_t most_at_rest_ = 0;  // maximum since the blocks were distributed over the ranks
 };
 
 }  // namespace whipple::solver

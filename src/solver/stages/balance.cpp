@@ -43,7 +43,7 @@ void Balance::sum() {
 void Balance::require_energy() const {
   const double error = state_.run.ledger.energy_error(state_.totals);
   const double limit = state_.setup.output.energy_error_limit(state_.setup.time.scheme);
-  if (std::abs(error) <= limit) return;  // false for NaN
+  if (std::abs(error) <= limit) return;  // not true for NaN
   throw StateError(
       fmt::format("step {}, t = {} s: the relative error of the total energy is {:.3e}, beyond "
                   "output.maximum_energy_error = {}",

@@ -5,12 +5,12 @@
 
 namespace whipple::solver {
 
-/// Totals of all carriers and the ledger of what changed them (docs/theory/mpm.md, section 4).
+/// Computes the totals of all carriers and updates the ledger of their changes (docs/theory/mpm.md, section 4).
 class Balance {
  public:
   Balance(State& state, const Carriers& carriers) : state_(state), carriers_(carriers) {}
 
-  /// Sums totals, numbers and what the step accumulated over all ranks. Collective.
+  /// Sums totals, numbers and the contributions of the step over all ranks. Collective.
   void sum();
   /// Checks the total energy at the end of a step.
   /// @throws StateError if its error exceeds the limit of the case

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How fast material is compressed, which bounds the time step (docs/theory/mpm.md, section 6).
+// Compression rate of the material, which bounds the time step (docs/theory/mpm.md, section 6).
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -16,11 +16,11 @@
 namespace whipple::solver {
 namespace {
 
-/// Fraction of the mass that may be compressed faster than the time step follows: a few particles that are
-/// squeezed between debris and a wall must not hold up all others.
+/// Fraction of the mass that may be compressed faster than the time step resolves: a few particles trapped between
+/// debris and a wall must not delay the entire run.
 constexpr double free_share = 1e-3;
 
-/// Bins of positive numbers by exponent and first four bits of the mantissa: 3 to 6 % wide, from 1 to 2^40.
+/// Bins positive numbers by exponent and first four bits of the mantissa: bins 3 to 6 % wide, from 1 to 2^40.
 struct Bins {
   static constexpr std::size_t count = 40 * 16;
   static std::size_t of(double x) {
@@ -34,14 +34,14 @@ struct Bins {
   }
 };
 
-constexpr double parts_of_mass =
-    0x1p40;  // masses are counted in these, so that their sums do not depend on the order
+// Unit of mass as an integer, so that sums do not depend on the order
+constexpr double parts_of_mass = 0x1p40;
 
 }  // namespace
 
-/// Rate that all but `free_share` of the particles' mass keep below, or one that does not bound the next
-/// step.
-/// @param largest  1/s, of all particles of all ranks
+/// Returns a rate that at most the fraction `free_share` of the total mass exceeds, or one that does not bound the
+/// next step.
+/// @param largest  maximum over the particles of all ranks, 1/s
 double TimeStep::compression_rate_of_most(double largest) const {
   if (!state_.keeps_losses()) return largest;
   const cases::TimeControl& control = state_.setup.time;

@@ -20,7 +20,7 @@ ContactStage::ContactStage(State& state, Hexahedra& hexahedra, contact::GridUpda
     state_.grid.set_wholes(cracks_->fields().wholes());
   }
   if (fields.several() || cracks_) {
-    // Other schemes strain bodies by velocities before contact, or after it of each body alone.
+    // Other schemes strain bodies by velocities before contact, or by those of each body alone after it.
     const bool common = control.method == cases::ContactMethod::automatic &&
                         state_.setup.time.scheme == cases::Scheme::symplectic;
     contact_.emplace(
@@ -37,7 +37,7 @@ ContactStage::ContactStage(State& state, Hexahedra& hexahedra, contact::GridUpda
   set_up_walls();
 }
 
-/// Detonation products slide on what they drive.
+/// Returns the Coulomb coefficients of the fields; that of explosives is separate, so that their products can slide.
 std::vector<double> ContactStage::friction_of_fields() const {
   if (!state_.setup.has_burn()) return {};
   const std::vector<std::uint8_t>& field_of_body = state_.setup.contact_fields.of_body;
@@ -49,11 +49,11 @@ std::vector<double> ContactStage::friction_of_fields() const {
   return friction;
 }
 
-/// kappa c/dx with a quarter of the sound speed at rest: material that has failed and opened, or boiled, is
-/// softer.
+/// Returns kappa c/dx with a quarter of the sound speed at rest: failed material with open voids and boiled material
+/// relax more slowly.
 std::vector<double> ContactStage::least_relaxation_rates() const {
   constexpr double share_of_tight_matter = 0.25;
-  // Others relax by no sound speed.
+  // Other particle updates have no relaxation by the sound speed.
   if (state_.setup.transfer.particle_update != cases::ParticleUpdate::relaxed_affine) return {};
   const std::vector<std::uint8_t>& field_of_body = state_.setup.contact_fields.of_body;
   std::vector<double> rates(*std::ranges::max_element(field_of_body) + std::size_t{1},
@@ -94,7 +94,7 @@ void ContactStage::find_surfaces(bool after_transfer) {
   state_.profile.time("contact", [&] {
     surface_points_.clear();
     const std::vector<std::vector<fem::Facet>>& facets = hexahedra_.free_facets();
-    // Of the contact slots of other ranks nothing is known here.
+    // The contact slots of other ranks are unknown here.
     std::optional<contact::BlocksAtContact> near;
     if (!state_.is_parallel()) near.emplace(state_.grid);
     const std::vector<fem::Mesh>& meshes = hexahedra_.meshes();

@@ -13,37 +13,38 @@
 
 namespace whipple::solver {
 
-/// Contact of bodies with one another (docs/theory/contact.md), and with their images at mirror planes and walls: one
-/// with its image, or in contact with it (docs/theory/mpm.md, section 3).
+/// Applies contact between bodies (docs/theory/contact.md), and between bodies and their images at mirror planes and
+/// walls, with which they are either continuous or in contact (docs/theory/mpm.md, section 3).
 class ContactStage {
  public:
   /// @param grid_update  applies the contact with images
   ContactStage(State& state, Hexahedra& hexahedra, contact::GridUpdate& grid_update);
 
-  /// Returns whether a body is one with its image at a face, as the field that it moves in is.
+  /// Returns whether a body is continuous with its image at a face, as its velocity field is.
   [[nodiscard]] bool is_one_with_image(std::size_t body, std::size_t face) const;
-  /// Returns whether there is material that may meet its image as another body.
+  /// Returns whether any material may be in contact with its image.
   [[nodiscard]] bool may_meet_images() const;
-  /// Returns whether bodies have velocity fields of their own.
+  /// Returns whether bodies have separate velocity fields.
   [[nodiscard]] bool has_fields() const { return state_.setup.contact_fields.several(); }
 
-  /// Separates the velocity fields where bodies are near one another, after particles were binned. Collective.
+  /// Separates the velocity fields where bodies are close to each other. Call after particles were binned. Collective.
   void separate_fields();
-  /// Finds the surfaces of bodies at nodes, once in a step: heat conduction may ask for them before the transfer to
-  /// the grid. Collective.
+  /// Finds the surfaces of bodies at nodes, once in a step: heat conduction may require them before the transfer to the
+  /// grid. Collective.
   void find_surfaces(bool after_transfer);
   /// Finds the surfaces at mirror planes and walls. Collective.
   void find_surfaces_at_walls();
-  /// Changes the velocities of nodes so that bodies do not penetrate one another.
+  /// Changes the velocities of nodes so that bodies do not penetrate each other.
   void apply();
-  /// Returns where bodies with velocity fields of their own exchange heat; empty without any.
+  /// Returns a function that states where bodies with separate velocity fields exchange heat; empty without such
+  /// bodies.
   [[nodiscard]] transfer::TouchAtNode touch_at_node() const;
 
-  /// Watches touches that could strain material, in one whole step, by more than the time step is to follow.
-  /// @param accurate_step  s, that the state allows
+  /// Watches for first contacts that could strain material in one whole step by more than the limit of the time step.
+  /// @param accurate_step  time step that the state allows, s
   void watch_touches(double accurate_step);
-  /// Foresees, at the end of a step, when bodies touch next for the first time. Collective.
-  /// @param accurate_step  s, that the state allowed
+  /// Predicts, at the end of a step, the next first contact of bodies. Collective.
+  /// @param accurate_step  time step that the state allowed, s
   void foresee_touches(double accurate_step);
 
  private:
@@ -54,12 +55,12 @@ class ContactStage {
   State& state_;
   Hexahedra& hexahedra_;
   contact::MirrorContact& with_images_;
-  std::optional<contact::Contact>
-      contact_;                            // if bodies have velocity fields of their own, or divide at cracks
-  std::optional<contact::Cracks> cracks_;  // of bodies that divide at them
+  // If bodies have separate velocity fields, or are divided at cracks
+  std::optional<contact::Contact> contact_;
+  std::optional<contact::Cracks> cracks_;  // of the bodies that are divided at cracks
   std::vector<std::uint8_t> field_of_body_;
   std::optional<contact::FirstTouches> first_touches_;
-  bool surfaces_found_ = false;              // in the step under way
+  bool surfaces_found_ = false;              // in the current step
   std::vector<std::uint8_t> field_;          // of each particle
   std::vector<std::uint8_t> field_of_node_;  // of each node of elements that moves with the grid
   contact::SurfacePoints surface_points_;

@@ -16,7 +16,7 @@ Drive::Drive(const cases::Case& setup) {
 void Drive::add(State& state, std::vector<Vector3>& acceleration) const {
   if (driven_.empty()) return;
   const Particles& particles = state.particles;
-  std::vector<double> sums(4 * driven_.size(), 0.0);  // mass and momentum of each
+  std::vector<double> sums(4 * driven_.size(), 0.0);  // mass and momentum of each body
   for (std::size_t d = 0; d < driven_.size(); ++d) {
     const cases::BodySummary& own = state.bodies[driven_[d].body];
     for (std::size_t p = own.first; p < own.first + own.count; ++p) {

@@ -8,23 +8,24 @@
 
 namespace whipple::solver {
 
-/// Finds the force on driven bodies: one acceleration of all particles of a body, by which its mean velocity v stays the
-/// one that the case gives it, V,
-///   a = (V - v)/dt - c, c = (v - v')/dt' - a',
-/// where ' is the step before and c the acceleration by all other forces in it, which change little from step to step. Along the
-/// normal of a mirror plane that the body touches the plane guides it.
+/// Computes the force on driven bodies (docs/theory/mpm.md, equation 3.5a): a common acceleration of all particles of a
+/// body that keeps its mean velocity v at the velocity V given in the case,
+/// a = (V - v)/dt - c, c = (v - v')/dt' - a',
+/// where ' denotes the previous step and c the acceleration by all other forces in it, which changes little from step
+/// to step. Along the normal of a mirror plane that the body touches there is no force.
 class Drive {
  public:
   explicit Drive(const cases::Case& setup);
 
-  /// Adds the accelerations (m/s^2) of a step to those of the particles, and remembers in `state.run`. Collective.
+  /// Adds the accelerations (m/s^2) of a step to those of the particles, and stores the data for the next step in
+  /// `state.run`. Collective.
   void add(State& state, std::vector<Vector3>& acceleration) const;
 
  private:
   struct Driven {
     std::size_t body;
-    Vector3 velocity;            // m/s, V
-    std::array<bool, 3> guided;  // by a mirror plane, along this axis
+    Vector3 velocity;            // V, m/s
+    std::array<bool, 3> guided;  // by a mirror plane normal to this axis
   };
   std::vector<Driven> driven_;
 };

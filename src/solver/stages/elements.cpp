@@ -9,7 +9,7 @@
 namespace whipple::solver {
 namespace {
 
-constexpr std::int64_t conversion_every = 4;  // steps: distortion grows by a few per cent in each
+constexpr std::int64_t conversion_every = 4;  // steps, each of which adds a few per cent of distortion
 
 }  // namespace
 
@@ -27,7 +27,7 @@ void ElementStage::adapt(bool contact) {
   if (hexahedra_.empty()) return collect();
   if (state_.run.step % conversion_every == 0) {
     state_.profile.time("convert elements", [&] {
-      collect();  // of the step before: those that limit the step of the grid
+      collect();  // of the previous step: these limit the time step of the grid
       hexahedra_.convert(particles_, grid_time_step(state_, particles_));
     });
   }

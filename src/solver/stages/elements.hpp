@@ -6,8 +6,8 @@
 
 namespace whipple::solver {
 
-/// Elements in the step, and their transition to the grid and to particles (docs/theory/afemp.md). Does nothing in a
-/// case without elements.
+/// Performs the stages of elements, their coupling to the grid and their conversion to particles
+/// (docs/theory/afemp.md). Does nothing in a case without elements.
 class ElementStage {
  public:
   ElementStage(State& state, const Carriers& carriers, ParticleCarrier& particles, Hexahedra& hexahedra,
@@ -18,13 +18,14 @@ class ElementStage {
         hexahedra_(hexahedra),
         partition_(partition) {}
 
-  /// Turns distorted elements into particles; nodes at particles or at other bodies move with the grid. Collective.
-  /// @param contact  have bodies velocity fields of their own?
+  /// Converts distorted elements to particles, and marks nodes near particles or other bodies, which move with the
+  /// grid. Collective.
+  /// @param contact  whether bodies have separate velocity fields
   void adapt(bool contact);
   /// Computes the forces of elements on their nodes. Collective.
   void compute_forces();
-  /// Moves nodes by themselves or as the grid moved them, and updates their elements. Collective.
-  /// @throws StateError on all ranks, if an element is inverted or has no state on any
+  /// Moves nodes, freely or with the motion of the grid, and updates their elements. Collective.
+  /// @throws StateError on all ranks if an element on any rank is inverted or has no valid state
   void advance();
 
  private:

@@ -13,10 +13,10 @@
 namespace whipple::solver {
 namespace {
 
-constexpr std::int64_t look_every = 20;    // steps
-constexpr int looks_to_warn = 3;           // one after the other
-constexpr double strong = 0.1;             // pressure over rho c^2
-constexpr double filled = 0.85;            // of cells that material under pressure should fill
+constexpr std::int64_t look_every = 20;  // steps
+constexpr int looks_to_warn = 3;         // consecutive
+constexpr double strong = 0.1;           // pressure over rho c^2
+constexpr double filled = 0.85;  // minimum fraction of the cells that material under pressure should fill
 constexpr double share_to_warn_of = 1e-2;  // of the mass
 
 }  // namespace
@@ -41,7 +41,7 @@ void FillWatch::look() {
     })};
     parallel::sum(state_.communicator, mass);
     state_.run.squeezed_beside_voids = mass[0];
-    // A shock that breaks out of a surface squeezes a layer beside the void outside for a few steps.
+    // A shock that breaks out of a surface compresses a layer next to the void outside for a few steps.
     looks_at_voids_ = mass[0] < share_to_warn_of * state_.totals.mass ? 0 : looks_at_voids_ + 1;
     if (looks_at_voids_ < looks_to_warn || warned_) return;
     warned_ = true;

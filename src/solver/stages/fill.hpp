@@ -5,21 +5,21 @@
 
 namespace whipple::solver {
 
-/// Watches whether material under pressure fills its cells (docs/theory/contact.md, 7).
+/// Monitors whether material under pressure fills its cells (docs/theory/contact.md, section 7).
 class FillWatch {
  public:
   explicit FillWatch(State& state) : state_(state) {}
 
-  /// Sums the intact material that is squeezed although its cells hold voids: a mark of bodies that act on each other
-  /// across a gap, which energy and momentum do not show. Every 20 steps, after particles were binned. Collective.
+  /// Sums the intact material under pressure whose cells contain voids: a sign of bodies that interact across a gap,
+  /// which energy and momentum do not reveal. Acts every 20 steps; call after particles were binned. Collective.
   void look();
-  /// Returns the least fraction of its cells that material of more than a pressure (Pa) fills; 1e300 without any.
+  /// Returns the minimum fraction of its cells that material above a pressure (Pa) fills; 1e300 if there is none.
   /// Collective.
   [[nodiscard]] double least(double pressure) const;
 
  private:
   State& state_;
-  int looks_at_voids_ = 0;  // one after the other that found much material squeezed beside voids
+  int looks_at_voids_ = 0;  // consecutive checks that found much compressed material next to voids
   bool warned_ = false;
 };
 

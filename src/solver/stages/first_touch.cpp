@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies that touch for the first time (docs/theory/mpm.md, section 6).
+// First contact of bodies (docs/theory/mpm.md, section 6).
 #include <algorithm>
 
 #include "src/solver/stages/contact.hpp"
@@ -7,7 +7,7 @@
 namespace whipple::solver {
 namespace {
 
-/// A step that is longer than the first by no more than this counts as small.
+/// Maximum ratio to the initial time step at which a step counts as small.
 constexpr double small_step_ratio = 1.01;
 
 }  // namespace

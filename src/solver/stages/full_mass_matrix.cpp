@@ -27,14 +27,14 @@ Vector3 momentum(const Particles& particles, std::span<const Vector3> velocity) 
 Vector3 FullMassMatrix::apply(transfer::ShapeFunction shape, const Particles& particles,
                               grid::BlockGrid& grid, contact::GridUpdate& update, int order) {
   const std::span<grid::Node> nodes = grid.all_nodes();
-  // The first register holds the term v*_l of the series (5.9), the second the sum so far.
+  // The first register holds the term v*_l of the series (5.9), the second the partial sum.
   parallel::for_each(nodes.size(), [&](std::size_t i) {
     nodes[i].registers.second += Lanes{1.0, 1.0, 1.0, 0.0} * nodes[i].registers.first;
     nodes[i].registers.first = nodes[i].registers.second;
   });
-  at_particles_.assign(particles.size(), Vector3::Zero());  // stays so where the grid does not reach
+  at_particles_.assign(particles.size(), Vector3::Zero());  // remains zero where the grid does not reach
   term_.resize(nodes.size());
-  // Without planes the series keeps the momentum; what it adds with planes is their doing.
+  // Without planes the series conserves momentum; the change with planes is their impulse.
   const bool planes = !grid.mirror_planes().empty();
   Vector3 impulse = Vector3::Zero();
   for (int l = 2; l <= order; ++l) {

@@ -10,15 +10,15 @@
 
 namespace whipple::solver {
 
-/// Grid velocity by an approximate inverse of the full mass matrix, FMPM(k): Nairn & Hammerquist, Comput.
-/// Methods Appl. Mech. Eng. 377 (2021) 113667; docs/theory/mpm.md, equations 5.8 and 5.9. A PIC update with
-/// this velocity damps only what the particles' velocities hold and the grid cannot.
+/// Computes the grid velocity with an approximate inverse of the full mass matrix, FMPM(k): Nairn & Hammerquist,
+/// Comput. Methods Appl. Mech. Eng. 377 (2021) 113667; docs/theory/mpm.md, equations 5.8 and 5.9. A PIC update with
+/// this velocity damps only the part of the particle velocities that the grid cannot represent.
 class FullMassMatrix {
  public:
-  /// Replaces the velocity of the nodes after the forces by its FMPM value; the increment becomes zero. To be
-  /// called after `GridUpdate::receive`, with the particles' positions of that transfer. Collective.
-  /// @param order k >= 1; 1 leaves the velocity of the lumped masses
-  /// @returns momentum that mirror planes and walls give to the particles by it (N s, part of this rank)
+  /// Replaces the velocity of the nodes after the forces by its FMPM value and sets the increment to zero. Call after
+  /// `GridUpdate::receive`, with the particle positions of that transfer. Collective.
+  /// @param order k >= 1; 1 keeps the velocity of the lumped masses
+  /// @returns momentum that mirror planes and walls give to the particles of this rank by the correction, N s
   Vector3 apply(transfer::ShapeFunction shape, const Particles& particles, grid::BlockGrid& grid,
                 contact::GridUpdate& update, int order);
 

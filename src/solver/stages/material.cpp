@@ -32,7 +32,7 @@ UpdateSettings update_settings(const State& state, std::size_t body) {
 
 namespace {
 
-/// Returns the part of the artificial viscosity of particles that heats in this case.
+/// Returns which part of the artificial viscosity of particles heats in this case.
 HeatingViscosity heating_viscosity(const State& state) {
   using enum HeatingViscosity;
   if (!state.keeps_losses()) return not_distinguished;
@@ -41,7 +41,7 @@ HeatingViscosity heating_viscosity(const State& state) {
   return by_field ? of_affine_field : whole;
 }
 
-/// tr C of the particles of a list, 1/s.
+/// Returns tr C of the listed particles, 1/s.
 std::span<const double> affine_divergence(const Particles& particles, std::span<const std::uint32_t> list) {
   thread_local std::vector<double> divergence;
   divergence.resize(std::max(divergence.size(), list.size()));
@@ -120,7 +120,7 @@ void MaterialStage::begin(Energy energy, std::size_t stretches) {
 }
 
 void MaterialStage::update(const transfer::Stretch& stretch) {
-  // The reference knows single points only.
+  // The reference kernels process single points only.
   const std::size_t size = stretch.particles.size(), batch = kernel_set() == KernelSet::plain ? 1 : size;
   double plastic_work = 0.0;
   for (std::size_t first = 0; first < size; first += batch) {
@@ -129,8 +129,8 @@ void MaterialStage::update(const transfer::Stretch& stretch) {
   sums_.plastic_work[stretch.number] = plastic_work;
 }
 
-/// Updates the material of some particles, body by body.
-/// @returns their plastic work (J), apart from the reports, which other threads add to in any order
+/// Updates the material of a list of particles, body by body.
+/// @returns their plastic work (J), which is not part of the reports, since threads add to these in any order
 double MaterialStage::update(std::span<const std::uint32_t> particles, std::span<const Matrix3> gradients) {
   const Clock::time_point begin = Clock::now();
   std::size_t limited = 0, held = 0;
@@ -151,7 +151,7 @@ double MaterialStage::update(std::span<const std::uint32_t> particles, std::span
         energy_ == Energy::by_work_identity
             ? whipple::update_material(material, state_.particles, list, of_list, settings)
             : update_material_and_energy(material, state_.particles, list, of_list, settings);
-    // Only the work identity knows the work of a stress that the constitutive model did not make.
+    // Only the work identity accounts for the work of a stress that the constitutive model did not compute.
     if (deforms_domains && energy_ == Energy::by_work_identity) {
       held += domains::hold_back_pressure(state_.particles, list, state_, body);
     }
@@ -172,7 +172,7 @@ void MaterialStage::end(std::string_view stage) {
   const std::vector<std::uint32_t>& flying = activity_.flying();
   parallel::for_each_chunk(flying.size(), [&](std::size_t begin, std::size_t end) {
     const std::vector<Matrix3> none(end - begin, Matrix3::Zero());
-    update(std::span(flying).subspan(begin, end - begin), none);  // without strain, so without plastic work
+    update(std::span(flying).subspan(begin, end - begin), none);  // no strain, hence no plastic work
   });
   const std::string error = account();
   state_.profile.reassign(stage, "material",
@@ -180,13 +180,13 @@ void MaterialStage::end(std::string_view stage) {
   parallel::throw_together(state_.communicator, error);
 }
 
-/// Adds the sums of an update to what the step did.
-/// @returns an error that ends the run, or nothing. Collective.
+/// Adds the sums of an update to the contributions of the step. Collective.
+/// @returns an error that ends the run, or nothing
 std::string MaterialStage::account() {
   state_.booked.plastic_work += std::accumulate(sums_.plastic_work.begin(), sums_.plastic_work.end(), 0.0);
   state_.booked.limited_domains += static_cast<double>(sums_.limited_domains);
   state_.booked.held_pressures += static_cast<double>(sums_.held_pressures);
-  std::ranges::sort(sums_.dissipations);  // so that the sum does not depend on the order of threads
+  std::ranges::sort(sums_.dissipations);  // makes the sum independent of the order of the threads
   for (const auto& [first, dissipated] : sums_.dissipations) state_.booked.dissipation += dissipated;
   SqueezedPoints squeezed(state_.bodies.size());
   const auto describe = [&](std::size_t p, const std::string& reason) {

@@ -20,22 +20,22 @@
 #include "src/solver/state.hpp"
 #include "src/transfer/sweep.hpp"
 
-/// The constitutive half of the step (docs/theory/material.md).
+/// The constitutive part of the step (docs/theory/material.md).
 namespace whipple::solver {
 
-/// Returns the settings of the constitutive update of a body in the step under way.
+/// Returns the settings of the constitutive update of a body in the current step.
 UpdateSettings update_settings(const State& state, std::size_t body);
 
-/// Tells of a point of an update and what is wrong with it.
+/// Describes a point of an update for a message, with the reason.
 using DescribePoint = std::function<std::string(std::size_t point, const std::string& reason)>;
 
-/// Counts what an update met.
+/// Accounts for the events of an update.
 /// @returns an error that ends the run, or nothing
 std::string book(State& state, const MaterialReport& report, const Material& material,
                  const DescribePoint& describe);
 
-/// Points at the end of their equation of state, by body: whether they are single ones or the material as such
-/// is decided by the points of all ranks, so that a run does not depend on their number.
+/// Collects points at the maximum density of their equation of state, by body. Whether these are single points or a
+/// substantial part of the material is decided over all ranks, so that a run does not depend on their number.
 class SqueezedPoints {
  public:
   explicit SqueezedPoints(std::size_t bodies) : counts_(2 * bodies), first_(bodies) {}
@@ -45,43 +45,44 @@ class SqueezedPoints {
                                   std::span<const std::shared_ptr<const Material>> materials);
 
  private:
-  std::vector<double> counts_;  // of squeezed points and of points, of each body
-  std::vector<std::function<std::string(const std::string& reason)>> first_;  // that tell of the first one
+  std::vector<double> counts_;  // of each body: number of such points, and of all points
+  // Describe the first such point of each body
+  std::vector<std::function<std::string(const std::string& reason)>> first_;
 };
 
-/// Constitutive update of the particles of a step, stretch by stretch as they get their velocity gradients: `begin`,
-/// `update` for every stretch on any thread, `end`.
+/// Performs the constitutive update of the particles of a step, stretch by stretch as their velocity gradients become
+/// available: `begin`, `update` for every stretch on any thread, `end`.
 class MaterialStage {
  public:
   MaterialStage(State& state, const Activity& activity);
 
-  /// Source of the internal energy of a particle.
+  /// Selects the source of the internal energy of a particle.
   enum class Energy : std::uint8_t { by_work_identity, by_constitutive_model };
 
   /// Begins an update of all particles on the grid.
   /// @param stretches  number of stretches that follow
   void begin(Energy energy, std::size_t stretches);
-  /// Updates the material of the particles of a stretch by their velocity gradients; by several threads at a time.
+  /// Updates the material of the particles of a stretch from their velocity gradients. Thread-safe.
   void update(const transfer::Stretch& stretch);
-  /// Updates the material of the particles that fly without the grid, hence without strain, and accounts for what the
-  /// whole update did. Moves the time that it took from a stage of the profile to "material". Collective.
-  /// @throws StateError on all ranks, if a state is undefined or out of range on any
+  /// Updates the material of the particles in free flight, which have no strain, and accounts for the whole update.
+  /// Moves its time from a stage of the profile to "material". Collective.
+  /// @throws StateError on all ranks if a state on any rank is undefined or out of range
   void end(std::string_view stage);
 
  private:
   using Clock = std::chrono::steady_clock;
-  /// Sums over the particles of an update, by all threads.
+  /// Holds sums over the particles of an update, by all threads.
   struct Sums {
     std::vector<MaterialReport> reports;                         // of each body
-    std::vector<std::pair<std::uint32_t, double>> dissipations;  // J, by the first particle of each list
+    std::vector<std::pair<std::uint32_t, double>> dissipations;  // J, with the first particle of each list
     std::vector<double> plastic_work;                            // J, of each stretch
     std::size_t limited_domains = 0, held_pressures = 0;
     Clock::duration in_material{};
   };
-  /// What a body asks of its update.
+  /// Holds the options of a body for its update.
   struct OfBody {
     UpdateSettings settings;
-    bool deforms_domains;  // as domains::follow_deformation
+    bool deforms_domains;  // result of domains::follow_deformation
   };
   double update(std::span<const std::uint32_t> particles, std::span<const Matrix3> gradients);
   [[nodiscard]] std::string account();
@@ -91,7 +92,7 @@ class MaterialStage {
   Energy energy_ = Energy::by_work_identity;
   std::vector<OfBody> of_body_;
   Sums sums_;
-  std::mutex mutex_;  // of `sums_`
+  std::mutex mutex_;  // protects `sums_`
 };
 
 }  // namespace whipple::solver

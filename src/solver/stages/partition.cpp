@@ -15,9 +15,9 @@ namespace whipple::solver {
 namespace {
 
 constexpr std::int64_t sort_every = 20;  // steps between sorts of the particle arrays
-constexpr double lookahead_steps = 8.0;  // motion that the active blocks foresee
+constexpr double lookahead_steps = 8.0;  // motion covered by the active blocks
 
-/// Appends points to others; `all` keeps them where there are more.
+/// Returns points and additional points in one span; `all` stores the combined list if there are additional points.
 std::span<const Vector3> with(std::span<const Vector3> points, std::span<const Vector3> more,
                               std::vector<Vector3>& all) {
   if (more.empty()) return points;
@@ -36,7 +36,7 @@ void Partition::bin_particles() {
   if (!bin()) follow_particles();
 }
 
-/// Particles, and nodes of elements as off-grid points.
+/// Bins the particles, and nodes of elements as off-grid points.
 bool Partition::bin() {
   return state_.grid.bin(state_.particles.position, transfer::stencil(state_.shape),
                          state_.transition.position);
@@ -47,7 +47,8 @@ void Partition::share_out_elements() {
   for (Carrier* carrier : carriers_) carrier->share_out();
 }
 
-/// Blocks where the particles and off-grid points are and will be; particles on the rank that owns their block.
+/// Adapts the blocks to the present and predicted positions of particles and off-grid points, and sends particles to
+/// the rank that owns their block.
 void Partition::follow_particles() {
   const double lookahead = lookahead_steps * state_.run.time_step;
   const Particles& particles = state_.particles;
@@ -66,12 +67,12 @@ void Partition::follow_particles() {
   if (!bin()) throw InternalError("adaptation left a particle without its blocks");
 }
 
-/// Adapts the forest of blocks, and divides it among the ranks by their work.
+/// Adapts the forest of blocks and distributes it over the ranks by their work.
 void Partition::adapt(std::span<const Vector3> positions, std::span<const Vector3> velocities,
                       double lookahead) {
   const grid::Stencil stencil = transfer::stencil(state_.shape);
   elements_astray_ = state_.is_parallel();
-  if (!state_.is_parallel()) {  // one rank has nothing to distribute
+  if (!state_.is_parallel()) {  // with one rank there is no distribution
     state_.grid.adapt(positions, velocities, lookahead, stencil, {work_, work_of_block});
     return;
   }

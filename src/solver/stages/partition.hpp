@@ -9,17 +9,17 @@
 
 namespace whipple::solver {
 
-/// Blocks of the grid and what belongs to which rank: blocks follow the material, particles the blocks, and elements
-/// the blocks of their centres.
+/// Maintains the blocks of the grid and the distribution over ranks: blocks follow the material, particles are on the
+/// rank of their block, elements on that of the block of their centre.
 class Partition {
  public:
   Partition(State& state, const Carriers& carriers, ParticleCarrier& particles, Activity& activity)
       : state_(state), carriers_(carriers), particles_(particles), activity_(activity) {}
 
-  /// Assigns particles and nodes of elements to blocks, which follow them, and sorts the particles every 20 steps.
-  /// Collective.
+  /// Assigns particles and nodes of elements to blocks, adapts the blocks where necessary, and sorts the particles
+  /// every 20 steps. Collective.
   void bin_particles();
-  /// Sends elements to the ranks that own the blocks of their centres, if the forest was divided again. Collective.
+  /// Sends elements to the ranks that own the blocks of their centres, if the forest was adapted since. Collective.
   void share_out_elements();
 
  private:
@@ -31,8 +31,8 @@ class Partition {
   const Carriers& carriers_;
   ParticleCarrier& particles_;
   Activity& activity_;
-  std::vector<double> work_;      // of the particles (and elements) for the parts of the ranks
-  bool elements_astray_ = false;  // the forest was divided again since elements were
+  std::vector<double> work_;      // of the particles (and elements), for the distribution
+  bool elements_astray_ = false;  // the forest was adapted since elements were distributed
 };
 
 }  // namespace whipple::solver

@@ -13,7 +13,7 @@
 namespace whipple::solver {
 namespace {
 
-// Of the energy that may move: what a scheme with exact energy does not reach, and a fault passes at once.
+// Relative to the available energy: not reached by a scheme with exact energy, exceeded by a fault at once.
 constexpr double tolerance = 0.02;
 constexpr double round_off = 1e-6;
 constexpr double round_off_of_speed = 1e-9;
@@ -59,7 +59,7 @@ void Plausibility::require() const {
 void Plausibility::require_parts() const {
   const double error = state_.setup.output.energy_error_limit(state_.setup.time.scheme);
   const Ledger& ledger = state_.run.ledger;
-  // A scheme without exact energy; or a state of somebody else's, whose beginning is not known.
+  // Without exact energy, or with a state of unknown origin, there is no check.
   if (!std::isfinite(error) || !(ledger.initial.mass > 0.0)) return;
   const double supply =
       moving(ledger.initial) + std::abs(ledger.external_work) + state_.run.releasable_energy;
@@ -85,7 +85,8 @@ void Plausibility::require_parts() const {
   }
 }
 
-/// Returns the velocity (m/s) that speeds are relative to: of walls, else of the centre of mass at the start.
+/// Returns the reference velocity (m/s) of speeds: that of the walls, otherwise that of the centre of mass at the
+/// start.
 Vector3 Plausibility::frame() const {
   const Totals& initial = state_.run.ledger.initial;
   if (has_walls_ || !(initial.mass > 0.0)) return Vector3::Zero();

@@ -5,16 +5,16 @@
 
 namespace whipple::solver {
 
-/// Ends a run whose parts of energy or whose speeds are impossible, however exact the sum of its energies is
-/// (docs/theory/mpm.md, section 4): a carrier that gives energy takes it from a part that no balance looks at.
+/// Ends a run whose energy parts or speeds are impossible even if the sum of its energies is exact (docs/theory/mpm.md,
+/// section 4): an erroneous gain of one part may be balanced by a loss of another that no balance monitors.
 class Plausibility {
  public:
   Plausibility(State& state, const Carriers& carriers);
 
-  /// Notes what the run starts with: `RunState::releasable_energy`, `reference_speed`. Collective.
+  /// Stores the initial values: `RunState::releasable_energy`, `reference_speed`. Collective.
   void begin();
   /// Checks the end of a step. Collective.
-  /// @throws StateError naming the part, its value and its bound; of speeds also the body and the place
+  /// @throws StateError with the energy part, its value and its bound; for speeds also with body and position
   void require() const;
 
  private:

@@ -15,10 +15,11 @@
 namespace whipple::solver {
 namespace {
 
-/// Keeps accuracy of a few particles of thin material from reducing the time step below this part of the stable one.
+/// Minimum fraction of the stable time step to which the compression limit may reduce the step, so that a few particles
+/// of thin material do not govern it.
 constexpr double least_share_for_accuracy = 0.125;
 
-/// A step below this part of the longest one so far is none that a run ends with.
+/// Minimum fraction of the longest step so far; a shorter step means that the run would never end.
 constexpr double least_share_of_longest = 1e-9;
 
 }  // namespace
@@ -41,7 +42,7 @@ void TimeStep::limit(double bound, TimeStepBound by) {
 
 double TimeStep::accurate() {
   const cases::TimeControl& control = state_.setup.time;
-  step_ = grid_time_step(state_, particles_);  // NaN stays, and is reported
+  step_ = grid_time_step(state_, particles_);  // NaN is kept and reported
   cell_step_ = step_ / control.courant;
   by_ = TimeStepBound::sound_speed;
   limit(diffusive_bound(), TimeStepBound::diffusion);
@@ -69,11 +70,11 @@ void TimeStep::begin(double until) {
     accurate_step_ = accurate();
     const double first_step = control.first_step * accurate_step_;
     if (state_.run.time_step == 0.0) {
-      // The first step does not know yet how hard bodies that touch will meet.
+      // The impact velocity of bodies in initial contact is not yet known to any rate of the first step.
       limit(first_step, TimeStepBound::first_step);
     } else {
       limit(control.maximum_growth * state_.run.unclipped_step, TimeStepBound::growth);
-      // It ends when bodies touch, and the next is as small as the first of a run.
+      // The step ends when bodies touch, and the next one is as small as the first of a run.
       limit(std::max(state_.run.first_touch - state_.run.time, first_step), TimeStepBound::first_touch);
     }
     require_positive();
@@ -84,7 +85,8 @@ void TimeStep::begin(double until) {
     state_.run.unclipped_step = step_;
     const double left = until - state_.run.time;
     if (!(left > 0.0)) throw InternalError(fmt::format("t = {} s has been reached already", until));
-    // The last step before `until` ends at it; the one before is halved rather than leaving a small rest.
+    // The last step before `until` ends there; if less than two steps remain, they are made equal to avoid a tiny last
+    // one.
     if (step_ < left && 2.0 * step_ > left) {
       limit(0.5 * left, TimeStepBound::output_time);
     } else {
@@ -146,9 +148,9 @@ double TimeStep::element_bound() const {
   return state_.setup.time.element_safety * -parallel::maximum(state_.communicator, -dt);
 }
 
-/// Explicit diffusion of momentum and of heat is stable below dx^2 / (9 a), a the diffusivity, whatever the
-/// particles: the squares of the gradients of quadratic B-splines over their values add up to 18/dx^2 at most
-/// (docs/theory/conduction.md, eq. 6).
+/// Returns half the stability limit of the explicit diffusion of momentum and heat, dx^2 / (9 a) with the diffusivity
+/// a, for any arrangement of particles: the squared gradients of quadratic B-splines over their values sum to at most
+/// 18/dx^2 (docs/theory/conduction.md, equation 6).
 double TimeStep::diffusive_bound() const {
   const double dx = state_.setup.domain.cell_size;
   const Particles& particles = state_.particles;

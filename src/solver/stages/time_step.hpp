@@ -6,25 +6,25 @@
 
 namespace whipple::solver {
 
-/// Computes the time step (s) that the Courant number allows for what moves with the grid: particles, and nodes of
-/// `State::transition`; infinite if nothing does. Collective.
+/// Computes the time step (s) that the Courant number allows for particles and for nodes of `State::transition`;
+/// infinite without any motion with the grid. Collective.
 double grid_time_step(const State& state, ParticleCarrier& particles);
 
-/// Determines the time step: the least of a list of bounds (docs/theory/mpm.md, section 6).
+/// Determines the time step: the minimum of a list of bounds (docs/theory/mpm.md, section 6).
 class TimeStep {
  public:
   TimeStep(State& state, const Carriers& carriers, ParticleCarrier& particles)
       : state_(state), carriers_(carriers), particles_(particles) {}
 
-  /// Computes the time step (s) that the state allows, whatever the step before it was. Collective.
+  /// Computes the time step (s) that the state allows, regardless of the previous step. Collective.
   double accurate();
-  /// Sets the time step; not beyond `until` (s). Collective.
+  /// Sets the time step, at most to the time `until` (s). Collective.
   /// @throws StateError without material in the domain, if there is no positive time step, or if it has collapsed
   void begin(double until);
-  /// Takes the largest rates of the step for the bounds of the next one. Collective.
+  /// Stores the maximum rates of the step as bounds of the next one. Collective.
   void take_rates();
 
-  /// Returns the step that the state allowed in the step under way, s.
+  /// Returns the time step that the state allowed in the current step, s.
   [[nodiscard]] double accurate_step() const { return accurate_step_; }
 
  private:
@@ -39,12 +39,12 @@ class TimeStep {
   State& state_;
   const Carriers& carriers_;
   ParticleCarrier& particles_;
-  double step_ = 0.0;                       // s, the least of the bounds so far
-  TimeStepBound by_ = TimeStepBound::none;  // that it is
-  double cell_step_ =
-      0.0;  // s, in which nothing crosses more than a cell; infinite if nothing moves with the grid
+  double step_ = 0.0;                       // minimum of the bounds so far, s
+  TimeStepBound by_ = TimeStepBound::none;  // the bound that determines it
+  // Step in which nothing crosses more than a cell, s; infinite if nothing moves with the grid
+  double cell_step_ = 0.0;
   double accurate_step_ = 0.0;
-  bool compression_is_followed_ = true;  // by that step, as `time.compression_limit` asks
+  bool compression_is_followed_ = true;  // whether that step satisfies `time.compression_limit`
 };
 
 }  // namespace whipple::solver

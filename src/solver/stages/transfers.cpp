@@ -15,7 +15,7 @@ transfer::AffineField affine_field(const cases::TransferControl& control) {
   return control.affine_field == cases::AffineTransport::turned ? turned : deformed;
 }
 
-/// Returns beta of every particle update; FMPM is PIC with another grid velocity.
+/// Returns beta of every particle update; FMPM is PIC with a different grid velocity.
 transfer::Relaxation relaxation(const cases::TransferControl& control) {
   using enum cases::ParticleUpdate;
   switch (control.particle_update) {

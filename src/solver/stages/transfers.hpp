@@ -16,16 +16,17 @@
 
 namespace whipple::solver {
 
-/// Transfers between particles, nodes of elements and the grid, and the momentum equation on the grid
-/// (docs/theory/mpm.md, 3 to 5; docs/theory/dissipation.md). What the nodes of a rank's border receive from other ranks
-/// is under way while the interior is worked on: `send_*`, `share_step` and `solve_velocity` start it, `receive` waits for it.
+/// Performs the transfers between particles, nodes of elements and the grid, and the momentum equation on the grid
+/// (docs/theory/mpm.md, sections 3 to 5; docs/theory/dissipation.md). Communication of the nodes of a rank's border
+/// overlaps with computation in the interior: `send_*`, `share_step` and `solve_velocity` start it, `receive` completes
+/// it.
 class Transfers {
  public:
   Transfers(State& state, const Loads& loads, const Activity& activity);
 
   [[nodiscard]] contact::GridUpdate& grid_update() { return grid_update_; }
 
-  /// Evaluates the accelerations of particles by loads in this step, and accumulates their impulse.
+  /// Evaluates the accelerations of particles by loads in this step and accumulates their impulse.
   void evaluate_loads();
   /// Conducts heat inside shocks.
   void conduct_in_shocks();
@@ -36,7 +37,7 @@ class Transfers {
   void clear_grid() { state_.grid.clear(); }
   /// Adds mass, momentum and forces of the particles and nodes of elements of a region to the grid.
   void to_grid(transfer::Region region);
-  /// Accumulates what changes the momentum of rings: the force of their hoop stress towards the axis.
+  /// Accumulates the force of the hoop stress of rings towards the axis, which changes their momentum.
   void account_for_hoops();
   /// Sends the sums of the border to the owners of its nodes.
   void send_sums() { grid_update_.send(state_.grid, grid::BlockGrid::Part::both); }
@@ -50,27 +51,29 @@ class Transfers {
   /// Divides the momentum of the nodes by their mass and sends the velocities to the ranks that use them.
   void solve_velocity() { grid_update_.solve_velocity(state_.grid); }
 
-  /// Advances the velocities of the nodes of this rank, without contact of bodies.
+  /// Advances the velocities of the nodes of this rank, without contact between bodies.
   void solve_momentum();
-  /// Sends the step of the nodes to the ranks that use them.
+  /// Sends the motion of the nodes to the ranks that use them.
   void share_step();
-  /// Inverts the full mass matrix where the case asks for it (FMPM).
+  /// Applies the inverse of the full mass matrix where the case requests it (FMPM).
   void apply_full_mass_matrix();
-  /// Receives the results of nodes that other ranks own, at the latest when the particles of the border need them.
+  /// Receives the results of nodes owned by other ranks. Call at the latest before the particles of the border use
+  /// them.
   void receive();
 
-  /// Updates velocity, affine field, energy and position of the particles of a stretch by the grid; leaves their velocity
-  /// gradients in it.
+  /// Updates velocity, affine field, energy and position of the particles of a stretch from the grid; stores their
+  /// velocity gradients in the stretch.
   void to_particles(const transfer::Stretch& stretch);
-  /// Updates velocity and position of the particles of a stretch by the grid; leaves what is asked for in it.
+  /// Updates velocity and position of the particles of a stretch from the grid; stores the requested gradients in the
+  /// stretch.
   void velocity_to_particles(const transfer::Stretch& stretch, transfer::Gradients gradients);
   /// Gathers the velocity gradients of the particles of a stretch.
   void gradient_to_particles(const transfer::Stretch& stretch);
-  /// Accumulates the work and losses of a sweep, and takes the largest change of a velocity.
+  /// Accumulates work and losses of a sweep, and stores the maximum change of a velocity.
   void account_for(const transfer::TransferBalance& balance);
-  /// Updates velocity, affine field and position of the nodes of elements by the grid.
+  /// Updates velocity, affine field and position of the nodes of elements from the grid.
   void to_nodes();
-  /// Moves the particles that fly without the grid.
+  /// Moves the particles in free flight.
   void fly();
 
  private:
@@ -82,7 +85,7 @@ class Transfers {
   FullMassMatrix full_mass_matrix_;
   transfer::Losses losses_;
   std::vector<transfer::ShockConductivity> shock_conductivity_;  // of each body
-  std::vector<Vector3> acceleration_;  // of particles by loads in this step; empty without
+  std::vector<Vector3> acceleration_;  // of particles by loads in this step; empty if there are none
 };
 
 }  // namespace whipple::solver

@@ -10,13 +10,14 @@
 
 namespace whipple::solver {
 
-/// A velocity field is one with its image where one of its bodies touches the plane at the start.
+/// Sets the continuity of velocity fields with their images: a field is continuous at a plane if one of its bodies
+/// touches it at the start.
 void ContactStage::set_up_walls() {
   const std::vector<std::uint8_t> touched = cases::faces_touched(state_.setup);
   std::vector<std::uint8_t> field_of_body = field_of_body_;
   field_of_body.resize(touched.size(), 0);  // one field without contact of bodies
   const unsigned fields = *std::ranges::max_element(field_of_body) + 1U;
-  // What no body has is bonded as well: then nothing has to be looked for.
+  // Fields without a body count as continuous as well, so that no search is necessary for them.
   const unsigned used = cracks_ ? cracks_->fields().count() : fields;
   const std::uint64_t unused = used >= grid::maximum_fields ? 0 : ~((std::uint64_t{1} << used) - 1);
   std::array<std::uint64_t, 6> bonded{};
