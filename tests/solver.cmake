@@ -36,7 +36,7 @@ whipple_test(test_case SOURCES unit/case_bodies_test.cpp unit/case_grains_test.c
              DEPENDS whipple_case LABELS fast)
 
 # Distributed: against one rank, restart on another number of ranks, errors and killed ranks.
-add_executable(test_solver_ranks parallel/solver_ranks.cpp parallel/solver_wall_ranks.cpp parallel/solver_element_ranks.cpp
+add_executable(test_solver_ranks parallel/solver_ranks.cpp parallel/solver_wall_ranks.cpp parallel/sweep_ranks.cpp parallel/solver_element_ranks.cpp
                parallel/solver_burn_ranks.cpp)
 target_link_libraries(test_solver_ranks PRIVATE whipple_run whipple_analysis GTest::gtest)
 whipple_test_flags(test_solver_ranks)

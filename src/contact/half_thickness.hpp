@@ -38,6 +38,10 @@ class HalfThickness {
   [[nodiscard]] double along(const Vector3& n) const {
     return scale_ * std::sqrt(std::max(n.dot(extent_ * n), 0.0));
   }
+  /// Returns the half thickness along the three axes, m.
+  [[nodiscard]] Lanes along_axes() const {
+    return scale_ * sqrt(Lanes{extent_(0, 0), extent_(1, 1), extent_(2, 2), 0.0});
+  }
   /// Returns the half thickness along several normals, m.
   [[nodiscard]] WHIPPLE_INLINE Lanes along(const Normals& n) const {
     const Matrix3& e = extent_;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "src/contact/half_thickness.hpp"
 #include "src/contact/mirror_contact.hpp"
 #include "src/core/base/vector_math.hpp"
 #include "src/transfer/shape_function.hpp"
@@ -23,27 +24,6 @@ using transfer::with_shape;
 /// Distance (cells) from a plane beyond which points reach no node where contact with the image is possible, or are
 /// behind other points that do.
 constexpr double reach_of_points = 3.0;
-
-/// Computes the distances (m) along the axes from the centre of a particle to its surface: of its initial or tracked
-/// domain, scaled to its present volume.
-Lanes half_thickness(const grid::Geometry& geometry, const Particles& particles, std::size_t p) {
-  const double volume = particles.volume[p] + particles.void_volume[p];
-  if (geometry.is_planar()) {
-    const double area = volume / geometry.depth(particles.position[p]);
-    if (particles.extent.empty()) return broadcast(0.5 * std::sqrt(area));
-    const SymmetricTensor& extent = particles.extent[p];
-    const double box = 4.0 * std::sqrt(std::max(extent.xx * extent.yy - extent.xy * extent.xy, 0.0));
-    if (!(box > 0.0)) return broadcast(0.5 * std::sqrt(area));
-    const Lanes squared = {extent.xx, extent.yy, 0.0, 0.0};
-    return std::sqrt(area / box) * sqrt(squared);
-  }
-  if (particles.extent.empty()) return broadcast(0.5 * std::cbrt(volume));
-  const SymmetricTensor& extent = particles.extent[p];
-  const double box = 8.0 * std::sqrt(std::max(extent.matrix().determinant(), 0.0));
-  if (!(box > 0.0)) return broadcast(0.5 * std::cbrt(volume));
-  const Lanes squared = {extent.xx, extent.yy, extent.zz, 0.0};
-  return std::cbrt(volume / box) * sqrt(squared);
-}
 
 /// Holds positions only; B-splines require nothing else.
 struct Positions {
@@ -114,11 +94,11 @@ void MirrorContact::extend(const Particles& particles, std::span<const Vector3> 
   };
   grid.for_each_apart([&](std::size_t slot) {
     if (near_[slot] == 0) return;
-    grid.for_each_field(BlockGrid::Points::particles, slot,
-                        [&](std::span<const std::uint32_t> members, unsigned field) {
-                          extend_by(slot, field, BlockGrid::Points::particles, particles, members,
-                                    [&](std::uint32_t p) { return half_thickness(geometry, particles, p); });
-                        });
+    grid.for_each_field(
+        BlockGrid::Points::particles, slot, [&](std::span<const std::uint32_t> members, unsigned field) {
+          extend_by(slot, field, BlockGrid::Points::particles, particles, members,
+                    [&](std::uint32_t p) { return HalfThickness(geometry, particles, p).along_axes(); });
+        });
     if constexpr (CarriesAffineField<Shape>) {  // off-grid points use B-splines only
       grid.for_each_field(BlockGrid::Points::guests, slot,
                           [&](std::span<const std::uint32_t> members, unsigned field) {

@@ -4,10 +4,11 @@
 #include "src/core/base/simd.hpp"
 #include "src/core/base/tensor.hpp"
 #include "src/grid/block_grid.hpp"
+#include "src/transfer/momentum.hpp"
 
 namespace whipple::contact {
 
-constexpr double no_mass = 1e-300;  // kg
+using transfer::no_mass;
 
 inline Vector3 vector(Lanes v) { return {v[0], v[1], v[2]}; }
 

@@ -64,7 +64,6 @@ class Reach {
       any_ = any_ || slots_[n].nodes != 0;
     }
   }
-
   [[nodiscard]] bool any() const { return any_; }
 
   /// Calls f(place) for the relevant nodes that point `p` reaches.

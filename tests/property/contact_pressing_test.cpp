@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "src/contact/half_thickness.hpp"
 #include "src/contact/pressing.hpp"
 #include "src/contact/surface_points.hpp"
 
@@ -247,6 +248,37 @@ TEST(SurfacePoints, HoldTheAreaVectorsOfTheFacets) {
       if (warped > 0.0) continue;
       EXPECT_NEAR(size, exact.norm(), 1e-14);
       EXPECT_NEAR((moment / size - 0.25 * (x[0] + x[1] + x[2] + x[3])).norm(), 0.0, 1e-14);
+    }
+  }
+}
+
+// Mirror planes take the thickness along the axes, contact along any normal: they are one.
+TEST(HalfThicknessOfParticles, AlongTheAxesIsThatAlongTheirUnitVectors) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> number(-1.0, 1.0);
+  Particles particles;
+  particles.position.resize(30);
+  particles.volume.resize(30);
+  particles.void_volume.resize(30);
+  particles.extent.resize(30);
+  for (std::size_t p = 0; p < 30; ++p) {
+    particles.position[p] = Vector3(1.0, 2.0 + number(random), 0.0);
+    particles.volume[p] = 1e-9 * (1.5 + number(random));
+    particles.void_volume[p] = p % 3 == 0 ? 1e-10 : 0.0;
+    const Matrix3 edge = Matrix3::NullaryExpr([&] { return 1e-3 * number(random); });
+    particles.extent[p] = p % 5 == 0 ? SymmetricTensor{} : SymmetricTensor::from(edge * edge.transpose());
+  }
+  for (const grid::Dimension dimension :
+       {grid::Dimension::space, grid::Dimension::plane_strain, grid::Dimension::axisymmetric}) {
+    grid::Geometry geometry;
+    geometry.dimension = dimension;
+    for (std::size_t p = 0; p < 30; ++p) {
+      const HalfThickness half(geometry, particles, p);
+      const Lanes along = half.along_axes();
+      for (int a = 0; a < (geometry.is_planar() ? 2 : 3); ++a) {
+        EXPECT_NEAR(along[a], half.along(Vector3::Unit(a)), 1e-15 * half.largest());
+        EXPECT_GT(along[a], 0.0);
+      }
     }
   }
 }

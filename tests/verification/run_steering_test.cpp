@@ -384,11 +384,13 @@ TEST_F(Steering, TheStatusOfARunThatNoProcessHoldsIsLost) {
   EXPECT_EQ(read.time_left, std::nullopt);
   const auto lock = io::lock_run(temporary_.path());
   EXPECT_EQ(read_status(temporary_.path()).state, Activity::running);
+  EXPECT_TRUE(any_goes_on(temporary_.path()));
   const std::string text = read_text(temporary_.path() / "status.json");
   EXPECT_THAT(text, HasSubstr("\"state\": \"running\""));
   std::ofstream(temporary_.path() / "status.json")
       << std::regex_replace(text, std::regex("running"), "asleep");
   EXPECT_THROW((void)read_status(temporary_.path()), InputError);
+  EXPECT_FALSE(any_goes_on(temporary_.path()));
   std::ofstream(temporary_.path() / "status.json") << "{}";
   EXPECT_THROW((void)read_status(temporary_.path()), InputError);
 }
