@@ -26,7 +26,7 @@ struct Settings {
   Response response = Response::common_field;
   Normal normal = Normal::separating;
   double friction = 0.3;  ///< Coulomb coefficient
-  /// Of each velocity field, if they differ; the smaller of the two values applies.
+  /// Coulomb coefficient of each velocity field, if they differ; the smaller of the two values applies.
   std::vector<double> friction_of_field = {};
   double crack_friction = 0.3;  ///< Coulomb coefficient of the faces of a crack
   bool gap_test = true;         ///< contact only where surfaces touch, or would within the step

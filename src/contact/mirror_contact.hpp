@@ -88,7 +88,7 @@ class MirrorContact {
   std::size_t layout_ = static_cast<std::size_t>(-1);  // of the grid
   double cell_size_ = 0.0;                             // m
   std::vector<Plane> planes_;
-  // Of each block of nodes: index of the values of its first node
+  // Index of the values of the first node of each block of nodes
   std::vector<std::uint32_t> first_of_block_;
   std::vector<std::uint8_t> coupled_;  // of each block of nodes: 1 if it contains couples
   std::vector<std::uint8_t> near_;     // of each slot: 1 if its points may reach such blocks

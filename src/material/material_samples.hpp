@@ -21,7 +21,7 @@ struct MaterialSamples {
   std::vector<std::string> names;     ///< of the drawn constants
   std::vector<std::string> defaults;  ///< drawn constants that are defaults with the errors of their sources
   std::vector<std::string> unknown;   ///< defaults without a known error, equal in all samples
-  int refused = 0;                    ///< draws for which the model gives no material; each was drawn again
+  int refused = 0;                    ///< draws that define no valid material; each was drawn again
 };
 
 /// Returns whether a material is fitted: its file has a table [covariance].

@@ -119,7 +119,7 @@ struct Ledger {
   double limited_bulking = 0.0, limited_domains = 0.0, limited_hourglass = 0.0, elements_beyond_range = 0.0;
   double held_pressures = 0.0, refused_divisions = 0.0, held_time_steps = 0.0;
 
-  /// Of all step ends so far, with affine, unresolved and hourglass energies, J.
+  /// Maximum over the ends of all steps so far, with affine, unresolved and hourglass energies, J.
   double largest_kinetic_energy = 0.0;
   double largest_heating = 0.0;   ///< of the change of internal energy, J
   double largest_momentum = 0.0;  ///< of the sum of m |v|, kg m/s

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Time of the constitutive update per point, by material and by state of the points: random deviatoric flow
-// of a body that is intact and yielding, or failed with open voids. `items_per_second` is points per second.
+// Time of the constitutive update per point, by material and by state of the points: random deviatoric flow of an
+// intact yielding body, or of a failed body with open voids. `items_per_second` is points per second.
 #include <benchmark/benchmark.h>
 
 #include <numeric>
@@ -36,7 +36,7 @@ void update(benchmark::State& state, const char* name, Matter matter, bool by_li
     std::ranges::fill(points.failed, std::uint8_t{1});
     for (std::size_t i = 0; i < count; ++i) points.void_volume[i] = points.volume[i];
   }
-  // The sign of the motion alternates: the points stay near their state and keep yielding.
+  // The sign of the motion alternates, so that the points stay near their state and continue to yield.
   std::vector<Matrix3> reversed = gradients;
   for (Matrix3& gradient : reversed) gradient = -gradient;
   const UpdateSettings settings{.time_step = 1e-7, .cell_size = 1e-3};
@@ -58,7 +58,7 @@ BENCHMARK_CAPTURE(update, lead_with_open_voids, "lead_mie_gruneisen", Matter::fa
 BENCHMARK_CAPTURE(update, gray_johnson_cook, "copper", Matter::intact, false);
 BENCHMARK_CAPTURE(update, gray_with_open_voids, "copper", Matter::failed, false);
 
-/// The plastic increments of a chunk of yielding points alone.
+/// Measures the plastic increments of a chunk of yielding points alone.
 void plastic_return(benchmark::State& state, const char* name) {
   const Material material = read_material(name);
   constexpr std::size_t points = 64;

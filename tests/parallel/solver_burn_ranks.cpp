@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Explosives on several ranks: lighting times, burn fractions, the products' drive and what of them is
-// removed are those of one rank, and a checkpoint of several ranks goes on with the lighting that it holds. A gas
-// whose particles divide and part.
+// Explosives on several ranks: lighting times, burn fractions, the drive by the products and the removed products equal
+// those of one rank, and a run resumed from a checkpoint of several ranks uses the lighting stored there. A gas whose
+// particles are split and separate.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -22,8 +22,8 @@
 namespace whipple::solver {
 namespace {
 
-/// TNT that drives a copper plate, around an inert block; a second detonator fires in material at rest. Plane
-/// strain. The plate moves from the start, for a scale of momenta.
+/// Returns a case of TNT that drives a copper plate, around an inert block; a second detonator fires in material at
+/// rest. Plane strain. The plate moves from the start, for a scale of momenta.
 cases::Case charge_on_plate() {
   return cases::read_case_text(R"(
 [domain]
@@ -58,8 +58,8 @@ shape = { box = { lower = ["20 mm", "0 mm", "-1 mm"], upper = ["22 mm", "8 mm", 
                                "charge_on_plate.toml");
 }
 
-/// Sums over the explosive of all ranks in which each particle has a weight of its own: chemical energy (J),
-/// burn fraction, lighting time (s), and the sums of the last two without weights. Collective.
+/// Sums over the explosive of all ranks, with an individual weight of each particle: chemical energy (J), burn
+/// fraction, lighting time (s), and the last two sums without weights. Collective.
 std::vector<double> sums_of(const Simulation& simulation, MPI_Comm communicator) {
   const Particles& q = simulation.particles();
   const auto &burnt = q.history.scalar("burn_fraction"), &lit = q.history.scalar("lighting_time");
@@ -109,7 +109,7 @@ TEST(BurnRanks, AgreeWithOneRankAndGoOnWithTheirLighting) {
   MPI_Barrier(MPI_COMM_WORLD);
   ranks.on_root([&] { std::filesystem::remove_all(folder); });
   if (!is_root()) return;
-  EXPECT_GT(of_one[0], 0.05 * store);  // both fronts are under way
+  EXPECT_GT(of_one[0], 0.05 * store);  // both fronts are propagating
   EXPECT_LT(of_one[0], 0.8 * store);
   EXPECT_GT(alone.totals().kinetic_energy, 0.01 * store);
   expect_same_burn(of_all, of_one, store);
@@ -117,7 +117,8 @@ TEST(BurnRanks, AgreeWithOneRankAndGoOnWithTheirLighting) {
   expect_same_burn(sums_of(resumed, MPI_COMM_SELF), of_one, store);
 }
 
-/// A thin charge of TNT between vacuum and a plate, whose products leave the run below 50 MPa. Plane strain.
+/// Returns a case of a thin charge of TNT between vacuum and a plate, whose products are removed below 50 MPa. Plane
+/// strain.
 cases::Case charge_that_spreads() {
   return cases::read_case_text(R"(
 [domain]
@@ -145,7 +146,7 @@ shape = { box = { lower = ["6 mm", "0 mm", "-1 mm"], upper = ["7 mm", "4 mm", "1
                                "charge_that_spreads.toml");
 }
 
-// Products that every rank removes are in the sums of all, and what they leave behind goes on as on one rank.
+// Products removed on any rank are included in the sums of all, and the remaining material evolves as on one rank.
 TEST(BurnRanks, RemoveTheProductsThatOneRankRemoves) {
   const cases::Case setup = charge_that_spreads();
   Simulation together(setup, MPI_COMM_WORLD), alone(setup, MPI_COMM_SELF);
@@ -163,7 +164,7 @@ TEST(BurnRanks, RemoveTheProductsThatOneRankRemoves) {
   EXPECT_LE((of_all.retired.momentum - of_one.retired.momentum).norm(), 1e-11 * momentum);
 }
 
-/// A sphere of gas beside two planes of symmetry, in vacuum: an octant, or a section.
+/// Returns a case of a sphere of gas next to two planes of symmetry, in vacuum: an octant, or a section.
 cases::Case expanding_gas(bool section) {
   const std::string of_dimension =
       section ? "dimension = \"axisymmetric\"\nlower = [\"0 mm\", \"0 mm\"]\nupper = [\"48 mm\", \"48 mm\"]\n"
@@ -187,7 +188,7 @@ shape = { sphere = { center = ["0 mm", "0 mm", "0 mm"], radius = "4 mm" } }
                                "expanding_gas.toml");
 }
 
-// New particles, their numbers, and the pressure that is held back behind the last division.
+// New particles, their numbers, and the pressure held back after the last division
 TEST(BurnRanks, DivideTheGasThatOneRankDivides) {
   const io::Ranks ranks(MPI_COMM_WORLD);
   const std::filesystem::path folder = std::filesystem::temp_directory_path() /

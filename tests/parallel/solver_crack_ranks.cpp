@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cracks on several ranks: damage, directions and sides of a node are sums of what all of them bring to it.
+// Cracks on several ranks: damage, directions and sides of a node are sums over the contributions of all ranks.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ TEST(CrackRanks, AgreeWithOneRank) {
     EXPECT_LT(together.state().ledger.momentum_error(totals), 1e-12);
     EXPECT_LT(std::abs(together.state().ledger.energy_error(totals)), 1e-12);
     if (!is_root()) continue;
-    EXPECT_GT(verification::largest_distance(alone.particles(), whole.particles()), 1e-6);  // cracks part
+    EXPECT_GT(verification::largest_distance(alone.particles(), whole.particles()), 1e-6);  // cracks open
     EXPECT_TRUE(std::ranges::any_of(alone.particles().failed, [](std::uint8_t code) { return code != 0; }));
   }
 }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Elements on several ranks (run under mpiexec; every rank runs every test). Proves: all integrals agree with
-// those of one rank to 1e-11, for elements by themselves, for elements that become particles while shared
-// nodes lose elements on other ranks, in contact, with bars, while elements leave the domain; copies of
-// shared nodes are the same bit for bit; checkpoints go on with other numbers of ranks; snapshots are those
-// of one rank.
+// Elements on several ranks (run under mpiexec; every rank runs every test). Proves: all integrals agree with those of
+// one rank to 1e-11, for elements alone, for elements that become particles while shared nodes lose elements on other
+// ranks, in contact, with bars, and while elements leave the domain; copies of shared nodes are bitwise equal; runs
+// resume from checkpoints on other numbers of ranks; snapshots equal those of one rank.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -34,7 +33,7 @@ using verification::save;
 
 cases::Case read(const std::string& text) { return cases::read_case_text(text, "element_ranks.toml"); }
 
-/// A bar that flies, turns and vibrates by itself, its end held to a prescribed velocity.
+/// Returns a case of a free bar that flies, rotates and vibrates, with a prescribed velocity at its end.
 std::string bar(const std::string& element) {
   return R"(
 [domain]
@@ -59,7 +58,8 @@ velocity = ["150 m/s", "0 m/s", "0 m/s"]
 )";
 }
 
-/// Adaptive sphere on an adaptive layer beside a plate of particles, half model; material leaves the domain.
+/// Returns a case of an adaptive sphere on an adaptive layer next to a plate of particles, half model; material leaves
+/// the domain.
 std::string impact(const std::string& more = {}) {
   return R"(
 [domain]
@@ -112,7 +112,7 @@ class ElementRanks : public testing::Test {
         .write(simulation.meshes(), simulation.bars(), simulation.state().time);
     return io::ParticleSeries(options, communicator).write(simulation.particles(), simulation.state().time);
   }
-  /// Partitions of the file have nodes of their own: the reader puts them together.
+  /// Compares snapshots. Partitions of the file have separate nodes, which the reader combines.
   void expect_same_snapshot(const Simulation& together, const Simulation& alone) const {
     const fs::path of_all = write_snapshot(together, "all", MPI_COMM_WORLD);
     ranks_.on_root([&] {
@@ -141,7 +141,8 @@ class ElementRanks : public testing::Test {
   fs::path folder_;
 };
 
-/// Copies of one node on several ranks; their masses are shares. @returns how many there are
+/// Requires that copies of one node on several ranks are equal; their masses are fractions of that of the node.
+/// @returns number of copies
 std::size_t expect_equal_copies(const Simulation& simulation, const io::Ranks& ranks) {
   std::size_t copies = 0;
   using Node = std::array<double, 9>;
@@ -308,7 +309,7 @@ step = ["0 mm", "1.5 mm", "0 mm"]
   expect_agreement(again, alone, 1e-11);
   expect_same_snapshot(together, alone);
 
-  // Every rank has its share; copies of a node are the same bit for bit.
+  // Every rank has its part; copies of a node are bitwise equal.
   const std::vector<fem::Bars>& own = together.bars();
   std::vector<double> bars_of(static_cast<std::size_t>(ranks_.count()), 0.0);
   bars_of[static_cast<std::size_t>(ranks_.rank())] = static_cast<double>(own.front().elements.size());

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The solver on several ranks (run under mpiexec; every rank runs every test). Proves: all integrals of a
-// debris cloud are the same on every rank and agree with those of one rank to 1e-11, with both schemes, while shocks, spall, melting,
-// mirror planes and outflow cross the borders of the ranks; a checkpoint goes on with another number of
-// ranks; more ranks than blocks do no harm; an error on one rank ends the step on all of them.
+// The solver on several ranks (run under mpiexec; every rank runs every test). Proves: all integrals of a debris cloud
+// are equal on every rank and agree with those of one rank to 1e-11, with both schemes, while shocks, spall, melting,
+// mirror planes and outflow cross the boundaries between ranks; a run resumes from a checkpoint on another number of
+// ranks; more ranks than blocks cause no failure; an error on one rank ends the step on all of them.
 #include "tests/parallel/solver_ranks.hpp"
 
 #include <gtest/gtest.h>
@@ -79,7 +79,7 @@ TEST_F(SolverRanks, AgreeWithOneRank) {
   EXPECT_NEAR(of_bodies, together.state().ledger.outflow.mass, 1e-12 * of_bodies);
 }
 
-// Work is counted, not timed: the partition and with it every bit are the same in every run.
+// Work is counted, not timed: the partition, and with it every bit, is equal in every run.
 TEST_F(SolverRanks, GiveTheSameBitsEveryTime) {
   Simulation first(read(), MPI_COMM_WORLD), second(read(), MPI_COMM_WORLD);
   advance_to(first, 1e-6);
@@ -91,7 +91,7 @@ TEST_F(SolverRanks, GiveTheSameBitsEveryTime) {
   });
 }
 
-// Particles that are three times the work on one side: the ranks share the work, not the particles.
+// Particles with three times the work on one side: the ranks balance the work, not the number of particles.
 TEST_F(SolverRanks, ShareOutTheWork) {
   const grid::Geometry geometry{
       .lower = Vector3::Zero(), .cells = {128, 32, 32}, .cell_size = 1.0, .boundary = {}};
@@ -116,8 +116,8 @@ TEST_F(SolverRanks, ShareOutTheWork) {
   }
 }
 
-// Particles go to and fro, also from and to ranks that have none: every one arrives once with its fields, and
-// the bodies stay together.
+// Particles are sent to and from all ranks, including ranks without particles: each arrives once with its fields, and
+// the bodies remain contiguous.
 TEST_F(SolverRanks, MigrateWithAllFieldsAndStandByBody) {
   const auto value = [](std::uint64_t id) { return 0.5 * static_cast<double>(id) + 1.0; };
   const std::size_t own = ranks_.rank() == 1 ? 0 : 200 + 30 * static_cast<std::size_t>(ranks_.rank());
@@ -136,7 +136,7 @@ TEST_F(SolverRanks, MigrateWithAllFieldsAndStandByBody) {
   for (const std::uint64_t id : particles.id) sums[1] += static_cast<double>(id);
   parallel::sum(MPI_COMM_WORLD, sums);
   const auto ranks = static_cast<std::uint64_t>(ranks_.count());
-  // Everywhere by turns, all but body 1 to the last rank, a few away from there, nobody anywhere.
+  // In turn: everywhere, all except body 1 to the last rank, a few away from there, none anywhere.
   const auto destination = [&](int round, std::size_t p) {
     const std::uint64_t id = particles.id[p];
     if (round == 0) return static_cast<int>((id * 7 + id / 3) % ranks);
@@ -167,8 +167,8 @@ TEST_F(SolverRanks, MigrateWithAllFieldsAndStandByBody) {
   }
 }
 
-// The options whose decisions ranks must take alike: contact of a separating wall, divisions with new
-// numbers, particles that fly without the grid, shifts of the grid, wide kernels with domains.
+// Options whose decisions must be equal on all ranks: contact of a separating wall, divisions with new numbers,
+// particles in free flight, shifts of the grid, wide kernels with domains.
 TEST_F(SolverRanks, AgreeWithOneRankInEveryOption) {
   const Overrides options = {{"domain.upper", R"(["12 mm", "12 mm", "3.6 mm"])"},
                              {"domain.boundary.z_upper", "separating"},
@@ -204,7 +204,8 @@ TEST_F(SolverRanks, AgreeWithOneRankInEveryOption) {
   }
 }
 
-// Blocks of rings lie in one layer; the hoop force is that of the particles of each rank; a checkpoint goes on.
+// Blocks of rings are in one layer; the hoop force is that of the particles of each rank; a run resumes from a
+// checkpoint.
 TEST_F(SolverRanks, AgreeWithOneRankInAxisymmetry) {
   const Overrides rings = {
       {"domain.dimension", "axisymmetric"}, {"domain.axis", "z"}, {"domain.cell_size", "0.4 mm"}};
@@ -226,8 +227,8 @@ TEST_F(SolverRanks, AgreeWithOneRankInAxisymmetry) {
   if (is_root()) expect_equal(resumed, alone, 1e-11);
 }
 
-// Deformation gradients, a history field of a constitutive model, follow their particles from rank to rank: the block
-// crosses their borders while it rebounds.
+// Deformation gradients, a history field of a constitutive model, follow their particles between ranks: the block
+// crosses the boundaries of the ranks while it rebounds.
 TEST_F(SolverRanks, DeformationGradientsMoveWithTheirParticles) {
   ranks_.on_root([&] {
     std::ofstream(folder_ / "bounce.toml") << R"(
@@ -253,7 +254,7 @@ shape = { box = { lower = ["5 mm", "0 mm", "0 mm"], upper = ["15 mm", "4 mm", "4
   advance_to(together, end);
   advance_on_root(alone, end);
   expect_agreement(together, alone, 1e-11);
-  // Sums in which every component of every particle has a weight of its own.
+  // Sums with an individual weight of every component of every particle
   const auto sums = [](const Particles& q) {
     std::vector<double> sum(2, 0.0);
     const auto& deformation = q.history.values<Matrix3>("deformation_gradient");
@@ -275,8 +276,8 @@ shape = { box = { lower = ["5 mm", "0 mm", "0 mm"], upper = ["15 mm", "4 mm", "4
   }
 }
 
-// Fields that only other ranks see at a shared block, nodes that several ranks have in contact, mirror planes
-// through the contact, three bodies.
+// Fields that only other ranks have at a shared block, nodes at which several ranks are in contact, mirror planes
+// through the contact, three bodies
 TEST_F(SolverRanks, AgreeWithOneRankInContact) {
   for (const auto& [method, normal] :
        {std::pair("\"auto\"", "\"separating\""), std::pair("\"auto\"", "\"collinear\""),
@@ -297,7 +298,7 @@ TEST_F(SolverRanks, AgreeWithOneRankInContact) {
   }
 }
 
-// The velocity fields are found again in every step: a checkpoint needs nothing of them.
+// The velocity fields are determined again in every step: a checkpoint need not store them.
 TEST_F(SolverRanks, GoOnFromACheckpointInContact) {
   const Overrides contact = {{"contact.method", "\"auto\""}, {"contact.friction", "0.3"}};
   Simulation together(read(contact), MPI_COMM_WORLD);
@@ -341,7 +342,7 @@ TEST_F(SolverRanks, GaugesAgreeWithOneRankAndFollowTheSameParticles) {
     if (std::isnan(b[i].value)) {
       EXPECT_TRUE(std::isnan(a[i].value)) << a[i].name;
     } else {
-      // Shear stresses that symmetry makes zero are what is left of stresses of 1e10 Pa.
+      // Shear stresses that vanish by symmetry are the round-off of stresses of 1e10 Pa.
       const double least = b[i].name.find("stress") != std::string::npos ? 1e3 : 1.0;
       EXPECT_NEAR(a[i].value, b[i].value, 1e-9 * std::max(std::abs(b[i].value), least)) << a[i].name;
     }
@@ -428,7 +429,7 @@ TEST_F(SolverRanks, AnErrorOfOneRankEndsTheStepOnAll) {
   }
 }
 
-// The particle that an error names is that of the run, whichever rank has it.
+// An error names the particle of the whole run, whichever rank holds it.
 TEST_F(SolverRanks, AnErrorNamesTheFastestParticleOfAllRanks) {
   const auto error_of = [&](const Overrides& overrides, MPI_Comm communicator) -> std::string {
     try {
@@ -448,8 +449,8 @@ TEST_F(SolverRanks, AnErrorNamesTheFastestParticleOfAllRanks) {
   }
 }
 
-// Single points at the end of their equation of state are single by the number of all: 600 of a body on each of
-// two ranks are more than a thousand.
+// Whether points at the end of their equation of state are single ones is decided by the number on all ranks: 600 of a
+// body on each of two ranks are more than a thousand.
 TEST_F(SolverRanks, CountPointsAtTheEndOfTheEquationOfStateTogether) {
   const cases::Case setup = read();
   const auto fault_of = [&](std::size_t on_root, std::size_t elsewhere) {

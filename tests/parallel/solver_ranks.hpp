@@ -21,8 +21,8 @@ inline void advance_to(Simulation& simulation, double time) {
 
 inline bool is_root() { return parallel::rank(MPI_COMM_WORLD) == 0; }
 
-/// Advances the run of one rank that the others are compared with, on the root only: the other ranks sleep until it
-/// has ended, as there are fewer cores than ranks.
+/// Advances the reference run of one rank on the root only: the other ranks sleep until it has ended, as there are
+/// fewer cores than ranks.
 inline void advance_on_root(Simulation& alone, double time) {
   if (is_root()) advance_to(alone, time);
   MPI_Request request = MPI_REQUEST_NULL;
@@ -34,7 +34,7 @@ inline void advance_on_root(Simulation& alone, double time) {
   }
 }
 
-/// Every rank of a run holds the same bits of its sums.
+/// Requires that every rank of a run holds bitwise equal sums.
 inline void expect_same_on_all_ranks(const Simulation& together) {
   std::vector<double> own = {static_cast<double>(together.state().step),
                              static_cast<double>(together.particle_count()),
@@ -52,7 +52,7 @@ inline void expect_same_on_all_ranks(const Simulation& together) {
   EXPECT_EQ(parallel::exchange(MPI_COMM_WORLD, std::vector(ranks, own)), std::vector(ranks, own));
 }
 
-/// Every number of two runs, relative to the largest of its kind.
+/// Compares every number of two runs, relative to the largest of its kind.
 inline void expect_equal(const Simulation& a, const Simulation& b, double tolerance) {
   EXPECT_EQ(a.state().step, b.state().step);
   EXPECT_EQ(a.particle_count(), b.particle_count());

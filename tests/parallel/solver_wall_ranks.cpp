@@ -13,7 +13,7 @@
 namespace whipple::solver {
 namespace {
 
-/// Three blocks that fly into the corner of three walls.
+/// Returns a case of three blocks that fly into the corner of three walls.
 cases::Case blocks_into_corner(const std::string& contact) {
   using namespace verification;
   constexpr double cell = 1e-3;
@@ -51,7 +51,7 @@ INSTANTIATE_TEST_SUITE_P(Contact, WallRanks,
                          testing::Values("[contact]\nmethod = \"none\"\n",
                                          "[contact]\nmethod = \"multi_field\"\nfriction = 0.2\n"));
 
-/// A bar between two grips that move apart, one of them by itself, the other held by a plane that pushes only.
+/// Tests a bar between two grips that move apart, one of them driven, the other held by a separating plane.
 TEST(DrivenRanks, AgreeWithOneRank) {
   using namespace verification;
   const std::string material = aluminium("aluminium_of_grips", "0.3 GPa");

@@ -14,7 +14,7 @@
 #include "src/core/parallel/mpi.hpp"
 #include "src/fem/structured.hpp"
 
-// As GoogleTest shows the parameters.
+// For the parameter output of GoogleTest
 namespace whipple {
 static void PrintTo(Arrangement arrangement, std::ostream* out) { *out << word_of(arrangement); }
 }  // namespace whipple
@@ -28,7 +28,7 @@ namespace {
 constexpr double dx = 1e-3;              // m, cell
 constexpr double inertia = dx * dx / 4;  // of quadratic B-splines
 
-/// A mesh with random state; `distortion` moves its nodes by so much of an element.
+/// Returns a mesh with random state; `distortion` displaces its nodes by this fraction of an element.
 fem::Mesh random_mesh(fem::Quadrature quadrature, double size, double distortion, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
@@ -130,7 +130,7 @@ TEST_P(Conserves, MassMomentumAngularMomentumAndEnergy) {
   EXPECT_NEAR(after.energy, before.energy, 1e-13 * before.energy);
   EXPECT_LT((after.moment - before.moment).norm(), 1e-13 * before.moment.norm());
   EXPECT_GE(balance.kinetic_heat, 0.0);
-  // The cap of the affine field acts where neighbouring nodes differ without order only.
+  // The cap of the affine field acts only where neighbouring nodes differ randomly.
   if (field == Field::strain || field == Field::rotation) {
     EXPECT_LT((after.angular - before.angular).norm(), 1e-12 * before.angular.norm());
   }
@@ -238,11 +238,11 @@ TEST(Transition, NodesNearParticlesAndOtherBodiesMoveWithTheGrid) {
     return count;
   };
   Particles particles;
-  // The faces z = 5 and z = 6.5 lie in adjacent cells; nothing else meets.
+  // The faces z = 5 and z = 6.5 are in adjacent cells; nothing else is in contact.
   EXPECT_EQ(mark_transition(meshes, particles, geometry, inertia, parallel::world()), 0.0);
   EXPECT_EQ(marked(0), 5U * 4U);
   EXPECT_EQ(marked(1), 5U * 4U);
-  // Apart by one cell more they do not; what affine field the nodes had becomes heat of the elements.
+  // One cell further apart they are not; the affine field of the nodes becomes heat of the elements.
   double affine = 0;
   for (std::size_t a = 0; a < meshes[0].nodes.size(); ++a) {
     if (meshes[0].nodes.in_transition[a] == 0) continue;
@@ -255,11 +255,11 @@ TEST(Transition, NodesNearParticlesAndOtherBodiesMoveWithTheGrid) {
               1e-12 * affine);
   EXPECT_NEAR(fem::totals(meshes[0]).internal_energy - before, affine, 1e-9 * affine);
   EXPECT_EQ(marked(0) + marked(1), 0U);
-  // A particle next to a corner; an inner node would not see one.
+  // A particle next to a corner; an inner node would not be in its range.
   particles.position = {Vector3(-0.5, -0.5, -0.5) * dx};
   mark_transition(meshes, particles, geometry, inertia, parallel::world());
   EXPECT_EQ(marked(0), 1U);
-  // Prescribed velocities keep a node out.
+  // Nodes with prescribed velocities are excluded.
   const std::uint32_t corner = 0;
   fem::constrain(meshes[0], std::span(&corner, 1), fem::constraint::x, Vector3(1, 0, 0));
   mark_transition(meshes, particles, geometry, inertia, parallel::world());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Removal by moving the last items of a group into the gaps: whatever leaves, what stays is complete,
-// grouped, and mostly where it was.
+// Removal by moving the last items of a group into the gaps: whichever items are removed, the remaining ones are
+// complete, grouped, and mostly in their original positions.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fields that press on one another at a node (docs/theory/contact.md, section 4): for any masses, velocities,
-// forces, normals and gaps momentum and energy are exact, no heat is negative, no pair pulls.
+// Fields under compression at a node (docs/theory/contact.md, section 4): for any masses, velocities, forces, normals
+// and gaps momentum and energy are exact, no heat is negative, no pair is in tension.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -27,7 +27,7 @@ struct Meeting {
 
 constexpr double dt = 1e-8;  // s
 
-/// Fields at a node as they come, and what contact makes of them.
+/// Holds fields at a node before and after contact.
 struct Trial {
   std::vector<grid::Node> before, after;
   std::vector<double> mass;
@@ -54,14 +54,14 @@ struct Trial {
     for (const Side& side : sides) heat += side.heat;
   }
 
-  /// N s: what the particles of a field get from the node, without that of their own forces. They bring
-  /// m u and take m (d - beta (u - v)), equation (4.3) of mpm.md.
+  /// Returns the impulse (N s) of the node on the particles of a field, without that of their own forces: they
+  /// contribute m u and receive m (d - beta (u - v)), equation (4.3) of mpm.md.
   [[nodiscard]] Vector3 impulse(std::size_t s) const {
     const Vector3 u = before[s].motion.velocity(), v = after[s].motion.velocity();
     const Vector3 f = before[s].motion.increment(), d = after[s].motion.increment();
     return mass[s] * (d - f - after[s].motion.relaxation() * (u - v));
   }
-  /// J: change of the energy of the particles of a field, with the heat of their transfer and the work of
+  /// Returns the change of the energy (J) of the particles of a field, with the heat of their transfer and the work of
   /// their stresses, (4.5) and (4.6) of mpm.md, summed over them.
   [[nodiscard]] double energy(std::size_t s) const {
     const Vector3 u = before[s].motion.velocity(), v = after[s].motion.velocity();
@@ -92,7 +92,7 @@ class Pressed : public ::testing::TestWithParam<int> {
     } while (n.squaredNorm() > 1.0 || n.squaredNorm() < 0.01);
     return n.normalized();
   }
-  /// @param parallel  all normals along one line, as of the layers of a stack
+  /// @param parallel  all normals along one line, as in the layers of a stack
   Trial trial(int fields, bool parallel) {
     Trial t;
     const Vector3 axis = direction();
@@ -163,7 +163,7 @@ TEST_F(Pressed, TwoThatTouchMoveAsOneAlongTheNormal) {
   }
 }
 
-// Surfaces that close their gap within the step just touch at its end.
+// Surfaces that close their gap within the step touch exactly at its end.
 TEST_F(Pressed, AGapClosesExactly) {
   int closed = 0;
   for (int n = 0; n < 500; ++n) {
@@ -193,7 +193,7 @@ TEST_F(Pressed, AGapClosesExactly) {
   EXPECT_GT(closed, 50);
 }
 
-// A pair that is pressed together only by a third one takes part; one that is pulled does not.
+// A pair that is under compression only because of a third body is included; a pair in tension is not.
 TEST_F(Pressed, AStackMovesAsOneAndDoesNotPull) {
   Trial t;
   t.mass = {1e-6, 2e-6, 3e-6};
@@ -202,7 +202,8 @@ TEST_F(Pressed, AStackMovesAsOneAndDoesNotPull) {
   t.meetings = {{0, 1, Vector3::UnitX(), 0.0}, {1, 2, Vector3::UnitX(), 0.0}, {0, 2, Vector3::UnitX(), 0.0}};
   t.apply(0.0);
   for (std::size_t s = 0; s < 3; ++s) EXPECT_NEAR(t.after[s].motion.velocity_and_relaxation[0], -30.0, 1e-6);
-  t.before = {node(-5), node(0), node(-60)};  // the first flees, but slower than all of them go on
+  // The first moves away, but more slowly than the common velocity
+  t.before = {node(-5), node(0), node(-60)};
   t.apply(0.0);
   EXPECT_NEAR(t.after[0].motion.velocity_and_relaxation[0], -185.0 / 6.0, 1e-6);
   t.before = {node(-90), node(0), node(-60)};  // faster
@@ -212,8 +213,8 @@ TEST_F(Pressed, AStackMovesAsOneAndDoesNotPull) {
   EXPECT_NEAR(t.after[2].motion.velocity_and_relaxation[0], -36.0, 1e-6);
 }
 
-// Eq. 3.6: the points of a facet hold its area vector whatever its shape; where it is a parallelogram, its area and its
-// first moment too. The vectors of a closed surface cancel.
+// Eq. 3.6: the points of a facet represent its area vector whatever its shape; for a parallelogram also its area and
+// its first moment. The vectors of a closed surface cancel.
 TEST(SurfacePoints, HoldTheAreaVectorsOfTheFacets) {
   const std::vector<fem::Facet> facets = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
                                           {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ceramics, and what all brittle models share: surfaces, damage and bulking of given paths, tension, energy,
-// frames, bad input.
+// Ceramics, and common properties of all brittle models: surfaces, damage and bulking for given paths, tension, energy,
+// frames, invalid input.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -41,7 +41,8 @@ TEST(JohnsonHolmquist2, StrengthIsThePublishedCurveAndOneAtTheElasticLimit) {
 }
 
 TEST(JohnsonHolmquist2, PublishedConstantsAgreeWithTheirOwnElasticLimit) {
-  // HEL = P_HEL + 4/3 G mu/(1 + mu), P_HEL = P(mu); silicon carbide as printed does not (12.7, not 14.6 GPa).
+  // HEL = P_HEL + 4/3 G mu/(1 + mu), P_HEL = P(mu); the printed constants of silicon carbide do not satisfy this (12.7,
+  // not 14.6 GPa).
   for (const char* name :
        {"alumina_99_5_jh2", "boron_carbide_jh2", "aluminium_nitride_jh2", "float_glass_jh2"}) {
     const Material m = library(name);
@@ -61,8 +62,8 @@ TEST(JohnsonHolmquist2, PublishedConstantsAgreeWithTheirOwnElasticLimit) {
 }
 
 TEST(Brittle, ClosingBesideAnOpenVoidMeetsNoArtificialViscosity) {
-  // Two points of one ceramic close at the same rate: where a crack is open, its faces approach one another
-  // without resistance; the whole one has q = rho l |D| (b l |D| + g c).
+  // Two points of one ceramic are compressed at the same rate: where a crack is open, its faces approach each other
+  // without resistance; the intact one has q = rho l |D| (b l |D| + g c).
   const Material material = ceramic(alumina());
   UpdateSettings viscous = settings;
   viscous.linear_viscosity = 0.1;
@@ -78,7 +79,7 @@ TEST(Brittle, ClosingBesideAnOpenVoidMeetsNoArtificialViscosity) {
   EXPECT_NEAR(points.artificial_viscosity[1], 3700.0 * velocity * (1.5 * velocity + 0.1 * sound),
               2e-3 * points.artificial_viscosity[1]);
 
-  // Nor does it heat where the model itself takes the work: the same energy with and without viscosity.
+  // It does not heat either if the model itself computes the work: the same energy with and without viscosity.
   const auto energy = [&](const UpdateSettings& chosen, std::size_t point) {
     MaterialPoints own = points_of(material, 2);
     own.void_volume[0] = 0.05 * own.volume[0];
@@ -89,8 +90,8 @@ TEST(Brittle, ClosingBesideAnOpenVoidMeetsNoArtificialViscosity) {
   EXPECT_GT(energy(viscous, 1), 1.01 * energy(settings, 1));
 }
 
-/// The published rate equations on a path of uniaxial strain, integrated with very small steps: equivalent
-/// deviator (positive in axial compression), pressure, damage.
+/// Integrates the published rate equations on a path of uniaxial strain with very small steps: equivalent deviator
+/// (positive in axial compression), pressure, damage.
 struct Published {
   JohnsonHolmquist2 c;
   double t = 0, p = 0, damage = 0, bulk = 0, last = 0;
@@ -115,15 +116,15 @@ struct Published {
       const double after = strength(p, d), lost = (y * y - after * after) / (6 * c.stiffness());
       if (p > 0) bulk += std::sqrt(p * p + 2 * c.bulking * K1 * lost) - p;
       damage = d;
-      t = std::copysign(y, t);  // the fall itself is plastic strain of the next step
+      t = std::copysign(y, t);  // the decrease itself is plastic strain of the next step
       p = std::max(K1 * mu + bulk, -c.tensile_strength * (1 - damage));
     }
   }
 };
 
 TEST(JohnsonHolmquist2, SingleElementFollowsThePublishedEquationsInAllThreeCases) {
-  // Johnson and Holmquist (1994): compressed to 95 % in one direction and released. A: breaks at once, no
-  // strength left, no bulking; B: damage and strength of the fragments; C: with bulking.
+  // Johnson and Holmquist (1994): compressed to 95 % in one direction and released. A: breaks at once, no residual
+  // strength, no bulking; B: damage and strength of the fragments; C: with bulking.
   JohnsonHolmquist2 a = alumina(), b = alumina(), c = alumina();
   a.damage_coefficient = a.fractured_coefficient = a.bulking = b.bulking = 0.0;
   for (const JohnsonHolmquist2& law : {a, b, c}) {
@@ -156,7 +157,7 @@ TEST(JohnsonHolmquist2, SingleElementFollowsThePublishedEquationsInAllThreeCases
 }
 
 TEST(JohnsonHolmquist2, DamageIsThePlasticStrainOverThatOfFailureAndLowersTheStrength) {
-  // Shear at constant volume: the pressure stays, so everything is known in closed form.
+  // Shear at constant volume: the pressure is constant, so that everything is known in closed form.
   JohnsonHolmquist2 c = alumina();
   c.bulking = 0.0;
   c.damage_coefficient = 0.1;
@@ -215,7 +216,7 @@ TEST(JohnsonHolmquist2, RateFactorIsThatOfTheTotalStrainRate) {
 }
 
 TEST(JohnsonHolmquist2, BulkingTurnsTheLostShearEnergyIntoCompression) {
-  // Breaks within one step at constant volume: the energy is known before and after.
+  // The point breaks within one step at constant volume: the energy is known before and after.
   JohnsonHolmquist2 c = alumina();
   c.damage_coefficient = c.fractured_coefficient = 0.0;
   for (const double beta : {0.0, 0.5, 1.0}) {
@@ -240,7 +241,7 @@ TEST(JohnsonHolmquist2, BulkingTurnsTheLostShearEnergyIntoCompression) {
     EXPECT_NEAR(body.points.volume[0], volume, 1e-11 * volume);
     const double lost = yield * yield / (6 * c.stiffness()) * volume;  // J
     EXPECT_NEAR(body.p(), std::sqrt(p * p + 2 * beta * K1 * lost / volume), 1e-4 * p);
-    // The rest is heat; energy that the compression of the material takes is that of its own equation of state.
+    // The remainder is heat; the energy of the compression of the material is that of its equation of state.
     const double mass = body.points.mass[0], alpha = body.points.history.find("distension") != nullptr
                                                          ? body.points.history.scalar("distension")[0]
                                                          : 1.0;
@@ -253,7 +254,7 @@ TEST(JohnsonHolmquist2, BulkingTurnsTheLostShearEnergyIntoCompression) {
     EXPECT_NEAR(stored + heat, lost, 2e-3 * lost) << beta;
     EXPECT_NEAR(stored, beta * lost, 0.01 * beta * lost) << beta;  // the pressure of the material is alpha P
     EXPECT_EQ(alpha == 1.0, beta == 0.0);
-    // Fragments need more room than the intact material did.
+    // Fragments occupy more volume than the intact material.
     const double room = std::cbrt(1.0 / (1.0 - (body.p() - p) / K1));
     body.strain_to(diagonal(room * 1.0005, room * 1.0005, room * 1.0005), 200);
     EXPECT_EQ(body.p(), 0.0);
@@ -277,7 +278,7 @@ TEST(JohnsonHolmquist2, TensionEndsAtItsStrengthAndGapsCloseWithoutLoss) {
   EXPECT_EQ(body.points.void_volume[0], 0.0);
   EXPECT_NEAR(body.p(), 0.0, 1e-4 * K1 * 0.01);
   EXPECT_NEAR(body.energy(), start, 1e-3 * 0.2e9 * 1e-11);
-  // With shear it breaks at once: no pressure, no deviator, and open.
+  // With shear it breaks at once: no pressure, no deviator, and open voids.
   Matrix3 f = diagonal(ratio, ratio, ratio);
   f(0, 1) = 0.01;
   body.strain_to(f, 100);
@@ -290,7 +291,7 @@ TEST(JohnsonHolmquist2, TensionEndsAtItsStrengthAndGapsCloseWithoutLoss) {
 }
 
 TEST(JohnsonHolmquist2, EnergyIsTheWorkDone) {
-  // A closed path through breaking, bulking and tension: e is the sum of the work and nothing else.
+  // A closed path through breaking, bulking and tension: e is exactly the sum of the work.
   const Material material = ceramic(alumina());
   Body body{material};
   double work = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Concrete: surfaces, hardening, damage of given paths, strengths of a single element.
+// Concrete: surfaces, hardening, damage for given paths, strengths of a single element.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -75,7 +75,7 @@ TEST(HolmquistJohnsonCook, BrokenConcreteKeepsItsFriction) {
   for (int i = 1; i <= 1000; ++i) body.strain_to((from + (f - from) * i / 1000).eval());
   const double expected = 48e6 * 1.6 * std::pow(body.p() / 48e6, 0.61) * (1 + 0.007 * std::log(rate));
   EXPECT_NEAR(body.q(), expected, 1e-4 * expected);
-  body.strain_to(diagonal(1.02, 1.02, 1.02), 300);  // falls apart
+  body.strain_to(diagonal(1.02, 1.02, 1.02), 300);  // disintegrates
   EXPECT_EQ(body.p(), 0.0);
   EXPECT_EQ(body.q(), 0.0);
 }
@@ -125,15 +125,15 @@ TEST(RiedelHiermaierThoma, FailureSurfacePassesTheFourStrengths) {
   // Meridians of Willam and Warnke: 1 in compression, Q in tension.
   EXPECT_NEAR(c.meridian(-1, 3), 1.0, 1e-12);
   EXPECT_NEAR(c.meridian(1, 3), 0.6805 + 0.0105 * 3, 1e-12);
-  // Damaged: (1 - D) Y + D A_f p*^n_f; in tension (1 - D) times the surface at p/(1 - D).
+  // Damaged: (1 - D) Y + D A_f p*^n_f; in tension (1 - D) times the surface at p/(1 - D)
   const auto y = c.surface({.pressure = 70e6, .rate = 0, .lode_cosine = -1});
   EXPECT_NEAR(y.strength(0.4), 0.6 * y.strength(0) + 0.4 * 35e6 * 1.6 * std::pow(2, 0.61), 1e-4);
   const auto tensile = c.surface({.pressure = -1e6, .rate = 0, .lode_cosine = -1});
   EXPECT_NEAR(tensile.strength(0.4), 0.6 * 35e6 * strength(-1e6 / 0.6, -1, 0), 1e-4);
 }
 
-/// Uniaxial stress at a true strain rate: the lateral strain of every step is found so that the lateral
-/// stress vanishes.
+/// Returns the peak of uniaxial stress at a true strain rate: the lateral strain of every step is determined such that
+/// the lateral stress vanishes.
 double peak_of_uniaxial_stress(const Material& material, double last, int steps) {
   MaterialPoints points = points_of(material, 1);
   const UpdateSettings slow{

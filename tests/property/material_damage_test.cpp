@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Failure models with a past or of principal values: published formulas and loci, energy of the release.
+// Failure models with memory or with principal values: published formulas and loci, energy of the release.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -67,7 +67,7 @@ TEST(PrincipalStress, FailsAtTheStrengthInEveryDirection) {
     EXPECT_EQ(points.deviatoric_stress[0].squared_norm(), 0.0);
     EXPECT_GE(points.pressure[0], 0.0);
   }
-  // Compression in all directions but shear enough to tear: the pressure holds it together.
+  // Compression in all directions with enough shear to tear: the pressure prevents failure.
   MaterialPoints points = points_of(material, 1);
   Matrix3 gradient = -0.02 / dt * Matrix3::Identity();
   gradient(0, 1) = 0.02 / dt;  // s_xy = 0.87 GPa against p = 8 GPa
@@ -183,7 +183,7 @@ TEST(GradyKipp, StrengthFollowsThePublishedPowerOfTheStrainRate) {
       8.0 * std::numbers::pi * std::pow(speed, 3) * law.flaw_density / ((m + 1.0) * (m + 2.0) * (m + 3.0));
   for (const double rate : {1e3, 1e4, 1e5}) {
     MaterialPoints points = points_of(material, 1);
-    points.mass[0] *= 1e9;  // so large that flaws are there at any strain
+    points.mass[0] *= 1e9;  // so large that flaws are active at any strain
     initialise(material, points, 0, 1);
     const double expected = modulus * (m + 3.0) * std::pow(m + 4.0, -(m + 4.0) / (m + 3.0)) *
                             std::pow(alpha, -1.0 / (m + 3.0)) * std::pow(rate, 3.0 / (m + 3.0));
@@ -198,7 +198,7 @@ TEST(GradyKipp, StrengthFollowsThePublishedPowerOfTheStrainRate) {
     }
     EXPECT_EQ(points.failed[0], failure::fragmented);
     EXPECT_NEAR(peak, expected, 0.01 * expected) << rate;
-    // All the work is there as heat; less than the elastic energy at the peak twice over.
+    // All the work becomes heat; less than twice the elastic energy at the peak.
     EXPECT_GT(last_energy, 0.0);
     EXPECT_LT(last_energy, 2.0 * peak * peak / (2.0 * modulus * eos.rho0));
   }
@@ -221,7 +221,7 @@ TEST(GradyKipp, NoFlawGrowsBelowTheStrainAtWhichThePointHoldsOne) {
   }
 }
 
-/// Half damaged material that carries tension without more damage (its flaws are too strong).
+/// Returns half damaged material that carries tension without further damage (its flaws are too strong).
 MaterialPoints half_damaged(const Material& material) {
   MaterialPoints points = points_of(material, 1);
   points.history.scalar("damage")[0] = 0.5;
@@ -282,15 +282,15 @@ failure::Gurson voids(double porosity) {
 }
 
 TEST(Gurson, SphericalTensionYieldsAtTheExactPressureOfTheHollowSphere) {
-  // p = 2/3 Y ln(1/f): Gurson (1977); exact for a sphere of perfectly plastic material with a hole in its
-  // centre. Where a part of the material has melted, the solid fraction of Y counts.
+  // p = 2/3 Y ln(1/f): Gurson (1977); exact for a sphere of perfectly plastic material with a hole in its centre. Where
+  // part of the material has melted, Y is multiplied by the solid fraction.
   strength::VonMises constants = taylor_copper();
   constants.hardening_modulus = 0.0;
   for (const double melted : {0.0, 0.4}) {
     LinearInEnergy eos;
     eos.gamma = 0.0;
     if (melted > 0.0) {
-      eos.melting_starts = -melted * 1e12;  // the same melted fraction at every energy of the test
+      eos.melting_starts = -melted * 1e12;  // equal melted fraction at every energy of the test
       eos.melting_ends = (1.0 - melted) * 1e12;
     }
     const double y = (1.0 - melted) * constants.yield_stress;
@@ -374,7 +374,7 @@ TEST(Gurson, WithoutVoidsIsTheStrengthModelAndWithThemTheWorkIsThatOfTheMatrix) 
   const MaterialPoints porous = pull(material, 300);
   EXPECT_GT(porous.void_volume[0] / (porous.volume[0] + porous.void_volume[0]), 0.021);
   EXPECT_LT(equivalent_stress(porous.deviatoric_stress[0]), equivalent_stress(plain.deviatoric_stress[0]));
-  // e = Y dep of the matrix, plus what is stored elastically
+  // e = Y dep of the matrix, plus the stored elastic energy
   const double ep = porous.plastic_strain[0], volume = 1.0 / 8930.0;
   const double work = (157e6 * ep + 0.5 * 425e6 * ep * ep) * volume;
   const LinearInEnergy eos;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the update makes irreversible: artificial viscosity, and the dissipation that the models report.
+// Irreversible energy of the update: artificial viscosity, and the dissipation that the models report.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ TEST(Viscosity, ActsInCompressionOnlyWithThePublishedForm) {
   EXPECT_EQ(points.artificial_viscosity[1], 0.0);
 }
 
-/// It takes energy out of the flow and never turns pressure into tension.
+/// Tests that it dissipates and never turns pressure into tension.
 TEST(Viscosity, InExpansionActsWhereAskedForAndNeverExceedsThePressure) {
   const Material material = with(taylor_copper());
   MaterialPoints points = points_of(material, 4);
@@ -58,7 +58,7 @@ TEST(Viscosity, InExpansionActsWhereAskedForAndNeverExceedsThePressure) {
   EXPECT_EQ(closing.artificial_viscosity[0], usual.artificial_viscosity[0]);
 }
 
-/// A length for every point of the set takes the place of the cell size, in ranges and in lists.
+/// Tests that a length for every point of the set replaces the cell size, in ranges and in lists.
 TEST(Viscosity, TakesTheLengthOfEachPoint) {
   const Material material = with(taylor_copper());
   const std::size_t n = 300;
@@ -83,7 +83,7 @@ TEST(Viscosity, TakesTheLengthOfEachPoint) {
   }
 }
 
-/// Viscosity that heats over the whole of it, of one step of uniform closing in a point at `density`.
+/// Returns the heating part of the viscosity over the whole, for one step of uniform closing of a point at `density`.
 /// @param of_field  rate of the affine field over that of the grid
 double share_that_heats(double density, double of_field, std::uint8_t failed = 0) {
   const Material material = make_material("fluid", std::make_shared<LinearInEnergy>());
@@ -107,7 +107,7 @@ double share_that_heats(double density, double of_field, std::uint8_t failed = 0
   return points.heating_viscosity[0] / points.artificial_viscosity[0];
 }
 
-// docs/theory/dissipation.md, eq. 5, 6; with c1 = 0 the viscosity goes with the square of the rate.
+// docs/theory/dissipation.md, eq. 5, 6; with c1 = 0 the viscosity is proportional to the square of the rate.
 TEST(HeatingViscosity, FollowsTheAffineFieldWhereMatterMeetsAndIsAllOfItInShocks) {
   const double start = make_material("fluid", std::make_shared<LinearInEnergy>()).reference.density;
   EXPECT_NEAR(share_that_heats(1.0001 * start, 0.0), 0.0, 1e-6);
@@ -115,7 +115,7 @@ TEST(HeatingViscosity, FollowsTheAffineFieldWhereMatterMeetsAndIsAllOfItInShocks
   EXPECT_EQ(share_that_heats(1.0001 * start, 1.0), 1.0);  // uniform compression
   EXPECT_NEAR(share_that_heats(1.125 * start, 0.0), 0.25, 1e-3);
   EXPECT_EQ(share_that_heats(1.3 * start, 0.0), 1.0);
-  EXPECT_EQ(share_that_heats(0.99 * start, 0.0), 1.0);  // thinner than at the start: gaps close
+  EXPECT_EQ(share_that_heats(0.99 * start, 0.0), 1.0);  // thinner than at the start: voids close
 }
 
 TEST(HeatingViscosity, IsStoredAsTheModeOfTheUpdateSaysWhateverThePointsHold) {
@@ -132,7 +132,7 @@ TEST(HeatingViscosity, IsStoredAsTheModeOfTheUpdateSaysWhateverThePointsHold) {
   }
 }
 
-/// Steps a point through random motions, and calls check(report, points) after each of them.
+/// Steps a point through random motions and calls check(report, points) after each of them.
 template <class Check>
 void wander(const Material& material, std::uint64_t seed, Check check) {
   std::mt19937_64 generator(seed);
@@ -187,7 +187,7 @@ TEST(Dissipation, IsThePlasticWorkOfAMetalAndTheViscousWorkOfAFluid) {
   EXPECT_NEAR(of_fluid.dissipation, expected, 1e-12 * expected);
 }
 
-// What fails loses the elastic energy of its deviator.
+// Failing material loses the elastic energy of its deviator.
 TEST(Dissipation, OfAFailingPointIsItsElasticEnergy) {
   failure::TensilePressure spall;
   spall.spall_strength = 1e9;
@@ -203,7 +203,7 @@ TEST(Dissipation, OfAFailingPointIsItsElasticEnergy) {
   EXPECT_NEAR(report.dissipation, stored, 0.04 * stored);  // the volume grows by 3 %
 }
 
-// A fluid that ruptures has no elastic energy to lose.
+// A rupturing fluid has no elastic energy to lose.
 TEST(Dissipation, OfAFailingFluidIsNone) {
   failure::TensilePressure rupture;
   rupture.spall_strength = 1e8;

@@ -45,7 +45,7 @@ const UpdateSettings settings{.time_step = dt, .cell_size = 1e-3};
 const UpdateSettings without_viscosity{
     .time_step = dt, .cell_size = 1e-3, .linear_viscosity = 0.0, .quadratic_viscosity = 0.0};
 
-/// Uniform volume change by `ratio` in one step.
+/// Returns a uniform volume change by `ratio` in one step.
 Matrix3 dilation(double ratio) { return (std::cbrt(ratio) - 1.0) / dt * Matrix3::Identity(); }
 
 double total_volume(const MaterialPoints& points) { return points.volume[0] + points.void_volume[0]; }
@@ -96,8 +96,7 @@ TEST(Spall, MatterBesideTheVoidComesToZeroPressureAtConstantEnergy) {
   const LinearInEnergy eos;
   const double density = points.mass[0] / points.volume[0];
   EXPECT_NEAR(eos.pressure(density, energy), 0.0, 1e-9 * eos.rho0 * eos.c0 * eos.c0);
-  // The energy stored by 1 GPa of tension, p^2 / (2 K rho), is now heat: at least that energy above the cold
-  // curve.
+  // The energy stored by 1 GPa of tension, p^2 / (2 K rho), has become heat: at least that energy above the cold curve.
   EXPECT_GT(energy, 0.9 * 1e18 / (2.0 * eos.rho0 * eos.rho0 * eos.c0 * eos.c0));
 }
 
@@ -121,7 +120,7 @@ TEST(Void, CycleOfOpeningAndClosingIsNeutralAndPressureReturnsAtTheZeroPressureV
     strain_to(2e-9, 500);
     opened = points.specific_internal_energy[0];
     EXPECT_NEAR(opened, before,
-                cycle == 0 ? 1.0 : 20.0);  // J/kg; the step that passes p = 0 costs one step's work
+                cycle == 0 ? 1.0 : 20.0);  // J/kg; the step that crosses p = 0 costs one step's work
     EXPECT_NEAR(points.void_volume[0], 1e-9, 1e-12);
     strain_to(1.001e-9, 500);
     EXPECT_EQ(points.specific_internal_energy[0], opened);  // no work while the void is open
@@ -256,9 +255,9 @@ TEST(Failure, EnergyIntegratingSchemeDoesNoWorkOnAnOpenVoid) {
 }
 
 TEST(Void, RulesHoldOnRandomWalksThroughSolidLiquidAndVapour) {
-  // Copper with its three-phase equation of state, failed, from cold to vapour, volume wandering between
-  // 1/1.2 and 20 of the initial one: the total volume follows J, void and pressure exclude each other, the
-  // energy is constant while a void is open, and no state leaves the range of the model.
+  // Copper with its three-phase equation of state, failed, from cold to vapour, volume varying between 1/1.2 and 20 of
+  // the initial one: the total volume follows J, void and pressure exclude each other, the energy is constant while a
+  // void is open, and no state leaves the range of the model.
   const Material material = read_material("copper");
   std::mt19937_64 generator(17);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
@@ -307,7 +306,7 @@ TEST(FreeLiquid, CopperMeltedByTheEquationOfStateFailsAtTheFirstTension) {
     last_pressure = points.pressure[0];
     step_with_work(material, points, dilation(1.0005), without_viscosity);
   }
-  EXPECT_LT(last_pressure, 0.2e9);  // it came down to zero before it parted
+  EXPECT_LT(last_pressure, 0.2e9);  // the pressure decreased to zero before it broke
   EXPECT_EQ(points.pressure[0], 0.0);
   EXPECT_GT(points.void_volume[0], 0.0);
 }

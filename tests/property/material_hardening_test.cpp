@@ -25,8 +25,8 @@ Material of(const Constants& constants) {
   return make_material("test", std::make_shared<LinearInEnergy>(), std::make_shared<Model>(constants));
 }
 
-/// Isochoric stretch along x by logarithmic strain in steps; @returns the stress difference to the lateral
-/// one.
+/// Stretches isochorically along x by a logarithmic strain in steps.
+/// @returns the stress difference to the lateral one
 double stretch(const Material& material, MaterialPoints& points, double strain, int steps) {
   const double step = strain / steps;
   Matrix3 gradient = Matrix3::Zero();
@@ -51,7 +51,7 @@ TEST(Elastic, StressFollowsHookeToAnyStrainAndReturns) {
   EXPECT_EQ(points.plastic_strain[0], 0.0);
 }
 
-/// Yield stress on loading and on the way back, after plastic strain ep: von Mises with A, B, H.
+/// Tests the yield stress on loading and reverse loading, after plastic strain ep: von Mises with A, B, H.
 TEST(KinematicHardening, BauschingerEffectIsTwiceTheInitialYieldStress) {
   strength::VonMises constants;
   constants.shear_modulus = 40e9;
@@ -64,7 +64,7 @@ TEST(KinematicHardening, BauschingerEffectIsTwiceTheInitialYieldStress) {
   const double ep = points.plastic_strain[0];
   EXPECT_NEAR(ep, (3 * 40e9 * 0.05 - 200e6) / (3 * 40e9 + 2e9), 1e-7);
   EXPECT_NEAR(forward, 200e6 + 2e9 * ep, 1e2);
-  // Back: elastic over 2 A, whatever the hardening.
+  // Reverse loading: elastic over 2 A, whatever the hardening
   const double before = points.plastic_strain[0];
   double reverse = forward;
   int steps = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the constitutive update does with states that make no sense, or almost none.
+// Response of the constitutive update to invalid or nearly invalid states.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -34,8 +34,8 @@ TEST(Report, NamesTheFirstUndefinedPointAndCountsLimitedVolumeChanges) {
   EXPECT_NEAR(points.volume[17], 0.5e-9 / 0.999, 1e-20);
 }
 
-/// One point in a thousand may be squeezed beyond the end of its equation of state: it is held there, with a
-/// pressure that is finite, and counted. More than that is the material, which ends the run.
+/// Tests that one point in a thousand may be compressed beyond the end of its equation of state: it is limited there,
+/// with a finite pressure, and counted. More points mean that the material itself is too dense, which ends the run.
 TEST(Report, HoldsSinglePointsAtTheEndOfTheEquationOfState) {
   const Material material = with(taylor_copper());
   const double volume = 1e-9 * material.reference.density / (0.999 * material.eos->maximum_density());
@@ -54,7 +54,7 @@ TEST(Report, HoldsSinglePointsAtTheEndOfTheEquationOfState) {
   }
 }
 
-/// A lone particle of vapour, whose pressure nothing resists, fills more of the grid in every step.
+/// An isolated particle of vapour, whose pressure meets no resistance, fills more of the grid in every step.
 TEST(ThinMatter, StopsExpandingAtABillionthOfItsDensityAndCanBeCompressedAgain) {
   const Material material = read_material("copper.toml");
   MaterialPoints points = points_of(material, 1);

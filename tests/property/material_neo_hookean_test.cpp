@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The neo-Hookean solid against closed forms (docs/theory/material.md, section 12).
+// The neo-Hookean solid compared with closed forms (docs/theory/material.md, section 12).
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -19,7 +19,7 @@ using namespace material_test;
 
 constexpr double shear = 2e6;
 
-/// The stand-in without its phases.
+/// Test equation of state without phases.
 struct WithoutPhases final : LinearInEnergy {
   [[nodiscard]] bool has_phases() const override { return false; }
   eos::RangeReport evaluate(const eos::Batch& batch) const override {
@@ -31,7 +31,7 @@ struct WithoutPhases final : LinearInEnergy {
   }
 };
 
-/// A solid; with gamma = 0 its pressure depends on the density alone.
+/// Returns a solid; with gamma = 0 its pressure depends on the density alone.
 Material rubber(double gamma = 0.0) {
   WithoutPhases eos;
   eos.rho0 = 1000.0;
@@ -44,7 +44,7 @@ Material rubber(double gamma = 0.0) {
 constexpr UpdateSettings settings{
     .time_step = 1e-6, .cell_size = 1e-3, .linear_viscosity = 0.0, .quadratic_viscosity = 0.0};
 
-/// The point after the deformations f(1/steps), ..., f(1), from f(0) = 1.
+/// Returns the point after the deformations f(1/steps), ..., f(1), from f(0) = 1.
 template <class Deformation>
 MaterialPoints deformed(const Material& material, int steps, Deformation f) {
   MaterialPoints points = points_of(material, 1);
@@ -108,7 +108,8 @@ TEST(NeoHookean, RotationTurnsTheStressAndChangesNothingElse) {
   EXPECT_NEAR(spun.volume[0], plain.volume[0], 1e-21);
 }
 
-// Deformation at constant volume does not heat: all work is elastic energy, but for the error of the time integration.
+// Deformation at constant volume does not heat: all work is elastic energy, except for the error of the time
+// integration.
 TEST(NeoHookean, WorkAtConstantVolumeIsStoredWithoutHeat) {
   const Material material = rubber(1.0);
   const auto error = [&](int steps) {
@@ -139,7 +140,8 @@ TEST(NeoHookean, SchemesThatIntegrateTheEnergyKeepTheElasticPartOutOfTheHeat) {
   EXPECT_NEAR(points.temperature[0], 300.0, 1e-5 * shear / 1000.0 / 383.0);
 }
 
-// Small waves: the sound speed bounds those of the tangent stiffness, numerically differentiated.
+// Small waves: the sound speed is an upper bound of those of the tangent stiffness, obtained by numerical
+// differentiation.
 TEST(NeoHookean, SoundSpeedIsNotBelowThatOfAnyWave) {
   const Material material = rubber();
   std::mt19937_64 generator(5);
@@ -150,7 +152,8 @@ TEST(NeoHookean, SoundSpeedIsNotBelowThatOfAnyWave) {
         material, 20, [&](double t) { return Matrix3(Matrix3::Identity() + t * (f - Matrix3::Identity())); });
     const Vector3 n = random_matrix(generator, 1.0).col(0).normalized();
     const double step = 1e-6;
-    Matrix3 stiffness;  // d(stress n)/d(amplitude), of displacements a along n: no area of the wave changes
+    // D(stress n)/d(amplitude), of displacements a along n: the area of the wave is constant
+    Matrix3 stiffness;
     const auto traction = [&](const MaterialPoints& p) {
       return Vector3(p.deviatoric_stress[0].matrix() * n - p.pressure[0] * n);
     };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Spall of a point: what a cut-off leaves of the deviator, the time that accumulated tension takes, voids
-// that grow at a rate, what is whole again after compression, and the energy that tearing takes.
+// Spall of a point: effect of a cut-off on the deviator, time to failure by accumulated tension, rate-dependent growth
+// of voids, healing after compression, and the energy of tearing.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ Material with_law(const Law& law, const LinearInEnergy& eos = cold_eos) {
 
 Matrix3 dilation(double ratio) { return (std::cbrt(ratio) - 1.0) / dt * Matrix3::Identity(); }
 
-/// Takes one point to a total volume (m^3) in `steps` equal steps.
+/// Strains one point to a total volume (m^3) in `steps` equal steps.
 void strain_to(const Material& material, MaterialPoints& points, double total, int steps) {
   const double ratio = std::pow(total / (points.volume[0] + points.void_volume[0]), 1.0 / steps);
   for (int n = 0; n < steps; ++n) step_with_work(material, points, dilation(ratio), settings);
@@ -66,7 +66,7 @@ TEST(TensilePressure, ResponseDecidesWhatIsLeftOfTheDeviatorAndWhatComesBack) {
     shear(material, points);
     const double after = equivalent_stress(points.deviatoric_stress[0]);
     EXPECT_NEAR(after, response == failure::SpallResponse::failure ? 0.0 : yield, 0.1 * yield);
-    strain_to(material, points, 1.01e-9, 20);  // 1.4 GPa: it parts again, at the same tension
+    strain_to(material, points, 1.01e-9, 20);  // 1.4 GPa: it fails again, at the same tension
     EXPECT_NEAR(points.pressure[0], cut_off ? -1e9 : 0.0, 1.0);
   }
 }
@@ -80,7 +80,7 @@ TEST(TensilePressure, CutOffHoldsForALongExpansionAndGivesNoEnergy) {
   const double opened = points.specific_internal_energy[0];
   strain_to(material, points, 1e-9, 2000);
   EXPECT_GE(opened, 0.0);
-  EXPECT_GE(points.specific_internal_energy[0], -1e-3 * opened);  // a closed cycle gives nothing back
+  EXPECT_GE(points.specific_internal_energy[0], -1e-3 * opened);  // a closed cycle returns no energy
 }
 
 TEST(TulerButcher, ConstantTensionFailsAtTheExactTime) {
@@ -99,7 +99,8 @@ TEST(TulerButcher, ConstantTensionFailsAtTheExactTime) {
           ++steps;
           if (points.failed[0] == failure::intact) {
             ASSERT_NEAR(points.history.scalar("damage")[0], steps * dt / exact, 1e-9);
-            ASSERT_NEAR(points.pressure[0], -times * sigma_0, 1.0);  // nothing softens before it is complete
+            // There is no softening before the damage is complete
+            ASSERT_NEAR(points.pressure[0], -times * sigma_0, 1.0);
           }
         }
         EXPECT_EQ(points.failed[0], failure::spalled);
@@ -156,7 +157,7 @@ TEST(TulerButcher, HealsOnlyIfAskedTo) {
 
 const failure::ViscousVoidGrowth copper_voids{{}, 0.16e9, 1.0, 3e-4, 0.29, false};
 
-/// Greatest tension under a constant rate of the volume, by the equations of the source in steps of 10 ps.
+/// Returns the maximum tension at a constant rate of the volume, by the equations of the source in steps of 10 ps.
 double greatest_tension(double rate) {
   const double least = 1.0 + copper_voids.nuclei;
   double alpha = least, strain = 0.0, greatest = 0.0;
@@ -212,7 +213,7 @@ TEST(ViscousVoidGrowth, OpensBeyondTheStaticTensionKeepsTheDeviatorAndClosesUnde
   EXPECT_EQ(points.failed[0], failure::intact);
   EXPECT_NEAR(equivalent_stress(points.deviatoric_stress[0]), yield, 1e-6 * yield);
   EXPECT_GT(points.void_volume[0], 0.02e-9);
-  EXPECT_GT(points.pressure[0], -1.0e9);  // the grown voids bear less than the nuclei
+  EXPECT_GT(points.pressure[0], -1.0e9);  // the grown voids carry less tension than the nuclei
   const double opened = points.specific_internal_energy[0];
   EXPECT_GT(opened, 0.0);
   strain_to(material, points, 0.98e-9, 3000);
@@ -281,7 +282,7 @@ TEST(Tearing, TakesItsEnergyPerAreaInTensionWhateverTheCell) {
     MaterialPoints points = points_of(material, 1);
     double work = 0.0;
     while (points.failed[0] == failure::intact) {
-      const double of_step = stretch(points, cell, -0.4999);  // hardly in tension
+      const double of_step = stretch(points, cell, -0.4999);  // barely in tension
       work += points.history.scalar("damage")[0] > 0.0 ? of_step : 0.0;
       ASSERT_LT(points.plastic_strain[0], 2.0);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Laws that the constitutive update must obey whatever the material: objectivity, the elastic-plastic
-// uniaxial path, simple shear, energy of closed cycles, loss of strength by melting.
+// Laws that the constitutive update must satisfy for any material: objectivity, the elastic-plastic uniaxial path,
+// simple shear, energy of closed cycles, loss of strength by melting.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -45,8 +45,8 @@ TEST(Objectivity, RigidRotationTurnsTheStressAndChangesNothingElse) {
   EXPECT_EQ(points.void_volume[0], 0.0);
 }
 
-/// Trial deviator after one large step of stretch and rotation, F = Q U, from a given deviator, and its
-/// distance from the exact Q (s + 2 G dev ln U) Q^T, relative.
+/// Computes the trial deviator after one large step of stretch and rotation, F = Q U, from a given deviator; returns
+/// its relative distance from the exact Q (s + 2 G dev ln U) Q^T.
 double error_of_large_step(material::StressRotation rule, double angle) {
   const Matrix3 stretch = (Matrix3() << 1.03, 0.02, 0, 0.02, 0.99, -0.01, 0, -0.01, 1.01).finished();
   const Matrix3 turn = rotation(angle, {0.3, 1.0, 0.2});
@@ -75,14 +75,14 @@ double error_of_large_step(material::StressRotation rule, double angle) {
 TEST(Objectivity, PolarRotationIsExactForARotationSuperposedOnAStretch) {
   using enum material::StressRotation;
   for (const double angle : {0.01, 0.5, 1.5}) {
-    // What is left is ln U ~ 2 (U - 1)(U + 1)^-1, of third order in the stretch.
+    // The remaining error is ln U ~ 2 (U - 1)(U + 1)^-1, of third order in the stretch.
     EXPECT_LT(error_of_large_step(polar, angle), 2e-4) << angle;
     EXPECT_NEAR(error_of_large_step(polar, angle), error_of_large_step(polar, 0.0), 1e-12) << angle;
   }
   EXPECT_GT(error_of_large_step(hughes_winget, 0.5), 0.02);
 }
 
-/// Stress at the end of a path of stretch and shear, with or without a superposed rotation (turned back).
+/// Returns the stress at the end of a path of stretch and shear, with or without a superposed rotation (rotated back).
 Matrix3 end_stress(int steps, bool rotate) {
   const Material material = with(taylor_copper());
   MaterialPoints points = points_of(material, 1);
@@ -111,13 +111,12 @@ TEST(Objectivity, SuperposedRotationChangesTheStressInFirstOrderOfTheStepOnly) {
   };
   const double coarse = difference(50);
   const double fine = difference(100);
-  // The strain increment stands in the midpoint configuration: half the rotation of a step, here 0.02 rad, is
-  // missing.
+  // The strain increment refers to the midpoint configuration: half the rotation of a step, here 0.02 rad, is missing.
   EXPECT_LT(coarse, 0.02 * end_stress(50, false).norm());
   EXPECT_GT(std::log2(coarse / fine), 0.98);
 }
 
-/// Shear stress and largest stress of simple shear to a strain.
+/// Holds the shear stress and largest stress of simple shear to a strain.
 struct ShearResult {
   double shear_stress, equivalent, greatest_change;
 };
@@ -142,16 +141,15 @@ TEST(SimpleShear, PlasticFlowStaysAtYieldOverRootThreeWithoutOscillation) {
   strength::VonMises constants = taylor_copper();
   constants.hardening_modulus = 0.0;
   const ShearResult result = simple_shear(constants, 100.0, 100000);
-  // The spin turns the elastic part of the strain, of order Y/G: the shear stress lies below Y/sqrt(3) by
-  // (Y/G)^2.
+  // The spin rotates the elastic part of the strain, of order Y/G: the shear stress is below Y/sqrt(3) by (Y/G)^2.
   EXPECT_NEAR(result.shear_stress, 157e6 / std::sqrt(3.0), 2e-5 * 157e6);
   EXPECT_NEAR(result.equivalent, 157e6, 1e-6 * 157e6);
   EXPECT_LT(result.greatest_change, 1e-9 * 157e6);
 }
 
 TEST(SimpleShear, ElasticStressFollowsTheJaumannSolution) {
-  // The closed solution of the Jaumann rate, G sin(gamma): it leaves G gamma by 1 % at a strain of 0.25, far
-  // beyond the elastic range of any metal.
+  // The closed solution of the Jaumann rate, G sin(gamma), deviates from G gamma by 1 % at a strain of 0.25, far beyond
+  // the elastic range of any metal.
   strength::VonMises constants = taylor_copper();
   constants.yield_stress = 1e15;
   const ShearResult result = simple_shear(constants, 0.25, 1000);
@@ -188,7 +186,7 @@ TEST(UniaxialStrain, FollowsTheElasticPlasticSolutionInLogarithmicStrain) {
   EXPECT_NEAR(at_yield, limit, 6e-3 * limit);
 }
 
-/// Internal energy after a closed shear cycle of amplitude `strain`, and plastic work w = sum Y dep V.
+/// Holds the internal energy after a closed shear cycle of amplitude `strain`, and the plastic work w = sum Y dep V.
 struct Cycle {
   double energy, plastic_work, elastic_energy, pressure, stored_cold_work;
 };
@@ -246,7 +244,7 @@ TEST(EnergyOfACycle, ElasticShearGivesAllItsWorkBack) {
   for (const int steps : {200, 400}) {
     const Cycle trapezoidal = shear_cycle(material, amplitude, steps, step_with_own_energy);
     EXPECT_NEAR(trapezoidal.energy, 0.0, 1e-4 * peak);
-    // The work of a half step at each turn is all that is left.
+    // Only the work of a half step at each turn remains.
     const Cycle symplectic = shear_cycle(material, amplitude, steps, step_with_grid_work);
     EXPECT_NEAR(symplectic.energy, 0.0, 1e-3 * peak);
   }
@@ -265,7 +263,7 @@ TEST(EnergyOfACycle, PlasticShearTurnsTheWorkIntoHeat) {
   }
 }
 
-// Of the work, the share of Taylor and Quinney is heat and raises the pressure; the rest is energy that does
+// The fraction of Taylor and Quinney of the work is heat and raises the pressure; the remainder is energy that does
 // not. With and without kinematic hardening; the stress path is the same.
 TEST(ColdWork, IsTheShareOfThePlasticWorkThatIsNotHeat) {
   for (const double kinematic : {0.0, 2e9}) {
@@ -279,7 +277,7 @@ TEST(ColdWork, IsTheShareOfThePlasticWorkThatIsNotHeat) {
                   cycle = shear_cycle(material, 0.2, 8000, step);
       EXPECT_EQ(whole.stored_cold_work, 0.0);
       EXPECT_NEAR(cycle.energy, whole.energy,
-                  2e-3 * whole.energy);  // all of the work, whatever becomes of it
+                  2e-3 * whole.energy);  // all of the work
       const double elastic = step == step_with_grid_work ? cycle.elastic_energy : 0.0;
       const double thermal = cycle.energy - elastic - cycle.stored_cold_work;
       EXPECT_NEAR(cycle.pressure, 1.96 * 8930.0 * thermal, 2e-3 * cycle.pressure);
@@ -307,7 +305,7 @@ TEST(ColdWork, BecomesHeatInWhatMelts) {
   EXPECT_EQ(points.history.scalar("stored_cold_work")[0], 20e3);
   heat_to(450e3);
   EXPECT_NEAR(points.history.scalar("stored_cold_work")[0], 15e3, 1e-6);
-  heat_to(420e3);  // what freezes has none
+  heat_to(420e3);  // freezing material has none
   EXPECT_NEAR(points.history.scalar("stored_cold_work")[0], 15e3, 1e-6);
   heat_to(700e3);
   EXPECT_EQ(points.history.scalar("stored_cold_work")[0], 0.0);
@@ -367,8 +365,8 @@ TEST(Melting, HeatingAStressedPointScalesItsStressWithTheSolidAndDoesNotStrainIt
   EXPECT_EQ(points.deviatoric_stress[0].squared_norm(), 0.0);
 }
 
-// Aluminium expanded to a cold vapour, a seventh of whose mass is solid: a gas, without stress and no faster
-// than a gas (with the stiffness of that seventh it would have 400 km/s).
+// Aluminium expanded to a cold vapour, a seventh of whose mass is solid: a gas, without stress and no faster than a gas
+// (with the stiffness of that seventh the sound speed would be 400 km/s).
 TEST(Melting, WhatIsSolidBesideVapourBearsNoShear) {
   const Material material = read_material("aluminium");
   MaterialPoints points = points_of(material, 1);
@@ -384,10 +382,10 @@ TEST(Melting, WhatIsSolidBesideVapourBearsNoShear) {
   update_material(material, points, 0, 1, std::span(&gradient, 1), without_viscosity(1e-9));
   EXPECT_EQ(points.deviatoric_stress[0].squared_norm(), 0.0);
   EXPECT_LT(points.sound_speed[0],
-            600.0);  // a tenth of that of the metal, the least that the time step counts on
+            600.0);  // a tenth of that of the metal, the minimum for the time step
 }
 
-// What bounds the next time step: material that ends the step in tension, or expands, does not count.
+// Bound of the next time step: material that ends the step in tension, or expands, is excluded.
 TEST(Report, NamesTheFastestCompressionOfMatterUnderPressure) {
   const Material material = with(taylor_copper());
   MaterialPoints points = points_of(material, 4);

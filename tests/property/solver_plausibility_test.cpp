@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run whose parts of energy or whose speeds are impossible stops, although the sum of its energies is exact
-// (docs/theory/mpm.md, section 4): states in which energy was moved between the parts behind the back of every balance.
+// A run with impossible energy parts or speeds stops even if the sum of its energies is exact (docs/theory/mpm.md,
+// section 4): states in which energy was moved between the parts without an entry in any balance.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 namespace whipple::verification {
 namespace {
 
-/// A block of aluminium, 4 x 2 x 2 mm, in cells of 1 mm.
+/// Returns a case of a block of aluminium, 4 x 2 x 2 mm, in cells of 1 mm.
 /// @param of_body   further keys of the body
 /// @param sections  further tables of the case
 /// @param of_time   further keys of the table `time`
@@ -40,13 +40,13 @@ velocity = )" +
       "flying.toml");
 }
 
-/// Makes a step from the state of a case after `change`; returns the error that it ends with.
+/// Advances one step from the state of a case after `change`; returns the error that ends it.
 std::string error_of_step(const cases::Case& setup, const std::function<void(Particles&)>& change) {
   solver::Simulation start(setup, parallel::world());
   Particles particles = start.particles();
   change(particles);
   solver::RunState state = start.state();
-  state.step = 1;  // that of a run that goes on: its beginning is what it was
+  state.step = 1;  // that of a resumed run: its initial values are kept
   solver::Simulation changed(setup, particles, state, parallel::world());
   try {
     changed.advance(setup.time.end);
@@ -70,7 +70,7 @@ TEST(Plausibility, MotionThatNothingCanHaveMadeEndsTheRun) {
   const cases::Case setup = flying("[100, 0, 0]", "", "[output]\nmaximum_speed_factor = 1e12\n");
   EXPECT_EQ(error_of_step(setup, faster(1.0)), "");
   EXPECT_EQ(error_of_step(setup, faster(1.01)),
-            "");  // 2 % of the energy, and the error that the sum may have
+            "");  // 2 % of the energy, and the permitted error of the sum
   EXPECT_THAT(
       error_of_step(setup, faster(1.05)),
       testing::AllOf(testing::HasSubstr("step 2, t = "), testing::HasSubstr("the energy of motion is 0.24"),
@@ -82,7 +82,7 @@ TEST(Plausibility, OneParticleThatIsFarTooFastEndsTheRun) {
     q.specific_internal_energy[7] -= 0.5 * (2000.0 * 2000.0 - q.velocity[7].squaredNorm());
     q.velocity[7] = {2000.0, 0.0, 0.0};
   };
-  // Against a wall, and with a limit of the energy that is far away.
+  // Against a wall, and with an energy limit that is not reached
   const std::string sections =
       "boundary = { x_upper = \"separating\" }\n[output]\nmaximum_energy_error = 1e9\n";
   EXPECT_THAT(
@@ -110,7 +110,7 @@ TEST(Plausibility, ATimeStepThatCollapsesEndsTheRun) {
     }
     return "";
   };
-  EXPECT_EQ(message_of(flying("[100, 0, 0]", "", "", slow)), "");  // slow is not collapsed
+  EXPECT_EQ(message_of(flying("[100, 0, 0]", "", "", slow)), "");  // slow steps are not collapsed steps
   EXPECT_EQ(message_of(flying("[100, 0, 0]", "", "", tiny)), "");
   const std::string pressed = "initial = { pressure = 1e9 }\n";
   EXPECT_THAT(message_of(flying("[100, 0, 0]", pressed, "", {}, "acceleration_limit = 1e-300\n")),

@@ -133,7 +133,7 @@ double check_energy_identities(const Relaxation& relaxation, AffineField affine,
     EXPECT_NEAR(balance.after - balance.before, -transfer.work, 1e-12 * scale);
   }
   const double heat = update.take_contact_heat();
-  // (Where a no-slip wall meets another plane, both mix the same components.)
+  // (Where a no-slip wall meets another plane, both couple the same components.)
   EXPECT_GE(heat, std::ranges::count(boundary, grid::Boundary::no_slip) > 0 ? -1e-4 * scale : -1e-14 * scale);
   EXPECT_GE(transfer.heat, 0.0);
   EXPECT_LT((momentum_after - momentum_before - balance.wall_impulse).norm(), 1e-10 * scale);
@@ -152,7 +152,7 @@ TYPED_TEST(Transfer, EnergyAndMomentumAreExactForEveryMemberOfTheFamily) {
   }
 }
 
-// Force and work with the same slopes, whatever these are; so does the torque of a force that is symmetric.
+// Force and work use the same slopes, whatever these are, and so does the torque of a symmetric force.
 TEST(SmoothSlopes, KeepEnergyMomentumAndAngularMomentumForAnySmoothing) {
   std::mt19937 random(17);
   std::uniform_real_distribution<double> any(0.0, 2.0);
@@ -171,8 +171,8 @@ TEST(SmoothSlopes, KeepEnergyMomentumAndAngularMomentumForAnySmoothing) {
   }
 }
 
-// Nodes of elements among particles: what they get from the grid is what a particle without stress gets, to
-// which an external acceleration gives the same force; so all identities hold for them as well.
+// Nodes of elements among particles receive from the grid what a particle without stress receives that is subject to
+// the same force by an external acceleration; all identities therefore hold for them as well.
 TYPED_TEST(AffineTransfer, NodesMoveLikeParticlesUnderTheSameForce) {
   constexpr std::size_t all = 700, first = 300;  // those from `first` on are nodes
   constexpr double dt = 0.05;
@@ -250,7 +250,7 @@ TYPED_TEST(Transfer, EnergyAndMomentumAreExactAtPlanesWallsAndCorners) {
   check({}, AffineField::none, {symmetry, outflow, no_slip, outflow, symmetry, outflow});
   check({}, affine, {separating, outflow, outflow, outflow, outflow, outflow});
   check({}, affine, {separating, outflow, symmetry, outflow, separating, outflow});
-  // Contact with images, near (where material overlaps them) and as far as the particles fly in the step.
+  // Contact with images, both close (material overlaps them) and as far as the particles fly in the step
   double heat = 0.0;
   for (const double away : {0.0, 0.05, 0.3, 0.6}) {
     const Vector3 lower = corner + Vector3::Constant(away * dx);
@@ -271,7 +271,7 @@ TYPED_TEST(Transfer, EnergyAndMomentumAreExactAtPlanesWallsAndCorners) {
   EXPECT_GT(heat, 0.0);
 }
 
-// The fold equals real images: half of the particles with a plane against all of them with their images.
+// Folding equals real images: half of the particles with a plane compared with all of them with their images.
 TYPED_TEST(Transfer, MirrorPlaneEqualsATransferOfRealImages) {
   using enum grid::Boundary;
   Particles half = random_particles(400, Vector3(-2, 0.5, 4.5), Vector3(1, 5, 10), 4);
@@ -321,7 +321,7 @@ TYPED_TEST(Transfer, MirrorPlaneEqualsATransferOfRealImages) {
   }
 }
 
-// Two planes one cell apart, the column of one cell of a planar problem: each folds onto nodes of the other.
+// Two planes one cell apart, as in a column of one cell: each folds onto nodes of the other.
 TYPED_TEST(Transfer, PlanesOneCellApartEqualRealImages) {
   using enum grid::Boundary;
   Particles thin = random_particles(300, Vector3(0, -1, 4.5), Vector3(3, -1 + dx, 7), 6);
@@ -333,8 +333,7 @@ TYPED_TEST(Transfer, PlanesOneCellApartEqualRealImages) {
   constexpr AffineField carried = affine ? AffineField::deformed : AffineField::none;
   if (!affine) std::ranges::fill(thin.affine_velocity, Matrix3::Zero().eval());
 
-  // Seven cells side by side, each the image of its neighbours: all that share a node with the one in the
-  // middle, which is the column.
+  // Seven adjacent cells, each the image of its neighbours: all cells that share a node with the column in the middle
   constexpr int copies = 7;
   Particles full = thin;
   resize(full, copies * thin.size());
@@ -385,9 +384,8 @@ TYPED_TEST(Transfer, PlanesOneCellApartEqualRealImages) {
   EXPECT_LT((momentum - balance.wall_impulse).norm(), 1e-10 * balance.before);
 }
 
-// A position on the edge between two stencils (the centre of a cell, where lattices put particles): the nodes
-// that the transfer reaches must be those whose blocks were activated, however the division by the cell size
-// rounds.
+// A position on the edge between two stencils (the centre of a cell, where lattices place particles): the nodes that
+// the transfer reaches must be in activated blocks, however the division by the cell size is rounded.
 TYPED_TEST(Transfer, NodesOfEveryStencilAreActiveWhereTheDivisionRounds) {
   const std::vector<Vector3> velocity = {Vector3::Zero()};
   for (const double cell_size : {0.0003, 0.0007, 0.00076}) {
@@ -416,7 +414,7 @@ TYPED_TEST(Transfer, NodesOfEveryStencilAreActiveWhereTheDivisionRounds) {
   }
 }
 
-// Galilean invariance: heat, work and velocity gradients do not see a common velocity.
+// Galilean invariance: heat, work and velocity gradients do not depend on a common velocity.
 TYPED_TEST(Transfer, IsGalileanInvariant) {
   Particles at_rest = random_particles(500, Vector3(-1.2, -0.3, 4), Vector3(8, 6.5, 11.8), 5);
   constexpr bool affine = CarriesAffineField<TypeParam>;

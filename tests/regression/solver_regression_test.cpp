@@ -19,8 +19,7 @@ TEST(Regression, DebrisCloudKeepsItsSums) {
                        {{"domain.cell_size", "1 mm"}, {"time.end", "3 us"}});
   solver::Simulation simulation(setup, parallel::world());
   run_to(simulation, setup.time.end);
-  // Round-off grows in a cloud of failed particles, and compilers differ in it; physics would move these by
-  // more.
+  // Round-off grows in a cloud of failed particles and differs between compilers; changes of the physics exceed this.
   constexpr double tolerance = 1e-3;
   const auto expect = [&](double value, double stored) { EXPECT_NEAR(value, stored, tolerance * stored); };
   const solver::Totals& totals = simulation.totals();
@@ -32,8 +31,8 @@ TEST(Regression, DebrisCloudKeepsItsSums) {
   EXPECT_EQ(simulation.state().step, 101);
 }
 
-/// Steps of a case with either device. Differences are measured against the largest value of each field; those of
-/// earlier steps add up.
+/// Compares steps of a case with either device. Differences are relative to the largest value of each field; those of
+/// earlier steps accumulate.
 void expect_the_same_steps(const char* name,
                            const std::vector<std::pair<std::string, std::string>>& overrides, int steps) {
   const cases::Case setup =

@@ -26,7 +26,7 @@ inline Material library(const std::string& name) {
   return read_material(WHIPPLE_SOURCE_DIR "/eos/materials/" + name + ".toml");
 }
 
-/// The ceramic of the single-element tests of Johnson and Holmquist (1994).
+/// Returns the ceramic of the single-element tests of Johnson and Holmquist (1994).
 inline JohnsonHolmquist2 alumina() {
   JohnsonHolmquist2 c;
   c.shear_modulus = 90.16e9;
@@ -69,7 +69,8 @@ struct Body {
     place = next;
     return report;
   }
-  /// Straight to a configuration; one step of rest at the end, so that the energy stands where stress does.
+  /// Strains along a straight path to a configuration; one step of rest at the end, so that the energy refers to the
+  /// same time as the stress.
   void strain_to(const Matrix3& next, int steps) {
     const Matrix3 from = place;
     for (int i = 1; i <= steps; ++i) strain_to((from + (next - from) * i / steps).eval());

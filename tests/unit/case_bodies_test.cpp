@@ -24,7 +24,7 @@ TEST(Bodies, RefusesBodiesOutsideOfTheDomainAndOverlaps) {
   expect_error(
       domain + sphere + replaced(replaced(sphere, "\"sphere\"", "\"twin\""), "\"-4 mm\"", "\"-1 mm\""),
       {"body \"twin\" overlaps body \"sphere\""});
-  // A body that lies between the particles of another is found as well.
+  // A body located between the particles of another is found as well.
   const std::string grain = R"(
 [[body]]
 name = "grain"
@@ -41,8 +41,8 @@ TEST(Bodies, RefusesMoreParticlesThanAMachineHolds) {
   expect_error(small, {"body \"sphere\" takes a lattice of", "'cell_size'", "'per_cell'"});
 }
 
-// A body touches a plane where its shape comes within 0.05 cells of it, wherever the lattice of its particles
-// stands and whatever box is around it.
+// A body touches a plane where its shape comes within 0.05 cells of it, wherever the lattice of its particles is
+// located and whatever box encloses it.
 TEST(Bodies, TouchPlanesWhereTheirShapesDo) {
   const auto faces = [](const std::string& shape) {
     const std::string text =
@@ -54,7 +54,7 @@ TEST(Bodies, TouchPlanesWhereTheirShapesDo) {
   };
   constexpr int x_lower = 1, y_lower = 4;
   EXPECT_EQ(ball("0"), x_lower);     // cut in its middle
-  EXPECT_EQ(ball("1.37"), x_lower);  // and where the lattice leaves out what the plane cuts
+  EXPECT_EQ(ball("1.37"), x_lower);  // and where the lattice has no particle in the part cut by the plane
   EXPECT_EQ(ball("3.04"), x_lower);
   EXPECT_EQ(ball("3.06"), 0);
   EXPECT_EQ(ball("3.3"), 0);
@@ -63,15 +63,14 @@ TEST(Bodies, TouchPlanesWhereTheirShapesDo) {
       faces(
           "{ box = { lower = [\"0 mm\", \"0.04 mm\", \"0 mm\"], upper = [\"2 mm\", \"3 mm\", \"1 mm\"] } }"),
       x_lower | y_lower);
-  // The box around a turned shape is larger than the shape.
+  // The box around a rotated shape is larger than the shape.
   EXPECT_EQ(faces("{ moved = { shape = { sphere = { center = [\"2.7 mm\", \"5 mm\", \"0 mm\"], radius = \"2 "
                   "mm\" } }, angle "
                   "= \"45 degree\", center = [\"2.7 mm\", \"5 mm\", \"0 mm\"] } }"),
             0);
 }
 
-// A plate that is thinner than a cell runs, with a warning; one of a cell, the column of a planar problem,
-// without.
+// A plate thinner than a cell runs with a warning; one of a cell, as the column of a planar problem, without.
 TEST(Bodies, WarnsOfBodiesThinnerThanACell) {
   const auto plate = [](const char* thickness) {
     return domain +
@@ -86,8 +85,8 @@ TEST(Bodies, WarnsOfBodiesThinnerThanACell) {
   EXPECT_TRUE(placement_warnings(read_case_text(plate("-4 mm"), "case.toml")).empty());
 }
 
-// A quarter of a coarse sphere of whole particles is heavier than a quarter of the sphere, one of partial
-// volumes is not; of a sphere that a mirror plane cuts beside its middle nobody knows what is left.
+// A quarter of a coarse sphere of whole particles is heavier than a quarter of the sphere, one of partial volumes is
+// not; for a sphere cut by a mirror plane off its middle the remaining mass is unknown.
 TEST(Bodies, WarnsOfBodiesWithoutTheirMass) {
   const auto warnings = [](const char* center, const std::string& more) {
     return placement_warnings(
@@ -106,7 +105,7 @@ TEST(Bodies, WarnsOfBodiesWithoutTheirMass) {
   EXPECT_TRUE(warnings("[\"1 mm\", \"0 mm\", \"-4 mm\"]", "").empty());
 }
 
-// Their meshes would fill the memory before anything can refuse them.
+// Their meshes would fill the memory before they can be refused.
 TEST(Bodies, RefusesMoreElementsThanAMachineHolds) {
   const std::string elements = sphere + "discretization = { method = \"finite_elements\" }\n";
   expect_error(replaced(domain + elements, "cell_size = \"1 mm\"", "cell_size = \"0.02 mm\""),
@@ -139,7 +138,7 @@ TEST(Bodies, RefusesElementsThatCannotBe) {
       domain + replaced(elements, shape,
                         "{ cone = { base = [0, 0, 0], base_radius = \"2 mm\", height = \"1 mm\" } }"),
       {"structured meshes of box, cylinder, tube, sphere and ogive"});
-  // A plane that does not halve a round body goes through its elements.
+  // A plane that does not halve a round body intersects its elements.
   expect_error(
       domain + replaced(elements, "[\"0 mm\", \"0 mm\", \"-4 mm\"]", "[\"0.3 mm\", \"0 mm\", \"-4 mm\"]"),
       {"the mirror plane x = 0 m cuts through element"});
@@ -150,8 +149,8 @@ TEST(Bodies, RefusesElementsThatCannotBe) {
                {"'shape' or a 'discretization.mesh', not both"});
 }
 
-// Halves and quarters of round bodies at mirror planes have their share of the whole mesh, nodes exactly on
-// the planes, and keep to them.
+// Halves and quarters of round bodies at mirror planes have the corresponding fraction of the whole mesh, nodes exactly
+// on the planes, and remain on them.
 TEST(Elements, AreCutAtMirrorPlanes) {
   for (const std::string shape :
        {"sphere = { center = [0, 0, 0], radius = \"3 mm\" }",
@@ -189,13 +188,13 @@ TEST(Elements, AreCutAtMirrorPlanes) {
     }
     EXPECT_GT(on_plane, 0U) << shape;
     EXPECT_LT(quarter.wall_impulse[0], 0.0);
-    // Momentum that the plane took is booked, its energy is heat.
+    // The momentum transferred to the plane is accounted for, its energy is heat.
     EXPECT_NEAR(fem::totals(mesh).momentum[0] - quarter.wall_impulse[0], 100.0 * quarter.bodies[0].mass,
                 1e-12 * quarter.bodies[0].mass * 100.0);
   }
 }
 
-// A file of Gmsh gives the mesh, and the shape that overlaps are found by.
+// A file of Gmsh provides the mesh, and the shape by which overlaps are found.
 TEST(Elements, ComeFromAMeshFile) {
   const auto path =
       std::filesystem::temp_directory_path() / ("whipple_" + std::to_string(::getpid()) + ".msh");
@@ -240,14 +239,14 @@ $EndElements
   const Shape& shape = *setup.bodies[0].shape;
   EXPECT_TRUE(shape.contains(Vector3(1.9e-3, 0.1e-3, 2.4e-3)));
   EXPECT_FALSE(shape.contains(Vector3(1.9e-3, 0.1e-3, 2.6e-3)));
-  // Particles fill the mesh, also where they lie on a face between two elements.
+  // Particles fill the mesh, also where they are on a face between two elements.
   const Seeding filled = seed(read_case_text(domain + replaced(body, "adaptive", "particles"), "case.toml"));
   EXPECT_TRUE(filled.meshes.empty());
   EXPECT_NEAR(filled.bodies[0].mass, filled.bodies[0].shape_mass, 1e-9 * filled.bodies[0].mass);
-  // What the run writes reads back.
+  // The file that a run writes can be read back.
   EXPECT_EQ(read_case_text(to_toml(setup, {"copper.toml"}), "run.toml").bodies[0].discretization.mesh,
             path.string());
-  // From whichever folder: a path beside the present one is written whole.
+  // From any folder: a path outside of the present one is written in full.
   const std::string beside = std::filesystem::relative(path).string();
   const Case relative = read_case_text(domain + replaced(body, path.string(), beside), "case.toml");
   EXPECT_EQ(relative.bodies[0].discretization.mesh, path.string());
@@ -273,7 +272,7 @@ shape = { box = { lower = ["-10 mm", "-10 mm", "0 mm"], upper = ["10 mm", "10 mm
   const Case setup = read_case_text(replaced(domain, "\"1 mm\"", "\"0.4 mm\"") + bodies, "case.toml");
   const Seeding seeding = seed(setup);
   ASSERT_EQ(seeding.bodies.size(), 2U);
-  // Quarter of the disk: 3.45 mm is met exactly by the lattice, the circle to the staircase of the particles.
+  // Quarter of the disk: the lattice fits 3.45 mm exactly, the circle up to the staircase of the particles.
   EXPECT_NEAR(4 * seeding.bodies[0].mass, seeding.bodies[0].shape_mass, 0.01 * seeding.bodies[0].shape_mass);
   EXPECT_NEAR(4 * seeding.bodies[1].mass, seeding.bodies[1].shape_mass, 1e-9 * seeding.bodies[1].shape_mass);
   const double rho = initial_state(*setup.materials[1]).density;
@@ -406,8 +405,8 @@ TEST(FailureScatter, IsTheSameForAnyNumberOfRanksAndIsReadAndWritten) {
   expect_error(domain + sphere + "failure_scatter = { weibull_modulus = 0 }\n", {"'weibull_modulus'", "> 0"});
 }
 
-// The mass of a sphere: whole particles meet it to per cents, partial ones to some 1e-4, and none of those is
-// much lighter than its neighbours.
+// The mass of a sphere: whole particles reproduce it within per cents, partial ones within some 1e-4, and none of these
+// is much lighter than its neighbours.
 TEST(PartialVolumes, MeetTheMassOfACurvedBody) {
   const auto error = [](bool partial) {
     const Case setup = read_case_text(
@@ -444,8 +443,8 @@ TEST(PartialVolumes, MeetTheMassOfACurvedBody) {
   EXPECT_LT(partial.second, 1e-3);
 }
 
-// An oblique plate of a third of a particle has slivers in many cells, and keeps its mass whichever of them
-// become particles.
+// An oblique plate of a third of a particle has slivers in many cells, and conserves its mass whichever of them become
+// particles.
 TEST(PartialVolumes, KeepAPlateThinnerThanAParticle) {
   const Case setup = read_case_text(
       "[time]\nend = 1\n[domain]\nlower = [-0.01, -0.01, -0.01]\nupper = [0.01, 0.01, 0.01]\ncell_size = "

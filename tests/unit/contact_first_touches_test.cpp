@@ -12,7 +12,7 @@ TEST(FirstTouches, TellsTheNextTouchAndForgetsWhatHasTouched) {
   touches.begin_step(0.1, 5.0);
   touches.see(0, 1, 3.0, 10.0);  // in 0.3 s
   touches.see(0, 2, 2.0, 10.0);  // in 0.2 s
-  touches.see(1, 2, 0.4, 4.0);   // in 0.1 s, but too slowly to matter
+  touches.see(1, 2, 0.4, 4.0);   // in 0.1 s, but too slowly to limit the step
   touches.see(2, 3, 1.0, -10.0);
   FirstTouches::Outcome seen = touches.end_step(parallel::world());
   EXPECT_DOUBLE_EQ(seen.next, 0.2);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The block grid follows the particles: blocks exist where stencils reach, particles are listed by block,
-// empty space costs nothing, and a position outside of the domain is an error.
+// The block grid is adapted to the particles: blocks exist where stencils reach, particles are listed by block, empty
+// space costs nothing, and a position outside of the domain is an error.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ std::vector<Vector3> random_positions(std::size_t n, unsigned seed) {
   return x;
 }
 
-/// As a step does it: the forest follows only if a particle has left the active blocks.
+/// Bins particles as in a step: the forest is adapted only if a particle has left the active blocks.
 void bin(BlockGrid& grid, const std::vector<Vector3>& x, const std::vector<Vector3>& v, double lookahead,
          Stencil stencil) {
   if (grid.bin(x, stencil)) return;
@@ -61,7 +61,7 @@ void check_lists(const BlockGrid& grid, const std::vector<Vector3>& x) {
         EXPECT_TRUE(from_first >= 0.5 && from_first <= 1.5);  // of a quadratic B-spline
         EXPECT_NEAR(place.first_node(Stencil{})[static_cast<std::size_t>(a)] + from_first, local, 1e-15);
       }
-      // All 27 nodes of a quadratic B-spline lie in active blocks.
+      // All 27 nodes of a quadratic B-spline are in active blocks.
       for (int n = 0; n < 27; ++n) {
         BlockCoordinate block{};
         const std::array<int, 3> offset = {n / 9, n / 3 % 3, n % 3};
@@ -79,7 +79,7 @@ void check_lists(const BlockGrid& grid, const std::vector<Vector3>& x) {
     }
   }
   for (const int count : seen) EXPECT_EQ(count, 1);
-  // In the order by stencil every particle comes once, those of one stencil follow one another.
+  // In the order by stencil every particle occurs once, and those of one stencil are consecutive.
   std::vector<std::uint32_t> ordered;
   grid.list_by_stencil(ordered);
   EXPECT_TRUE(std::ranges::is_permutation(ordered, grid.particles_by_block()));
@@ -116,7 +116,8 @@ TEST(Geometry, ContainsFourIfItContainsEach) {
   EXPECT_LT(inside, 1900);
 }
 
-/// What goes on at the same time works with nodes apart, for single blocks (few slots) and for cubes of them.
+/// Tests that slots processed concurrently reach different nodes, for single blocks (few slots) and for cubes of
+/// blocks.
 TEST(BlockGrid, SlotsAtWorkTogetherReachDifferentNodes) {
   const int threads = parallel::threads();
   parallel::set_threads(4);
@@ -196,7 +197,7 @@ TEST(BlockGrid, RefusesPositionsOutsideOfTheDomain) {
   }
 }
 
-/// A row of particles, one per cell along z, of which those with z below `end` move.
+/// Describes a row of particles, one per cell along z, of which those with z below `end` move.
 struct Row {
   std::vector<Vector3> x;
   double end = 0.0;
@@ -204,7 +205,8 @@ struct Row {
   Row() {
     for (int i = 0; i < 400; ++i) x.emplace_back(22.25, 18.25, i + 0.5);
   }
-  /// One step's way through the grid. @returns the number of particles at rest
+  /// Processes the row as in one step.
+  /// @returns number of particles at rest
   std::size_t bin_and_rest(BlockGrid& grid) const {
     const std::vector<Vector3> v(x.size(), Vector3::Zero());
     bin(grid, x, v, 0.0, {.shift = 0.5, .count = 3});
@@ -225,7 +227,7 @@ TEST(BlockGrid, BlocksAtRestStayOffTheListsUntilMotionComesToThem) {
   EXPECT_EQ(row.bin_and_rest(grid), 400U - 12U) << "what rested is not asked again";
   row.end = 12.0;
   EXPECT_EQ(row.bin_and_rest(grid), 400U - 16U);
-  // One comes flying into a block at rest: all of that block are listed from the next `bin` on.
+  // A particle flies into an inactive block: all particles of that block are listed from the next `bin`.
   row.x[0] = Vector3(22.25, 18.25, 15.9);
   row.bin_and_rest(grid);
   row.x[0][2] = 16.1;
@@ -249,7 +251,7 @@ TEST(BlockGrid, AReleasedParticleKeepsItsBlockAwake) {
   const auto none_moves = [](std::size_t) { return false; };
   EXPECT_EQ(grid.let_rest(1, none_moves), 400U - 12U);
   EXPECT_EQ(listed(grid), 10U) << "three blocks without the two";
-  row.x[201][2] += 4.0;  // may fly on, into another block
+  row.x[201][2] += 4.0;  // may continue to fly into another block
   ASSERT_TRUE(grid.bin(row.x, {.shift = 0.5, .count = 3}));
   grid.wake();
   check_lists(grid, row.x);

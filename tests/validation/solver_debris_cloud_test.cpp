@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The main case, coarser (0.8 mm cells): copper disk through an aluminium plate at 5.55 km/s.
-// Proves: conservation to round-off through shocks, spall, melting and outflow; no particle faster than
-// a shock that leaves allows; the phase test of the case: the shock (about 106 GPa) melts the aluminium on
-// release and leaves the copper (threshold about 140 GPa) solid.
+// The main case, coarser (0.8 mm cells): copper disk through an aluminium plate at 5.55 km/s. Proves: conservation to
+// round-off through shocks, spall, melting and outflow; no particle is faster than release from the shock allows; the
+// phase test of the case: the shock (about 106 GPa) melts the aluminium on release and leaves the copper (threshold
+// about 140 GPa) solid.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ const cases::Case& disk_case() {
   return setup;
 }
 
-/// Speed of the rear surface of the plate in the planar impact of the two bodies: particle velocity by
+/// Returns the speed of the rear surface of the plate in the planar impact of the two bodies: particle velocity by
 /// impedance match of the Hugoniots, plus the integral of c d(rho)/rho along the release to zero pressure.
 double free_surface_speed() {
   const eos::EquationOfState& disk = *disk_case().materials[0]->eos;
@@ -81,18 +81,18 @@ TEST(DebrisCloud, ConservesMeltsTheAluminiumAndLeavesTheCopperSolid) {
       static_cast<long long>(simulation.state().step));
   EXPECT_LT(watch.worst, 1e-10);
   EXPECT_LT(momentum_error, 1e-11);
-  // On the way as well as at the end. The material within a cell of the rear surface leaves at the overshoot of
-  // the shock (docs/theory/mpm.md, 7.4).
+  // During the run as well as at the end. Material within a cell of the rear surface leaves at the overshoot of the
+  // shock (docs/theory/mpm.md, 7.4).
   EXPECT_LT(fastest, 1.10 * surface);
   EXPECT_GT(fastest, 0.95 * surface);
   EXPECT_GT(axis_melted / axis, 0.9);
-  // Exact: all of it. The rest is at the rim and where fragments of both bodies meet behind the shock.
+  // Exact: all of it. The remainder is at the rim and where fragments of both bodies meet behind the shock.
   EXPECT_GT(copper_solid / copper, 0.92);
-  // 500 +- 20 J in the limit of fine cells, from several ways to book the heat (docs/theory/dissipation.md).
+  // 500 +- 20 J in the limit of fine cells, with several methods to account for the heat (docs/theory/dissipation.md).
   EXPECT_NEAR(simulation.totals().internal_energy - internal_at_start, 500.0, 50.0);
 }
 
-// Cells of 1 mm, to 4 us: what the cloud is does not depend on the time step.
+// Cells of 1 mm, to 4 us: the cloud does not depend on the time step.
 TEST(DebrisCloud, IsTheSameForEveryTimeStep) {
   struct Cloud {
     double internal_energy = 0, debris_mass = 0, debris_momentum = 0, front = 0, melted = 0;
@@ -132,15 +132,15 @@ TEST(DebrisCloud, IsTheSameForEveryTimeStep) {
     for (const auto member : {&Cloud::debris_mass, &Cloud::debris_momentum, &Cloud::front}) {
       EXPECT_NEAR(other.*member, usual.*member, 0.01 * usual.*member) << courant;
     }
-    // Of an energy that is a third of what it was when all losses were heat, friction and collisions of a few
-    // fragments are a larger share.
+    // The energy is a third of its value with all losses as heat, so that friction and collisions of a few fragments
+    // are a larger fraction of it.
     EXPECT_NEAR(other.internal_energy, usual.internal_energy, 0.02 * usual.internal_energy) << courant;
     EXPECT_NEAR(other.melted, usual.melted, 0.01 * usual.debris_mass) << courant;
   }
 }
 
-// Seven cells across the sphere, a quarter of it, to 10 us. The heat of first contact is decided where the
-// bodies touch at the start, whatever the step. Limit of fine cells of the old way to book it: 6.07 kJ
+// Seven cells across the sphere, a quarter of it, to 10 us. The heat of first contact is determined where the bodies
+// touch at the start, whatever the step. Limit of fine cells with all losses as heat: 6.07 kJ
 // (docs/theory/dissipation.md).
 TEST(LeadCloud, HeatsTheSameForEveryTimeStep) {
   struct Cloud {
@@ -166,7 +166,7 @@ TEST(LeadCloud, HeatsTheSameForEveryTimeStep) {
   };
   const Cloud usual = cloud("0.5");
   EXPECT_NEAR(usual.heat, 6.0e3, 300.0);
-  EXPECT_LT(usual.vapour, 0.4e-3);  // 3.2 g with all losses as heat; falls with the cells
+  EXPECT_LT(usual.vapour, 0.4e-3);  // 3.2 g with all losses as heat; decreases with the cell size
   for (const char* courant : {"0.2", "0.8"}) {
     const Cloud other = cloud(courant);
     EXPECT_NEAR(other.heat, usual.heat, 0.01 * usual.heat) << courant;

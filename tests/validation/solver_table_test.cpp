@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The main case, coarse, with the equations of state as models and as tables: the same phase masses, energy
-// conserved to round-off by both.
+// The main case, coarse, with the equations of state as models and as tables: equal phase masses, energy conserved to
+// round-off by both.
 #include <gtest/gtest.h>
 
 #include <cmath>

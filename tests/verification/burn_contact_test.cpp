@@ -15,7 +15,8 @@
 namespace whipple::verification {
 namespace {
 
-/// Writes a metal without strength. @returns its file
+/// Writes the file of a metal without strength.
+/// @returns its path
 std::string fluid_metal(const std::string& name, double density, double intercept, double slope,
                         double gruneisen) {
   return write_material(name, fmt::format(R"toml(
@@ -35,9 +36,9 @@ model = "none"
                                           name, density, intercept, slope, gruneisen));
 }
 
-// Products in the Chapman-Jouguet state all over, which move with its velocity, meet metal: between the two waves that
-// leave the contact are the pressure and velocity of the impedance match, without the fall of a Taylor wave. Cubic
-// functions, as the quadratic ones are 1 to 2 % low, by the noise behind shocks (docs/theory/burn.md, 7).
+// Products in a uniform Chapman-Jouguet state, moving with its velocity, meet metal: between the two waves that leave
+// the contact are the pressure and velocity of the impedance match, without the decay of a Taylor wave. Cubic
+// functions, as the quadratic ones are 1 to 2 % low because of the noise behind shocks (docs/theory/burn.md, 7).
 TEST(BurntProducts, MeetMetalAtTheImpedanceMatch) {
   constexpr double length = 0.02, h = 2.5e-4, end = 1.6e-6;
   const auto tnt = read_material("tnt").eos;

@@ -9,7 +9,7 @@
 
 #include "tests/verification/solver_problems.hpp"
 
-/// Bodies in contact as problems.
+/// Problems of bodies in contact.
 namespace whipple::verification {
 
 struct ContactOptions {
@@ -36,7 +36,7 @@ struct BodyOptions {
   std::string name, material, shape;
   Vector3 velocity = Vector3::Zero();
   std::string more = {};  ///< further lines, such as those of its discretization
-  /// @param apart  it is bonded to no other body, even if they touch at the start and move alike
+  /// @param apart  the body is bonded to no other body, even if they touch at the start with equal velocities
   [[nodiscard]] std::string toml(bool apart = false) const {
     return "[[body]]\nname = \"" + name + "\"\nmaterial = \"" + material +
            "\"\nvelocity = " + vector3(velocity) + "\nshape = { " + shape + " }\n" +
@@ -55,7 +55,7 @@ struct Problem {
   Method method;
   double end = 0.0;
   std::string domain;
-  std::string contact;  ///< table; empty: the default, by which bodies may be bonded
+  std::string contact;  ///< table; empty: the default, with which bodies may be bonded
   std::vector<BodyOptions> bodies;
   std::string more = {};
   [[nodiscard]] cases::Case read() const {
@@ -71,8 +71,8 @@ inline constexpr const char* column_sides =
     "boundary = { y_lower = \"symmetry\", y_upper = \"symmetry\", z_lower = \"symmetry\", "
     "z_upper = \"symmetry\" }\n";
 
-/// Two elastic bars that meet head-on, a gap of 0.3 cells apart at the start, in a column of one cell; exact:
-/// each leaves with its velocity reversed.
+/// Two elastic bars that meet head-on, initially a gap of 0.3 cells apart, in a column of one cell; exact: each leaves
+/// with its velocity reversed.
 struct MeetingBars {
   static constexpr double length = 0.02, speed = 20.0;  // m, m/s
   double dx, gap;
@@ -105,7 +105,7 @@ struct BodySums {
   double mass = 0.0;
   Vector3 momentum = Vector3::Zero(), centre = Vector3::Zero(), spin = Vector3::Zero();
 };
-/// Mass, momentum, centre of mass and angular momentum about it of one body.
+/// Returns mass, momentum, centre of mass and angular momentum about it of one body.
 inline BodySums sums_of(const Particles& q, std::uint32_t body, double inertia) {
   BodySums sums;
   for (std::size_t p = 0; p < q.size(); ++p) {
@@ -127,7 +127,7 @@ inline BodySums sums_of(const Particles& q, std::uint32_t body, double inertia) 
   return sums;
 }
 
-/// The same of a body of elements, without angular momentum.
+/// Returns the sums of a body of elements, without angular momentum.
 inline BodySums sums_of(const fem::Mesh& mesh) {
   BodySums sums;
   const fem::Nodes& q = mesh.nodes;
@@ -140,7 +140,7 @@ inline BodySums sums_of(const fem::Mesh& mesh) {
   return sums;
 }
 
-/// Of a body of either kind.
+/// Returns the sums of a body of either kind.
 inline BodySums sums_of(const solver::Simulation& simulation, std::uint32_t body) {
   for (const fem::Mesh& mesh : simulation.meshes()) {
     if (mesh.body == body) return sums_of(mesh);

@@ -11,10 +11,10 @@
 #include "src/case/case.hpp"
 #include "tests/verification/solver_problems.hpp"
 
-/// Problems with cracks that several tests share.
+/// Problems with cracks, shared by several tests.
 namespace whipple::verification {
 
-/// Returns the largest distance (m) of particles of the same number in two runs.
+/// Returns the largest distance (m) between particles of the same number in two runs.
 inline double largest_distance(const Particles& a, const Particles& b) {
   std::unordered_map<std::uint64_t, Vector3> place;
   for (std::size_t p = 0; p < a.size(); ++p) place[a.id[p]] = a.position[p];
@@ -26,8 +26,8 @@ inline double largest_distance(const Particles& a, const Particles& b) {
   return largest;
 }
 
-/// A plate whose failure strain is scattered breaks at a mirror plane (y = 0, or the axis) while a hard block strikes it and
-/// carries it against a wall.
+/// Returns a case of a plate with scattered failure strain that breaks at a mirror plane (y = 0, or the axis) while a
+/// hard block strikes it and pushes it against a wall.
 /// @param failure_strain  mean
 inline cases::Case breaking_plate(const std::string& dimension, const std::string& cracks,
                                   double failure_strain = 0.05) {

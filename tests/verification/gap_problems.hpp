@@ -12,11 +12,11 @@
 
 #include "tests/verification/contact_problems.hpp"
 
-/// Bodies that meet across a gap.
+/// Problems of bodies that meet across a gap.
 namespace whipple::verification {
 
-/// Aluminium of 2 mm on 4 mm of the same, cells of 0.1 mm, a column of one cell along x; hydrodynamic, so
-/// that the state behind the shock is that of the Hugoniot.
+/// Aluminium of 2 mm on 4 mm of the same, cells of 0.1 mm, a column of one cell along x; hydrodynamic, so that the
+/// state behind the shock is that of the Hugoniot.
 struct PlanarGap {
   static constexpr double dx = 1e-4, thickness = 2e-3, target = 4e-3;  // m
   double speed = 500.0;                                                // m/s
@@ -33,7 +33,7 @@ struct PlanarGap {
     return other;
   }
   [[nodiscard]] double touch() const { return gap * dx / speed; }
-  /// Exact state behind the symmetric shock: u_s = c0 + s u_p.
+  /// Returns the exact pressure behind the symmetric shock: u_s = c0 + s u_p.
   [[nodiscard]] double pressure() const { return 2785.0 * (5328.0 + 1.338 * 0.5 * speed) * 0.5 * speed; }
   [[nodiscard]] double shock_speed() const { return 5328.0 + 1.338 * 0.5 * speed; }
   [[nodiscard]] Problem problem() const {
@@ -74,13 +74,15 @@ void for_each_point(const solver::Simulation& s, std::uint32_t body, Function&& 
 inline constexpr double never = std::numeric_limits<double>::infinity();
 inline const std::string elements = "discretization = { method = \"finite_elements\" }\n";
 
-/// What a planar impact gave.
+/// Holds the results of a planar impact.
 struct Impact {
-  double largest = 0.0;   ///< pressure at any time, over that of the Hugoniot
-  double plateau = 0.0;   ///< mean pressure behind the shock, away from front and surfaces, over the same
-  double early = -never;  ///< first pressure of 2 % before the touch, in cells of the gap
-  double late = 0.0;      ///< arrival of the shock in 1 mm depth after the exact time, over the transit
-  double momentum = 0.0;  ///< of the target at the end, over all
+  double largest = 0.0;  ///< pressure at any time, over the Hugoniot pressure
+  /// Mean pressure behind the shock, away from front and surfaces, over the Hugoniot pressure.
+  double plateau = 0.0;
+  double early = -never;  ///< distance at the first pressure of 2 % before contact, in cells
+  /// Delay of the shock at a depth of 1 mm relative to the exact time, over the transit time.
+  double late = 0.0;
+  double momentum = 0.0;               ///< of the target at the end, over all
   double energy = 0.0, balance = 0.0;  ///< largest errors of energy and momentum
 };
 
@@ -138,8 +140,8 @@ inline Impact impact(const PlanarGap& set) {
   return result;
 }
 
-/// Comparison with bodies that touch at the start, by the same method. Where surfaces meet between nodes
-/// matters more than the gap: the touching runs of several offsets of the grid bound the largest pressure.
+/// Compares with bodies that touch at the start, by the same method. The position of the surfaces relative to the nodes
+/// has more influence than the gap: touching runs with several offsets of the grid bound the largest pressure.
 struct Touching {
   double least = never, largest = 0.0;
   Impact impact;

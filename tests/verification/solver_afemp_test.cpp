@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies of finite elements in the solver: by themselves, against walls, in contact with particles, turning
-// into particles; waves through the transition to the grid; restart and threads.
+// Bodies of finite elements in the solver: alone, against walls, in contact with particles, and converted to particles;
+// waves through the interface to the grid; restart and threads.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -22,14 +22,14 @@ using solver::Simulation;
 
 cases::Case read(const std::string& text) { return cases::read_case_text(text, "afemp.toml"); }
 
-/// The text with one place of it changed.
+/// Returns the text with one occurrence replaced.
 std::string with(std::string text, const std::string& old, const std::string& changed) {
   const std::size_t at = text.find(old);
   if (at == std::string::npos) throw InternalError("the case does not hold " + old);
   return text.replace(at, old.size(), changed);
 }
 
-/// An adaptive cube of aluminium on a plate of particles at 2 km/s, a quarter of it.
+/// Returns a case of an adaptive cube of aluminium on a plate of particles at 2 km/s, a quarter model.
 std::string impact(const std::string& method, const std::string& element) {
   static const std::string material = aluminium("afemp_aluminium", "0.3 GPa");
   return fmt::format(R"(
@@ -76,7 +76,7 @@ TEST_P(Impact, OfAnAdaptiveBodyKeepsEnergyMassAndMomentum) {
   EXPECT_LT(simulation.element_count(), elements);
   EXPECT_GT(simulation.element_count(), 0U);
   EXPECT_GT(simulation.state().ledger.converted_mass, 0.0);
-  // The heat of conversion is small against the energy of the impact.
+  // The heat of conversion is small compared with the energy of the impact.
   EXPECT_LT(simulation.state().ledger.conversion_heat, 0.02 * simulation.state().ledger.initial.energy());
   RecordProperty("elements", static_cast<int>(simulation.element_count()));
   fmt::print("{}: {} of {} elements left, energy {:.1e}, momentum {:.1e}, heat of conversion {:.2e} %\n",
@@ -118,7 +118,7 @@ TEST(Adaptive, RestartIsBitwiseTheRunThatGoesOn) {
   for (const char* element : {"one_point", "b_bar"}) {
     const cases::Case setup = read(impact("adaptive", element));
     Simulation whole(setup, parallel::world());
-    // In the middle of contact and conversion; steps, as times would shorten them.
+    // During contact and conversion; in steps, as end times would shorten them
     for (int step = 0; step < 100; ++step) whole.advance(4e-6);
     Simulation restarted = restored(setup, save(whole, folder.path()), parallel::world());
     for (int step = 0; step < 30; ++step) {
@@ -130,8 +130,8 @@ TEST(Adaptive, RestartIsBitwiseTheRunThatGoesOn) {
   }
 }
 
-// A bar that flies and vibrates by itself never meets the grid: the solver makes of it what the library of
-// finite elements makes with the same time steps.
+// A bar that flies and vibrates freely never reaches the grid: the solver gives the result of the finite element
+// library with the same time steps.
 TEST(Elements, ABodyByItselfIsThatOfTheLibrary) {
   for (const char* element : {"one_point", "b_bar"}) {
     const cases::Case setup = read(fmt::format(R"(
@@ -175,7 +175,7 @@ shape = {{ box = {{ lower = ["-1.5 mm", "-1.5 mm", "-8 mm"], upper = ["1.5 mm", 
   }
 }
 
-/// A column of 70 cells of elements and as many of particles; a smooth pulse of velocity in one of them.
+/// A column of 70 cells of elements and as many of particles, with a smooth velocity pulse in one of them.
 struct Interface {
   static constexpr double start = 0.02, width = 0.024, seen = 0.03, speed = 1.0;
 
@@ -208,7 +208,7 @@ shape = {{ box = {{ lower = ["0 mm", "0 mm", "0 mm"], upper = ["2 mm", "2 mm", "
                             elastic_aluminium(), transfer));
   }
 
-  /// Share of the wave that comes back from the interface.
+  /// Returns the fraction of the wave that is reflected by the interface.
   static double reflection(bool from_elements, const std::string& transfer) {
     const cases::Case setup = column(transfer);
     const Simulation seeded(setup, parallel::world());
@@ -228,7 +228,7 @@ shape = {{ box = {{ lower = ["0 mm", "0 mm", "0 mm"], upper = ["2 mm", "2 mm", "
     state.ledger.initial.kinetic_energy = 1.0;  // J, a scale: the velocities are given afterwards
     Simulation simulation(setup, particles, state, parallel::world(), meshes);
     const double c = particles.sound_speed[0];
-    // Half of the pulse runs to the interface and 30 mm on; what comes back is then 30 mm before it. The
+    // Half of the pulse travels to the interface and 30 mm further; the reflection is then 30 mm in front of it. The
     // other half is at the far end.
     const double end = (start + seen) / c;
     simulation_to(simulation, end);
@@ -259,8 +259,8 @@ TEST(Interface, LetsWavesThroughBothWays) {
   EXPECT_LT(Interface::reflection(false, ""), 0.01);
 }
 
-// Where one particle sits at the Gauss point of every cell, one step with linear functions is one step of
-// one-point elements whose nodes are those of the grid: the same strain, stress and plastic strain.
+// With one particle at the Gauss point of every cell, one step with linear functions equals one step of one-point
+// elements whose nodes are those of the grid: the same strain, stress and plastic strain.
 TEST(Elements, AStepOfTheirGridIsThatOfParticlesAtTheirGaussPoints) {
   const std::string material = aluminium("afemp_step", "0.02 GPa");
   const std::string common = fmt::format(R"(
@@ -321,7 +321,7 @@ shape = {{ box = {{ lower = ["0 mm", "0 mm", "0 mm"], upper = ["4 mm", "3 mm", "
   for (std::size_t e = 0; e < points.size(); ++e) {
     std::size_t p = 0;
     while (q.id[p] != particles.id[particle_of(e)]) ++p;
-    // The element's volume is exact, the particle's that of det(I + dt L): equal to second order in dt.
+    // The volume of the element is exact, that of the particle follows det(I + dt L): equal to second order in dt.
     EXPECT_NEAR(points.volume[e], q.volume[p], 1e-5 * q.volume[p]);
     EXPECT_NEAR(points.plastic_strain[e], q.plastic_strain[p], 1e-2 * q.plastic_strain[p] + 1e-7);
     const SymmetricTensor &s = points.deviatoric_stress[e], &t = q.deviatoric_stress[p];
@@ -331,7 +331,7 @@ shape = {{ box = {{ lower = ["0 mm", "0 mm", "0 mm"], upper = ["4 mm", "3 mm", "
   EXPECT_GT(plastic, 1e-4);
 }
 
-// A bar of elements against a rigid wall: energy and the wall's impulse are booked.
+// A bar of elements against a rigid wall: energy and the wall's impulse are accounted for.
 TEST(Elements, WallsStopThem) {
   for (const char* wall : {"symmetry", "separating", "no_slip"}) {
     const cases::Case setup = read(fmt::format(R"(
@@ -362,7 +362,7 @@ shape = {{ cylinder = {{ center = ["0 mm", "0 mm", "5.5 mm"], radius = "2 mm", h
   }
 }
 
-// Node conditions: a pulled bar gains the energy that the prescribed nodes' work gives.
+// Nodal boundary conditions: a pulled bar gains the energy of the work of the prescribed nodes.
 TEST(Elements, PrescribedVelocitiesDoWork) {
   const cases::Case setup = read(fmt::format(R"(
 [domain]

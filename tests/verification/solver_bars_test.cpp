@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bars that reinforce a body of particles (hybrid finite element material point method; docs/theory/afemp.md,
-// 5): stiffness and wave speed of the composite, conservation, yield and rupture, restart, bad input.
+// Reinforcement bars in a body of particles (hybrid finite element material point method; docs/theory/afemp.md, 5):
+// stiffness and wave speed of the composite, conservation, yield and rupture, restart, invalid input.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -36,7 +36,7 @@ std::string steel(const std::string& strength = "model = \"elastic\"\n") {
 constexpr double diameter = 0.6e-3;
 const double bar_area = 0.25 * std::numbers::pi * diameter * diameter;
 
-/// A column of 2 x 2 cells with a bar in its axis, or without one.
+/// Returns a case of a column of 2 x 2 cells with or without a bar in its axis.
 Problem column(bool reinforced, double end, const std::string& strength = "model = \"elastic\"\n",
                const std::string& options = "") {
   Problem problem;
@@ -62,11 +62,10 @@ struct Watch {
   }
 };
 
-/// A column that flies with 2 m/s against a rigid wall: a wave stops it bit by bit, its momentum vanishes at
-/// L/c.
+/// A column that flies at 2 m/s against a rigid wall: a wave stops it gradually, and its momentum vanishes at L/c.
 struct Stop {
   double speed;      ///< m/s, of the wave
-  double bar_share;  ///< of the bars in the internal energy when all is at rest
+  double bar_share;  ///< fraction of the bars in the internal energy when everything is at rest
 };
 Stop stop(bool reinforced) {
   const double young = 10e9, density = 2000.0, slow = std::sqrt(young / density);
@@ -128,8 +127,8 @@ TEST(Bars, YieldBreakAndKeepEnergy) {
   EXPECT_LT(watch.momentum, 1e-12);
 }
 
-/// A ball of aluminium on a block with two rows of bars, contact between ball and block, a quarter; part of
-/// the block leaves the domain.
+/// Returns a case of a ball of aluminium on a block with two rows of bars, contact between ball and block, quarter
+/// model; part of the block leaves the domain.
 std::string impact() {
   static const std::string aluminium_file = aluminium("bars_aluminium", "0.3 GPa");
   return Method{}.time_toml(6e-6) + "[output]\nmaximum_energy_error = 1.0\n" +

@@ -29,7 +29,7 @@ std::vector<double> radial_decay(std::size_t n, double end) {
   return t;
 }
 
-// Also the particles next to the step, which share their cells with others of the other temperature.
+// Also for particles next to the step, which share their cells with particles of the other temperature
 TEST(Conduction, StepOfTemperatureAboutAnAxisDecaysAsTheExactOne) {
   const std::string material = write_material("conductor", R"toml(
 name = "no thermal pressure"

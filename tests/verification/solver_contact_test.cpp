@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact of bodies with velocity fields of their own (docs/theory/contact.md): conservation, independence of
-// frame, threads and planes, and bodies that touch, slide, stick and part as they must.
+// Contact of bodies with separate velocity fields (docs/theory/contact.md): conservation, independence of frame,
+// threads and planes, and correct contact, sliding, sticking and separation of bodies.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,7 +47,7 @@ Rebound rebound(int cells, const std::string& method) {
   return result;
 }
 
-// Exact: each bar leaves with its velocity reversed. What remains as vibration or heat is of first order.
+// Exact: each bar leaves with its velocity reversed. The remaining vibration or heat is of first order.
 TEST(Contact, BarsReboundAndPart) {
   for (const char* method : {"auto", "multi_field"}) {
     const Rebound coarse = rebound(20, method), fine = rebound(40, method);
@@ -60,10 +60,9 @@ TEST(Contact, BarsReboundAndPart) {
   }
 }
 
-/// A block of 10 x 6 cells on a slab that is inclined by 30 degrees (gravity is turned, not the slab); plane
-/// strain. Gravity grows over several vibrations of the block; the second half of the time counts. The
-/// impulse of the slab is that of the weight plus the vertical momentum, which is taken out of the balance
-/// along the slope.
+/// A block of 10 x 6 cells on a slab that is inclined by 30 degrees (gravity is rotated, not the slab); plane strain.
+/// Gravity grows over several vibration periods of the block; the second half of the time is evaluated. The impulse of
+/// the slab is that of the weight plus the vertical momentum, which is eliminated in the balance along the slope.
 struct Slide {
   double acceleration;  ///< mean, along the slope, over that of free fall
   double distance;      ///< m
@@ -72,7 +71,8 @@ Slide slide(double friction, double duration, const std::string& method) {
   constexpr double dx = 1e-3, g = 1e6, angle = std::numbers::pi / 6;
   Problem problem;
   problem.end = duration;
-  problem.method.first_step = 1.0;  // errors are relative to what gravity has given, next to nothing at first
+  // Errors are relative to the contribution of gravity, which is nearly zero at first
+  problem.method.first_step = 1.0;
   problem.domain =
       "[domain]\nlower = [0, 0, 0]\nupper = [0.028, 0.013, 0.001]\ncell_size = 0.001\n"
       "boundary = { x_lower = \"symmetry\", x_upper = \"symmetry\", y_lower = \"no_slip\", "
@@ -85,8 +85,8 @@ Slide slide(double friction, double duration, const std::string& method) {
     return Vector3(Vector3(g * std::sin(angle), -g * std::cos(angle), 0) *
                    std::min(time / (0.3 * duration), 1.0));
   }));
-  double energy = 0,
-         momentum = 0;  // largest errors: relative to what gravity has given, as all is at rest at first
+  // Largest errors: relative to the contribution of gravity, as everything is at rest at first
+  double energy = 0, momentum = 0;
   const auto watch = [&](const solver::Simulation& s) {
     energy = std::max(energy, std::abs(s.state().ledger.energy_error(s.totals())));
     momentum = std::max(momentum, s.state().ledger.momentum_error(s.totals()));
@@ -128,8 +128,8 @@ TEST(Contact, ABlockSticksToAnInclineUnderTheAngleOfFriction) {
   }
 }
 
-/// A sphere of aluminium at 5 km/s, oblique, on a plate of two layers, the edge of which it overlaps: three
-/// bodies meet.
+/// Returns a case of an aluminium sphere at 5 km/s, oblique, on a plate of two layers, whose edge it overlaps: three
+/// bodies are in contact.
 Problem impact(const Method& method, const ContactOptions& contact, const Vector3& boost = Vector3::Zero()) {
   Problem problem;
   problem.method = method;
@@ -173,7 +173,7 @@ TEST(Load, AddsToGravityOnParticlesAndElementsAlike) {
   EXPECT_LT(std::abs(simulation.state().ledger.energy_error(now)), 1e-12);
 }
 
-// Material rests until the load begins, and then all of it moves.
+// The material is at rest until the load begins, then all of it moves.
 TEST(Load, WakesMaterialWhenItBegins) {
   const double begin = 1e-6, g = 1e8;
   Problem problem = impact({}, {});
@@ -193,7 +193,7 @@ TEST(Load, WakesMaterialWhenItBegins) {
   EXPECT_NEAR(now.momentum[2], 0.5 * begin * g * now.mass, 1e-9 * now.momentum[2]);
 }
 
-// A thin plate is pressed, in one step, across the last of its gap to elements, which only impulses stop.
+// In one step a thin plate is pushed across the remaining gap to elements, which only impulses stop.
 TEST(Contact, IsExactWhereImpulsesMeetFieldsThatPress) {
   Problem problem = impact({}, {.friction = 0.3, .method = "auto"});
   const std::string material = aluminium("contact_aluminium", "0.3 GPa");
@@ -354,8 +354,8 @@ TEST(Contact, BodiesDoNotFeelOneAnotherBeforeTheyTouch) {
   EXPECT_LT(early, 0.2 * gap / (2 * speed));
 }
 
-// Far from one another, bodies have the same bits with and without velocity fields of their own; there and
-// where they meet, it makes no difference whether only the nodes that they share have several fields.
+// Bodies far apart have bitwise equal results with and without separate velocity fields; there and where they meet, it
+// makes no difference whether only the shared nodes have several fields.
 TEST(Contact, FieldsElsewhereChangeNothing) {
   const auto run = [](const std::string& contact, double distance, int steps) {
     Problem problem = impact({}, {});

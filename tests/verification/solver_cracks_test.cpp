@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cracks as velocity fields (docs/theory/cracks.md): faces part without an impulse and press when they are pushed together;
-// energy and momentum stay exact with planes, walls and other bodies, in two and three dimensions; a restart needs nothing.
-// A bar that tears takes an energy per area.
+// Cracks as velocity fields (docs/theory/cracks.md): faces separate without an impulse and are in contact when pushed
+// together; energy and momentum remain exact with planes, walls and other bodies, in two and three dimensions; a
+// restart needs no stored data. A bar that tears dissipates an energy per area.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ namespace {
 using solver::Simulation;
 using namespace verification;
 
-/// How the halves of a block are made and move.
+/// Describes discretization and motion of the halves of a block.
 struct Problem {
   std::string dimension;
   std::string cracks = "fields";
@@ -33,7 +33,7 @@ struct Problem {
   std::string contact = "";              ///< lines of that table
 };
 
-/// Two halves of an elastic block with a failed column of particles between them, that move with -v and v.
+/// Two halves of an elastic block with a failed column of particles between them, moving at -v and v.
 class Halves {
  public:
   explicit Halves(const Problem& problem)
@@ -53,7 +53,7 @@ class Halves {
           const Simulation seeded(setup, parallel::world());
           Particles particles = *seeded.contents().particles;
           for (std::size_t p = 0; p < particles.size(); ++p) {
-            // Across a gap there is a failed row on either face: a single one could go with either.
+            // Across a gap there is a failed row on each face: a single row could join either face.
             const bool faces_gap = problem.gap > 0.0 && particles.body[p] == 2 &&
                                    particles.position[p].x() < 1e-3 * (0.6 + problem.gap);
             if (particles.body[p] == 1 || faces_gap) particles.failed[p] = 1;
@@ -71,7 +71,7 @@ class Halves {
     }
     return worst;
   }
-  /// Returns the same of nodes of elements.
+  /// Returns the largest difference for nodes of elements.
   double deviation_of_nodes(double speed) const {
     double worst = 0.0;
     for (const fem::Mesh& mesh : simulation_.meshes()) {
@@ -112,7 +112,7 @@ TEST_P(CracksInDimension, PartWithoutAnImpulse) {
   for (int step = 0; step < 40; ++step) whole.simulation().advance(1.0);
   EXPECT_LT(apart.deviation(0, -speed), 1e-9 * speed);
   EXPECT_LT(apart.deviation(2, speed), 1e-9 * speed);
-  EXPECT_GT(whole.deviation(2, speed), 0.1 * speed);  // the failed column still holds the halves
+  EXPECT_GT(whole.deviation(2, speed), 0.1 * speed);  // the failed column still connects the halves
 }
 
 TEST(Cracks, PartElementsFromParticles) {
@@ -121,7 +121,7 @@ TEST(Cracks, PartElementsFromParticles) {
   Halves whole({.dimension = "3d", .cracks = "none", .speed = speed, .right_half = "finite_elements"});
   for (int step = 0; step < 40; ++step) apart.simulation().advance(1.0);
   for (int step = 0; step < 40; ++step) whole.simulation().advance(1.0);
-  // Exact it is not: where damage is below its least value there are nodes that both sides reach a little.
+  // Not exact: where the damage is below its minimum there are nodes that both sides reach with small weights.
   EXPECT_LT(apart.deviation(0, -speed), 1e-3 * speed);
   EXPECT_LT(apart.deviation_of_nodes(speed), 1e-3 * speed);
   EXPECT_GT(whole.deviation_of_nodes(speed), 0.1 * speed);
@@ -135,12 +135,12 @@ TEST_P(CracksInDimension, PressLikeOneField) {
   run_to(apart.simulation(), 1.5e-6, std::ref(watch));
   run_to(whole.simulation(), 1.5e-6);
   EXPECT_LT(watch.worst, 1e-12);
-  // Half of the block has given its momentum to the wave.
+  // Half of the block has transferred its momentum to the wave.
   EXPECT_GT(whole.mean_speed(2), 0.5 * speed);
   EXPECT_NEAR(apart.mean_speed(2), whole.mean_speed(2), 0.02 * std::abs(speed));
 }
 
-// Column and right half are half a cell apart, which closes after 2.5 us.
+// Column and right half are half a cell apart; the gap closes after 2.5 us.
 TEST_P(CracksInDimension, DoNotPressBeforeTheyTouch) {
   constexpr double speed = -100.0;
   Halves faces({.dimension = GetParam(), .speed = speed, .gap = 0.5});
@@ -158,7 +158,7 @@ TEST_P(CracksInDimension, DoNotPressBeforeTheyTouch) {
   EXPECT_LT(faces.simulation().state().ledger.momentum_error(faces.simulation().totals()), 1e-12);
 }
 
-// Pressed together while one face slides: friction is at most its coefficient times the normal impulse.
+// Pushed together while one face slides: friction is at most its coefficient times the normal impulse.
 TEST(Cracks, FacesRubOnOneAnother) {
   const auto ledger_with = [](const std::string& contact) {
     Halves halves({.dimension = "3d", .speed = -100.0, .slide = 100.0, .contact = contact});
@@ -194,7 +194,7 @@ void expect_exact(const std::string& dimension, double end) {
   EXPECT_LT(static_cast<std::size_t>(failed), particles.size());
   Simulation whole(breaking_plate(dimension, "none"), parallel::world());
   run_to(whole, end);
-  EXPECT_GT(largest_distance(particles, whole.particles()), 1e-5);  // the cracks did part
+  EXPECT_GT(largest_distance(particles, whole.particles()), 1e-5);  // the cracks did open
 }
 
 TEST(Cracks, KeepEnergyAndMomentumBesidePlanesWallsAndOtherBodies) {
@@ -261,8 +261,8 @@ CrackWork work_of_a_crack(double cell, double width, double energy_per_area) {
   return work;
 }
 
-// A middle as wide as the band of the law, a cell, takes its energy in tension on three grids. Damaged material that is
-// strained under pressure, as waves come back from the ends, adds a fifth to two fifths.
+// A middle as wide as the band of the law, one cell, dissipates the energy of the law in tension on three grids.
+// Damaged material that is strained under pressure, when waves return from the ends, adds a fifth to two fifths.
 TEST(Tearing, OfABarTakesItsEnergyPerAreaOnThreeGrids) {
   constexpr double energy = 5e3;
   for (const double cell : {1e-3, 0.5e-3, 0.25e-3}) {
@@ -274,7 +274,8 @@ TEST(Tearing, OfABarTakesItsEnergyPerAreaOnThreeGrids) {
   }
 }
 
-// Softening that no lattice holds within a cell spreads to the next one: two cells that may tear take up to twice as much.
+// Softening that no lattice confines to a cell spreads to the next one: two cells that may tear dissipate up to twice
+// as much.
 TEST(Tearing, SpreadsOverTwoCells) {
   constexpr double energy = 5e3;
   for (const double cell : {1e-3, 0.5e-3}) {

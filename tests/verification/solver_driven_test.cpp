@@ -12,7 +12,7 @@ namespace whipple::verification {
 namespace {
 
 constexpr double speed = 10.0, radius = 2e-3, end = 8e-6;  // m/s, m, s
-// m: of the bar, and a third of the grip, which gives way under a force on all of it alike by s l/(3 E) in the mean.
+// Length of the bar and a third of the grip, m: the grip yields under a uniform body force by s l/(3 E) on average.
 constexpr double length = 8e-3 + 2e-3 / 3.0;
 
 std::string bar_and_grip(const std::string& of_grip) {
@@ -54,7 +54,7 @@ TEST(Driven, GripStretchesABarByHookesLawAndTheBalancesKnowItsWork) {
     mass += p.mass[i];
     momentum += p.mass[i] * p.velocity[i][0];
   }
-  EXPECT_NEAR(momentum / mass, speed, 0.02 * speed);  // what other forces change from one step to the next
+  EXPECT_NEAR(momentum / mass, speed, 0.02 * speed);  // change of other forces from one step to the next
 
   constexpr double bulk = 2785.0 * 5328.0 * 5328.0, shear = 27.6e9;
   constexpr double young = 9.0 * bulk * shear / (3.0 * bulk + shear);

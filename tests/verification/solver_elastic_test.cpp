@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bending of a free-free beam and rotation of a sphere: what a dissipative or unbalanced transfer spoils
-// first.
+// Bending of a free-free beam and rotation of a sphere: most sensitive to a dissipative or unbalanced transfer.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -34,7 +33,8 @@ double elastic_energy(const Particles& q) {
   return sum;
 }
 
-/// First bending mode of a free-free beam of 24 x 3 x 3 cells; fraction of the vibration energy lost per period.
+/// Returns the fraction of the vibration energy lost per period in the first bending mode of a free-free beam of 24 x 3
+/// x 3 cells.
 double bending_loss(double courant) {
   constexpr double mm = 1e-3, length = 24 * mm, height = 3 * mm, amplitude = 10.0;
   constexpr double kl = 4.730041, sigma = 0.982502;
@@ -82,8 +82,8 @@ double bending_loss(double courant) {
 }
 
 TEST(Beam, BendingKeepsItsEnergyForEveryTimeStep) {
-  // Exact is 0. Full APIC loses 6 % and 12 % a period at these two time steps; the relaxed transfer 0.74 and 0.72 % over
-  // the first three periods. Two-sided: a change of the scheme shall be noticed.
+  // The exact value is 0. Full APIC loses 6 % and 12 % per period at these two time steps; the relaxed transfer 0.74
+  // and 0.72 % over the first three periods. Two-sided, so that any change of the scheme is noticed.
   EXPECT_NEAR(bending_loss(0.5), 0.0074, 0.0003);
   EXPECT_NEAR(bending_loss(0.25), 0.0072, 0.0003);
 }
@@ -131,7 +131,7 @@ TEST(Sphere, RotationKeepsAngularMomentumAndStaysCold) {
   EXPECT_LT(watch.worst, 1e-12);
 }
 
-/// A block of neo-Hookean rubber, 6 x 4 x 4 mm, that flies against a separating wall at 5 m/s.
+/// Returns a case of a block of neo-Hookean rubber, 6 x 4 x 4 mm, that flies against a separating wall at 5 m/s.
 cases::Case rubber_block() {
   Method method;
   method.linear_viscosity = method.quadratic_viscosity = 0;
@@ -171,7 +171,7 @@ TEST(Rubber, BlockBouncesOffAWallWithoutLossAndRestartsBitwise) {
   EXPECT_GT(rebound, 3.5);
   EXPECT_LT(rebound, 5.0);  // the block vibrates
   EXPECT_EQ(simulation.state().ledger.dissipation, 0.0);
-  // F follows the density of its point, which the step advances by itself.
+  // F is consistent with the density of its point, which the step advances separately.
   const auto& deformation = q.history.values<Matrix3>("deformation_gradient");
   for (std::size_t p = 0; p < q.size(); ++p) {
     EXPECT_NEAR(deformation[p].determinant(), q.volume[p] * 1000.0 / q.mass[p], 1e-10);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact of bodies of elements with one another and with particles (docs/theory/contact.md, 3 and 6).
+// Contact of bodies of elements with each other and with particles (docs/theory/contact.md, 3 and 6).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -72,8 +72,8 @@ TEST(ElementContact, BarsReboundAndPart) {
   }
 }
 
-/// A block of 10 x 6 cells on a slab that is inclined by 30 degrees (gravity is turned, not the slab); plane
-/// strain. Gravity grows over several vibrations of the block; the second half of the time counts.
+/// A block of 10 x 6 cells on a slab that is inclined by 30 degrees (gravity is rotated, not the slab); plane strain.
+/// Gravity grows over several vibration periods of the block; the second half of the time is evaluated.
 /// @returns mean acceleration along the slope over that of free fall
 double slide(double friction, const std::string& of_slab, const std::string& of_block,
              double duration = 36e-6) {
@@ -125,7 +125,8 @@ TEST(ElementContact, ABlockSlidesDownAnInclineAsFrictionLetsIt) {
   EXPECT_NEAR(slide(0.0, elements, elements), sine, 2e-4 * sine);
 }
 
-/// An adaptive body of aluminium at 2 km/s, oblique, on an adaptive layer beside a plate of particles.
+/// Returns a case of an adaptive body of aluminium at 2 km/s, oblique, on an adaptive layer next to a plate of
+/// particles.
 Problem impact(const ContactOptions& contact, const std::string& projectile, bool half = false) {
   Problem problem;
   problem.end = 2e-6;
@@ -162,8 +163,8 @@ TEST(ElementContact, KeepsMomentumAndEnergyWhileElementsBecomeParticles) {
   }
 }
 
-// A block, as nodes on the plane and beside it must be in like cells: which of two cells takes a point on
-// their face is no symmetric choice.
+// A block, as nodes on the plane and next to it must be in equivalent cells: the choice of the cell of a point on a
+// face is not symmetric.
 TEST(ElementContact, AMirrorPlaneEqualsRealImages) {
   const std::string block = box({-2e-3, -2.9e-3, -5.2e-3}, {2e-3, 2.9e-3, -0.2e-3});
   const auto run = [&](bool half) {
@@ -194,7 +195,7 @@ TEST(ElementContact, DoesNotDependOnTheNumberOfThreads) {
   EXPECT_EQ(one.momentum, three.momentum);
 }
 
-/// Force and time of Hertz's impact of equal elastic spheres (Timoshenko & Goodier, Theory of Elasticity,
+/// Computes force and time of Hertz's impact of equal elastic spheres (Timoshenko & Goodier, Theory of Elasticity,
 /// section 142): mu d2delta/dt2 = -4/3 E* sqrt(R*) delta^(3/2).
 struct Hertz {
   double largest_force = 0.0;  // N
@@ -220,10 +221,9 @@ struct Hertz {
   }
 };
 
-/// Two equal spheres of elastic elements meet at 45 degrees to the line between their centres. Force and
-/// duration are near those of Hertz; the restitution is not: the contact area is two elements wide, and what
-/// it loses shrinks with the elements (docs/theory/contact.md, 6). The bound on it only keeps it from getting
-/// worse.
+/// Two equal spheres of elastic elements meet at 45 degrees to the line between their centres. Force and duration are
+/// close to those of Hertz; the restitution is not: the contact area is two elements wide, and the loss decreases with
+/// the element size (docs/theory/contact.md, 6). Its bound only detects a deterioration.
 TEST(ElementContact, ObliqueImpactOfElasticSpheresBesideHertz) {
   constexpr double radius = 5e-3, speed = 200.0, dx = 2 * radius / 16;
   const Vector3 direction = Vector3(1.0, 0.8, 0.6) / std::numbers::sqrt2;  // from one centre to the other
@@ -274,7 +274,7 @@ TEST(ElementContact, ObliqueImpactOfElasticSpheresBesideHertz) {
   EXPECT_LT(watch.momentum, 1e-12);
 }
 
-// Contact finds everything again in each step; the checkpoint holds nothing of it.
+// Contact is determined again in each step; the checkpoint stores nothing of it.
 TEST(ElementContact, ARestartIsBitwiseTheRunThatGoesOn) {
   const TemporaryFolder folder;
   const cases::Case setup = impact({.friction = 0.3}, ball).read();

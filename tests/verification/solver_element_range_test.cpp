@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Elements in the solver whose material loses its strength, and elements that leave their valid range: what
-// their energies are, and what becomes of them.
+// Elements in the solver whose material loses its strength, and elements that leave their valid range: their energies
+// and their treatment.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 
 using solver::Simulation;
 
-/// A rod on a plate at 1 km/s, both of elements and of a material that fails in tension.
+/// Returns a case of a rod on a plate at 1 km/s, both of elements and of a material that fails in tension.
 /// @param more  further keys of both bodies
 cases::Case rod_on_plate(const std::string& more) {
   const std::string failing = aluminium("range_failing", "0.3 GPa",
@@ -69,7 +69,7 @@ TEST(ElementsThatFail, KeepTheirEnergiesPossible) {
 }
 
 TEST(ElementsBeyondTheirRange, BecomeParticlesAreDeletedOrStopTheRun) {
-  const auto beyond = [](const std::string& word) {  // (a bound that many elements of the rod pass)
+  const auto beyond = [](const std::string& word) {  // (a bound that many elements of the rod exceed)
     return fmt::format("element_range = {{ beyond = \"{}\", jacobian = 0.7 }}", word);
   };
   Simulation become(rod_on_plate(beyond("particles")), parallel::world());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fluid that expands freely, and particles that are divided late: what is continuous stays continuous
-// (docs/theory/mpm.md, 2). Reference: zones that move with the material.
+// Free expansion of fluid, and late particle splitting: continuous material remains continuous (docs/theory/mpm.md, 2).
+// Reference: zones that move with the material.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ std::string gas() {
       "heat_capacity_ratio = 1.4\nreference_density = \"1 kg/m^3\"\nheat_capacity = \"718 J/(kg K)\"\n");
 }
 
-/// A body that starts to expand into vacuum.
+/// Describes a body that starts to expand into vacuum.
 struct Problem {
   Expansion kind;
   std::string material, initial;
@@ -79,7 +79,7 @@ Deviation deviation(const Problem& problem, double cell, const std::string& more
   ExpansionState exact =
       expand_in_zones(*setup.materials[0]->eos, problem.kind, problem.size, density, energy, problem.end);
   const double all = exact.kinetic + exact.internal;
-  // The whole sphere is twice its half beside the plane of symmetry.
+  // The whole sphere is twice its half at the plane of symmetry.
   const double scale = mass * energy / all;
   exact.kinetic *= scale;
   exact.internal *= scale;
@@ -131,7 +131,7 @@ TEST(FreeExpansionFine, SphereOfGas) { expect_convergence(sphere, {0.5e-3, 0.25e
 TEST(FreeExpansionFine, SphereOfDetonationProducts) { expect_convergence(products, {0.5e-3, 0.25e-3}); }
 TEST(FreeExpansionFine, SlabOfCopperVapour) { expect_convergence(vapour, {0.5e-3, 0.25e-3, 0.125e-3}); }
 
-// Why fluid is divided: its particles part, and lone ones drive their own fields with their heat.
+// Reason for splitting fluid: its particles separate, and isolated ones drive their affine fields with their heat.
 TEST(FreeExpansionFine, LosesItsHeatWithoutSplittingAndMoreOfItWithFinerCells) {
   for (const Problem& problem : {slab, sphere, products, vapour}) {
     const std::string none = "[splitting]\nlength = 0\n";
@@ -142,7 +142,7 @@ TEST(FreeExpansionFine, LosesItsHeatWithoutSplittingAndMoreOfItWithFinerCells) {
   }
 }
 
-/// Two particles, of which the second is room for a half of the first.
+/// Returns two particles; the second provides space for a half of the first.
 Particles particle_and_room() {
   Particles particles;
   particles.mass.resize(2);
@@ -158,7 +158,7 @@ Particles particle_and_room() {
   return particles;
 }
 
-// Whatever its length: material that heals, or vapour that was a fragment, is divided late.
+// For any length: material that heals, or vapour that was a fragment, is split late.
 TEST(Division, OfAParticleOfAnyLengthKeepsEverySumAndLetsNothingGrow) {
   constexpr double dx = 1e-3, inertia = dx * dx / 4.0;
   std::mt19937 random(5);
@@ -218,7 +218,7 @@ cases::Case lead_section(const std::string& more_of_material,
   return cases::read_case(folder + "case.toml", overrides);
 }
 
-// A material that heals is divided when it is long already.
+// A material that heals is split when it is already long.
 TEST(FreeExpansion, LeadThatHealsIsDividedLateAndNothingBlowsUp) {
   const cases::Case setup = lead_section("response = \"opening\"\n", {{"splitting.of", "all"}});
   solver::Simulation simulation(setup, parallel::world());

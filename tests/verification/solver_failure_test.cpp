@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Spall of a plate by every failure model: the release of the stress makes and loses no energy, the momentum
-// stays, and the plate parts into two pieces that fly apart. The library's metals: pull-back of 6061-T6 and
+// Spall of a plate with every failure model: the release of the stress neither generates nor loses energy, momentum is
+// conserved, and the plate breaks into two pieces that fly apart. Metals of the library: pull-back of 6061-T6 and
 // copper in planar impact, and a Taylor bar of copper that does not fail.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ struct Model {
   std::string label = {};
 };
 
-/// As GoogleTest shows the parameter.
+/// For the parameter output of GoogleTest.
 void PrintTo(const Model& model, std::ostream* out) {
   *out << model.name << model.label << ' ' << model.scatter;
 }
@@ -104,7 +104,8 @@ INSTANTIATE_TEST_SUITE_P(
              (instance.param.scatter > 0.0 ? "_with_scatter" : "");
     });
 
-/// Fall (m/s) of the free surface of a plate of a library metal before its spall signal; `cell` in mm.
+/// Returns the decrease (m/s) of the free-surface velocity of a plate of a library metal before its spall signal;
+/// `cell` in mm.
 double pullback(const std::string& material, double flyer, double speed, double end, double cell) {
   const cases::Case setup = cases::read_case_text(fmt::format(R"(
 [domain]
@@ -143,8 +144,8 @@ shape = {{ box = {{ lower = ["0 mm", "0 mm", "0 mm"], upper = ["{4} mm", "{4} mm
   return highest - least;
 }
 
-// Measured or published: 157 m/s (1.2 GPa) and 78 m/s (cases/plate_impact_spall). The shorter pulse in copper takes finer
-// cells: 69, 72 and 71 m/s with 0.1, 0.05 and 0.025 mm.
+// Measured or published: 157 m/s (1.2 GPa) and 78 m/s (cases/plate_impact_spall). The shorter pulse in copper requires
+// finer cells: 69, 72 and 71 m/s with 0.1, 0.05 and 0.025 mm.
 TEST(LibrarySpall, PullbackOfTheFreeSurfaceIsThatOfTheMeasuredSpallStrength) {
   EXPECT_NEAR(pullback("aluminium_6061_t6", 2.0, 500.0, 2.2, 0.1), 157.0, 0.1 * 157.0);
   EXPECT_NEAR(pullback("copper_ofhc", 1.78, 308.0, 2.6, 0.05), 78.0, 0.1 * 78.0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The finest pair of docs/generated/orders_of_convergence.md, with particles that cross cells: cubic B-splines keep
-// their order, quadratic ones stand at the floor of their quadrature, which is part of every claim of
-// accuracy for the default.
+// their order, quadratic ones have reached the floor of their quadrature, which is part of every accuracy statement for
+// the default.
 #include <gtest/gtest.h>
 
 #include "tests/verification/solver_orders.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The time step lands on the first touch of bodies and starts over (docs/theory/mpm.md, section 6).
+// A time step ends at the first contact of bodies, and the next one starts small (docs/theory/mpm.md, section 6).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ struct Steps {
       length.push_back(s.state().time_step);
     });
   }
-  /// The step under way at a time, and the longest before it.
+  /// Returns the step that contains a time, and the longest one before it.
   [[nodiscard]] std::size_t at(double time) const {
     return static_cast<std::size_t>(std::ranges::upper_bound(begin, time) - begin.begin()) - 1;
   }
@@ -33,7 +33,7 @@ struct Steps {
   }
 };
 
-/// The step that holds the touch, or the one that begins there, is a twentieth of those in flight.
+/// Requires that the step that contains the contact, or the one that begins there, is a twentieth of those in flight.
 void expect_small_step_at(const Steps& steps, double touch) {
   const std::size_t last = steps.at(touch * (1.0 + 1e-9));
   const double full = steps.longest_before(last);
@@ -60,7 +60,7 @@ TEST(FirstTouch, SlowBodiesKeepTheirStep) {
   EXPECT_GT(steps.length[touch + 1], 0.9 * steps.longest_before(touch));
 }
 
-// In flight, in the step of the touch, and after it.
+// In flight, in the step of the contact, and after it
 TEST(FirstTouch, RestartsBitwiseTheSame) {
   const PlanarGap set{.speed = 3000.0, .gap = 6.3, .after = 0.05e-6};
   const cases::Case setup = set.problem().read();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Planar impacts across gaps: the wide sweep of what solver_gap_test.cpp samples.
+// Planar impacts across gaps: the complete set sampled by solver_gap_test.cpp.
 #include "tests/verification/gap_problems.hpp"
 
 namespace whipple::verification {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies that meet across a gap (docs/theory/contact.md): nothing acts before it touches, and then the gap
+// Bodies that meet across a gap (docs/theory/contact.md): there is no interaction before contact, and then the gap
 // makes no difference.
 #include <gtest/gtest.h>
 
@@ -27,10 +27,10 @@ TEST(Gap, MakesNoDifferenceToElements) {
   }
 }
 
-// Touching planar bodies: along the normal the common field is that of one body.
+// Touching planar bodies: along the normal the common field equals that of one body.
 TEST(Gap, BodiesThatTouchAreAsOneFieldWhileTheyPress) {
   for (const double speed : {500.0, 6000.0}) {
-    // In one field shocks would conduct heat from one body into the other.
+    // In one field shocks would conduct heat from one body to the other.
     const std::string quiet = "[dissipation]\nshock_conduction = 0\n";
     const Impact own = impact({.speed = speed, .contact = quiet}),
                  one = impact({.speed = speed, .contact = quiet + "[contact]\nmethod = \"none\"\n"});
@@ -40,7 +40,7 @@ TEST(Gap, BodiesThatTouchAreAsOneFieldWhileTheyPress) {
   }
 }
 
-// Material under pressure fills its cells; in one velocity field it meets across voids that never close.
+// Material under pressure fills its cells; in one velocity field it is compressed across voids that never close.
 TEST(Gap, MatterUnderPressureFillsItsCells) {
   const auto fill = [](double speed, double gap, const char* contact) {
     const PlanarGap set{.speed = speed, .gap = gap, .contact = contact, .after = 0.25e-6};
@@ -102,8 +102,8 @@ TEST(Gap, NothingActsBeforeItTouches) {
           "spheres along (%g, %g, %g), offset %g: first pressure %+.3f cells early, first impulse %+.3f; "
           "while more than 0.15 cells apart impulse %.1e of the momentum, strain %.1e\n",
           direction[0], direction[1], direction[2], offset[0], early, begin, pushed, strained);
-      // Where a body has less than a ten-thousandth of a node, the edge of a function of one particle, its
-      // normal is that of the grid and the gap along it may seem closed early.
+      // Where a body contributes less than a ten-thousandth to a node, at the edge of the function of one particle, its
+      // normal is that of the grid, and the gap along it may appear closed early.
       EXPECT_LT(pushed, 1e-8);
       EXPECT_LT(strained, 1e-4);
       EXPECT_LT(std::abs(early), 0.1);
@@ -152,7 +152,7 @@ TEST(Gap, MakesNoDifferenceToASphereOnAPlate) {
   EXPECT_GT(one.largest, 1.5 * across.largest);
 }
 
-// Exact: the flyer stops, the target has all its momentum, and at no time do they pull at one another.
+// Exact: the flyer stops, the target has all its momentum, and there is no tension at any time.
 TEST(Gap, BodiesPartWithoutTension) {
   for (const double gap : {0.0, 2.0}) {
     const PlanarGap set{.speed = 100.0, .gap = gap, .after = 1.6e-6};
@@ -188,7 +188,7 @@ TEST(Gap, BodiesPartWithoutTension) {
   }
 }
 
-// Two blocks at rest, one warm, with fields of their own: what the cold one gains by conduction (J).
+// Two blocks at rest, one warm, with separate fields: the heat that the cold one gains by conduction (J).
 double heat_across(double gap, const char* contact) {
   constexpr double dx = 1e-3;
   Problem problem;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Properties that every scheme, shape function and particle update must have, and the options of the method:
-// separating walls, particle splitting, free flight, random shifts of the grid.
+// Properties required of every scheme, shape function and particle update, and the options of the method: separating
+// walls, particle splitting, free flight, random shifts of the grid.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -47,7 +47,8 @@ TEST(ComparisonSchemes, RunASmallImpactWithoutFurtherKeysAndObeyALimitOfTheEnerg
     solver::Simulation simulation(cases::read_case(file, {choice}), parallel::world());
     while (simulation.state().time < 0.2e-6) simulation.advance(0.2e-6);
     const double error = std::abs(simulation.state().ledger.energy_error(simulation.totals()));
-    EXPECT_GT(error, 1e-3);  // these schemes are not exact: more than the limit of the exact one is no defect
+    // These schemes are not exact: an error above the limit of the exact one is no defect
+    EXPECT_GT(error, 1e-3);
     EXPECT_LT(error, 0.05);
     solver::Simulation limited(cases::read_case(file, {choice, {"output.maximum_energy_error", "1e-3"}}),
                                parallel::world());
@@ -79,9 +80,9 @@ std::vector<Method> all_methods() {
 
 std::string name_of(const Method& m) { return m.scheme + " " + m.shape_function + " " + m.particle_update; }
 
-// Bodies that touch at the start meet in small steps, and no step compresses material by more than the limit,
-// at the rate of the step before.
-/// A slab that flies at 5 km/s onto one that it touches.
+// Bodies that touch at the start meet in small steps, and no step compresses material by more than the limit, at the
+// rate of the previous step.
+/// Returns a case of a slab that flies at 5 km/s onto one that it touches.
 cases::Case touching_slabs(const std::string& method, double first_step, double limit) {
   const std::string slab = "material = \"" + elastic_aluminium() + "\"\ndiscretization = { method = \"" +
                            method + "\" }\nshape = { box = { ";
@@ -97,7 +98,7 @@ cases::Case touching_slabs(const std::string& method, double first_step, double 
       "time_step.toml");
 }
 
-// What compression asks for never takes more than seven eighths of the stable step, and that is counted.
+// The compression limit never reduces the stable step by more than seven eighths, and this is counted.
 TEST(TimeStep, KeepsAnEighthOfTheStableStepAndCountsIt) {
   for (const char* method : {"particles", "finite_elements"}) {
     solver::Simulation simulation(touching_slabs(method, 1.0, 1e-7), parallel::world());
@@ -115,7 +116,7 @@ TEST(TimeStep, KeepsAnEighthOfTheStableStepAndCountsIt) {
 
 TEST(TimeStep, BeginsSmallAndFollowsTheCompression) {
   struct Steps {
-    double first = 0, most = 0;  // s; share of its volume that matter loses in a step
+    double first = 0, most = 0;  // s; fraction of its volume that material loses in a step
   };
   const auto steps = [](const std::string& method, double first_step, double limit) {
     solver::Simulation simulation(touching_slabs(method, first_step, limit), parallel::world());
@@ -171,9 +172,8 @@ TEST(TimeStep, TellsTheBoundThatDeterminedIt) {
   }
 }
 
-// One step of a block with random velocities and stresses, at rest and in motion: all that a step changes is
-// the same. (Over many steps the grid is passed at other places, and only the error of the method is
-// invariant.)
+// One step of a block with random velocities and stresses, at rest and in motion: all changes in the step are equal.
+// (Over many steps the grid is crossed at other positions, and only the error of the method is invariant.)
 TEST(EveryMethod, IsGalileanInvariantAndKeepsMomentum) {
   const Vector3 common(3000, -2000, 1000);
   for (Method method : all_methods()) {
@@ -219,8 +219,8 @@ TEST(EveryMethod, IsGalileanInvariantAndKeepsMomentum) {
   }
 }
 
-// A rod of aluminium hit at one end: what lies ahead of the wave is left as it is, and awakes in time. Mass,
-// momentum and energy are as well balanced as without it, and the state is the same to what becomes of the
+// A rod of aluminium hit at one end: the material ahead of the wave is inactive and is activated in time. Mass,
+// momentum and energy are balanced as accurately as without this option, and the state agrees within the effect of the
 // tolerance.
 TEST(EveryMethod, LeavesMatterAtRestAheadOfWaves) {
   const std::string rod =
@@ -251,7 +251,7 @@ TEST(EveryMethod, LeavesMatterAtRestAheadOfWaves) {
     const auto last = static_cast<std::size_t>(awake.state().particles_at_rest);
     EXPECT_GT(most, awake.particles().size() / 2) << name_of(method);
     EXPECT_GT(last, 0U) << name_of(method);
-    EXPECT_LT(last, 3 * most / 4) << name_of(method);  // the wave goes on
+    EXPECT_LT(last, 3 * most / 4) << name_of(method);  // the wave propagates
     const Particles& p = all.particles();
     const Particles& q = awake.particles();
     ASSERT_EQ(p.size(), q.size());
@@ -276,7 +276,7 @@ TEST(EveryMethod, LeavesMatterAtRestAheadOfWaves) {
   }
 }
 
-// The momentum that walls give is booked for every method: a block that runs into mirror planes and walls.
+// The impulse of walls is accounted for with every method: a block that moves into mirror planes and walls.
 TEST(EveryMethod, BooksTheImpulseOfWalls) {
   const std::string rest =
       "[domain]\nlower = [0.0034, 0.0034, 0.003]\nupper = [0.0104, 0.0104, 0.01]\ncell_size = "
@@ -292,8 +292,8 @@ TEST(EveryMethod, BooksTheImpulseOfWalls) {
     EXPECT_LT(simulation.state().ledger.momentum_error(simulation.totals()), 1e-12) << name_of(method);
     EXPECT_GT(simulation.state().ledger.wall_impulse[0], 0) << name_of(method);
     if (method.scheme == "symplectic") {
-      // Linear gradients do not vanish with the mass of a node: velocities of almost empty nodes are large,
-      // and their squares leave more round-off.
+      // Linear gradients do not vanish with the mass of a node: velocities of almost empty nodes are large, and their
+      // squares cause more round-off.
       const double bound = method.shape_function == "linear" ? 1e-10 : 1e-12;
       EXPECT_LT(std::abs(simulation.state().ledger.energy_error(simulation.totals())), bound)
           << name_of(method);
@@ -301,8 +301,8 @@ TEST(EveryMethod, BooksTheImpulseOfWalls) {
   }
 }
 
-/// A bar of elastic uniaxial strain that flies against a wall at x = 0; its momentum and that of the wall
-/// relative to m v, three crossing times of a wave after touch.
+/// A bar in elastic uniaxial strain that flies against a wall at x = 0; its momentum and that of the wall relative to m
+/// v, three wave transits after contact.
 struct Rebound {
   double momentum, impulse, energy_error, momentum_error;
 };
@@ -329,8 +329,8 @@ Rebound rebound(const std::string& wall, const Method& method, const std::string
           ledger.momentum_error(simulation.totals())};
 }
 
-// Exact: the bar leaves the wall after two crossings with its velocity reversed. The corners of the wave are
-// rounded, and what arrives late stays in the bar as vibration: an error that vanishes with the cell size.
+// Exact: the bar leaves the wall after two transits with its velocity reversed. The corners of the wave are rounded,
+// and the late part remains in the bar as vibration: an error that vanishes with the cell size.
 TEST(SeparatingWall, LetsABarRebound) {
   Method method;
   const Rebound coarse = rebound("separating", method), fine = rebound("separating", method, "0.0005");
@@ -343,7 +343,7 @@ TEST(SeparatingWall, LetsABarRebound) {
   }
   EXPECT_NEAR(coarse.momentum, 1.0, 0.08);
   EXPECT_LT(std::abs(fine.momentum - 1), 0.8 * std::abs(coarse.momentum - 1));
-  // A mirror plane holds the bar: a crossing later it is in full tension, with half of the way back done.
+  // A mirror plane holds the bar: one transit later it is in full tension and has moved half of the way back.
   EXPECT_LT(rebound("symmetry", method).momentum, 0.2);
   for (const char* scheme : {"usl", "musl"}) {
     Method other = method;
@@ -353,7 +353,7 @@ TEST(SeparatingWall, LetsABarRebound) {
   }
 }
 
-/// A column of gas between mirror planes, in axisymmetry around the axis.
+/// Returns a case of a column of gas between mirror planes, in axisymmetry around the axis.
 std::string stretching_gas(const std::string& dimension, const std::string& splitting) {
   const std::string gas = write_material(
       "stretching_gas",
@@ -368,7 +368,7 @@ std::string stretching_gas(const std::string& dimension, const std::string& spli
          "\"\nshape = { box = { lower = [-0.01, 0, 0], upper = [0.01, 0.001, 0.001] } }\n";
 }
 
-// A gas that expands five-fold along x: its particles part, those that are divided stay neighbours.
+// A gas that expands five-fold along x: its particles separate, those that are split remain neighbours.
 TEST(Splitting, KeepsStretchedMatterTogetherAndEverySumExact) {
   for (const char* dimension : {"3d", "plane_strain", "axisymmetric"}) {
     for (const bool split : {false, true}) {
@@ -412,8 +412,8 @@ TEST(Splitting, KeepsStretchedMatterTogetherAndEverySumExact) {
   }
 }
 
-// Failed particles without stress: two that fly alone and then meet, beside a block far off. With free flight
-// the sums are the same and so are the particles, as long as they are alone to the last digit.
+// Failed particles without stress: two that fly alone and then meet, with a block far away. With free flight the sums
+// are equal and so are the particles; as long as they are alone, to the last digit.
 TEST(FreeFlight, GivesWhatTheGridWouldGive) {
   const auto run = [](bool free) {
     const cases::Case setup = read(Method{}, 1.0, free ? "free_flight = true\n" : "",
@@ -441,7 +441,7 @@ TEST(FreeFlight, GivesWhatTheGridWouldGive) {
   const auto [with_grid, met_with_grid] = run(false);
   const auto [without, met_without] = run(true);
   for (std::size_t i = 0; i < 2; ++i) EXPECT_LT((with_grid[i] - without[i]).norm(), 1e-12);
-  EXPECT_LT(met_with_grid[0], 900);  // they share cells for a while and slow one another down
+  EXPECT_LT(met_with_grid[0], 900);  // they share cells for a while and decelerate each other
   EXPECT_NEAR(met_without[0], met_with_grid[0], 2.0);
 }
 

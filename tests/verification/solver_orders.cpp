@@ -15,7 +15,7 @@ namespace {
 
 struct Row {
   Method method;
-  std::string update;  // as it stands in the table
+  std::string update;  // as printed in the table
 };
 
 std::vector<Row> rows() {
@@ -54,7 +54,7 @@ std::vector<Row> rows() {
   return all;
 }
 
-/// Error on the finest grid and the orders between the resolutions.
+/// Returns the error on the finest grid and the orders between the resolutions.
 template <class Error>
 std::string cell(const ExactMotion& motion, Error&& error_of) {
   const std::array<int, 4> cells =
@@ -77,7 +77,7 @@ std::string cell(const ExactMotion& motion, const Method& method) {
   return cell(motion, [&](int n) { return motion_error(motion, method, n); });
 }
 
-/// Of finite elements and of those that become particles.
+/// Returns the table of finite elements and of those that become particles.
 std::string elements() {
   std::string text = R"(
 Finite elements as wide as a cell. In the last row the left half of the elements become particles halfway through the

@@ -14,7 +14,7 @@
 /// Errors of the exact motions and their orders of convergence. docs/theory/mpm.md, section 7.5.
 namespace whipple::verification {
 
-/// A grid of n cells with one body that fills it, and how the body is discretised.
+/// Returns a case with a grid of n cells and one body that fills it.
 inline cases::Case motion_case(const ExactMotion& motion, const Method& method, int n,
                                const std::string& discretization = {}) {
   const double dx = 1.0 / n;
@@ -36,24 +36,23 @@ shape = { box = { lower = [0, 0, 0], upper = [1, %.17g, %.17g] } }
                 plane ? 1.0 : dx, dx, dx, barotropic_material(motion.solid()).c_str(), plane ? 1.0 : dx, dx,
                 discretization.c_str());
   Method chosen = method;
-  chosen.courant = chosen.first_step = 1.0;  // the time step is set by who advances
+  chosen.courant = chosen.first_step = 1.0;  // the caller sets the time step
   chosen.linear_viscosity = chosen.quadratic_viscosity = 0;
   return cases::read_case_text(chosen.time_toml(motion.end()) + chosen.toml() + text, "motion.toml");
 }
 
-/// Steps of a run on n cells.
+/// Returns the number of steps of a run on n cells.
 inline long motion_steps(const ExactMotion& motion, int n) {
   return static_cast<long>(std::ceil(motion.end() * motion.largest_speed() * n / 0.4));
 }
 
-/// Relative error (rms over the mass) of velocity and displacement of a motion on a grid of n cells.
+/// Returns the relative error (rms over the mass) of velocity and displacement of a motion on a grid of n cells.
 inline double motion_error(const ExactMotion& motion, const Method& method, int n) {
   const double dx = 1.0 / n;
   const cases::Case setup = motion_case(motion, method, n);
   const long steps = motion_steps(motion, n);
   const double dt = motion.end() / static_cast<double>(steps);
-  // Velocities belong half a step before the positions (leapfrog); with stresses updated first, stresses a
-  // whole step.
+  // Velocities are half a step before the positions (leapfrog); with stresses updated first, stresses a whole step.
   const double stress_time = method.scheme == "usf" ? -dt : 0.0;
   Particles particles = cases::seed(setup).particles;
   std::vector<Vector3> start(particles.size());
@@ -98,7 +97,7 @@ inline double motion_error(const ExactMotion& motion, const Method& method, int 
   return std::sqrt(sum) / motion.velocity_scale();
 }
 
-/// Order between two resolutions, one twice as fine as the other.
+/// Returns the order between two resolutions that differ by a factor of two.
 inline double order_of(double coarse, double fine) { return std::log2(coarse / fine); }
 
 }  // namespace whipple::verification

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The orders of convergence of docs/generated/orders_of_convergence.md on two grids each: the schemes are of second
-// order where particles stay in their cells, whatever the functions; where they cross cells, functions with
-// continuous gradients keep converging and linear ones do not; PIC is of first order.
+// order where particles stay in their cells, whatever the functions; where they cross cells, functions with continuous
+// gradients continue to converge and linear ones do not; PIC is of first order.
 #include "tests/verification/solver_orders.hpp"
 
 #include <gtest/gtest.h>
@@ -73,8 +73,8 @@ double order(const ExactMotion& motion, const ElementMethod& method, int cells) 
   return order_of(coarse, fine);
 }
 
-// By themselves, and with half of the body becoming particles in the middle of the run: the transition costs no order. With
-// the smoother slopes of the particles it is irregular (2.0, 1.3, 2.3 from 16 to 128 elements).
+// Elements alone, and with half of the body converted to particles in the middle of the run: the conversion does not
+// reduce the order. With the smoother slopes of the particles it is irregular (2.0, 1.3, 2.3 from 16 to 128 elements).
 TEST(Order, OfElementsIsTwoWithAndWithoutConversion) {
   const VibratingBar bar;
   const SimpleWave pulse;
@@ -95,7 +95,7 @@ TEST(Order, OfTheParticleUpdateIsOneForPicAndTwoForTheFullMassMatrix) {
   Method fmpm = method("usl", "quadratic_bspline", "fmpm");
   fmpm.fmpm_order = 4;
   EXPECT_NEAR(order(bar, fmpm, 32), 2.0, 0.1);
-  // On the bar lumped masses make most of the error, which the full matrix takes away; what is left is that of the
+  // In the bar lumped masses cause most of the error, which the full matrix removes; the remainder is that of the
   // slopes, larger where they are smoother than the derivatives of N.
   const Method flip = method("usl", "quadratic_bspline", "flip");
   EXPECT_LT(motion_error(bar, fmpm, 64), 0.1 * motion_error(bar, flip, 64));

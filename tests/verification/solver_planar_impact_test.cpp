@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Symmetric planar impact of aluminium with release, against the exact Hugoniot state and the exact release
-// isentrope of the same equation of state (docs/theory/mpm.md, section 7.1). Proves: shock jump, energy left
-// after release (the residual temperature), conservation; shows the peers' scheme beside it.
+// Symmetric planar impact of aluminium with release, compared with the exact Hugoniot state and the exact release
+// isentrope of the same equation of state (docs/theory/mpm.md, section 7.1). Proves: shock jump, energy after release
+// (the residual temperature), conservation; compares with the scheme of other codes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,8 +23,8 @@ struct Result {
   double energy_error;
 };
 
-/// Exact energies after release to zero pressure (J/kg), by Runge-Kutta along the isentrope (the EOS' own
-/// test).
+/// Returns the exact energies after release to zero pressure (J/kg), by Runge-Kutta along the isentrope (test of the
+/// equation of state).
 double exact_released_energy(double up) { return up < 2000.0 ? 55795.0 : 823260.0; }
 
 Result planar_impact(double up, const Method& method) {
@@ -61,12 +61,11 @@ shape = { box = { lower = [0, 0, 0], upper = [%.9g, 0.00015, 0.00015] } }
   EnergyWatch watch;
   const double us = c0 + s * up;
   const double pressure = rho0 * us * up, density = rho0 * us / (us - up);
-  // Material that the two shocks have swept: it grows by rho0 Us per area and time.
+  // Material that the two shocks have passed: it grows by rho0 Us per area and time.
   const auto swept = [&] {
     const Particles& q = simulation.particles();
     double mass = 0;
-    // By the pressure, over that of the plateau: whole layers of particles would make steps of 1.5 % of the
-    // way.
+    // From the pressure, over that of the plateau: whole layers of particles would give steps of 1.5 % of the distance.
     for (std::size_t i = 0; i < q.size(); ++i) mass += q.pressure[i] / pressure * q.mass[i];
     return mass / (2 * rho0 * area);
   };
@@ -127,8 +126,8 @@ TEST(PlanarImpact, DefaultSchemeAt1kmPerSecond) { expect_default_accuracy(planar
 
 TEST(PlanarImpact, DefaultSchemeAt3kmPerSecond) { expect_default_accuracy(planar_impact(3000.0, {})); }
 
-// A grid that moves at random in every step keeps the jump conditions and the energy. It costs heat: +13 %
-// released energy instead of +3.5 %, and takes little noise away (docs/theory/mpm.md, section 8).
+// A random shift of the grid in every step keeps the jump conditions and the energy. It generates heat, +13 % released
+// energy instead of +3.5 %, and reduces the noise only slightly (docs/theory/mpm.md, section 8).
 TEST(PlanarImpact, RandomShiftOfTheGridKeepsJumpAndEnergy) {
   Method shifted;
   shifted.options = "random_shift = true\n";
@@ -139,8 +138,8 @@ TEST(PlanarImpact, RandomShiftOfTheGridKeepsJumpAndEnergy) {
   EXPECT_LT(result.energy_error, 1e-12);
 }
 
-/// Largest velocity against the direction of the impact, relative to it, of material between 20 and 60 % of the
-/// depth of a slab while the shock crosses it: exactly zero, the material comes to rest behind the shock.
+/// Returns the largest velocity against the direction of the impact, relative to it, of material between 20 and 60 % of
+/// the depth of a slab while the shock crosses it: exactly zero, as the material comes to rest behind the shock.
 double front_overshoot(double up, double linear_viscosity) {
   Method method;
   method.linear_viscosity = linear_viscosity;
@@ -179,8 +178,8 @@ shape = { box = { lower = [-0.0039, 0, 0], upper = [0.0001, 0.0001, 0.0001] } }
   return overshoot;
 }
 
-// Section 7.4: the default viscosity damps the front less than critically, which a free surface makes lasting
-// (material that leaves at the peak); c1 = 1 damps it fully.
+// Section 7.4: the default viscosity damps the front less than critically, which a free surface makes permanent
+// (material leaves at the peak); c1 = 1 damps it fully.
 TEST(ShockFront, OvershootsWithTheDefaultViscosityAndNotWithCriticalDamping) {
   const double standard = front_overshoot(3760.0, Method{}.linear_viscosity);
   EXPECT_GT(standard, 0.05);
@@ -188,7 +187,7 @@ TEST(ShockFront, OvershootsWithTheDefaultViscosityAndNotWithCriticalDamping) {
   EXPECT_LT(front_overshoot(3760.0, 1.0), 0.005);
 }
 
-// Linear FLIP-MUSL stands beside it: noisier, and without the energy balance.
+// Comparison with linear FLIP-MUSL: noisier, and without the energy balance.
 TEST(PlanarImpact, LinearMuslIsNoisierAndLosesTheEnergyBalance) {
   const Result musl = planar_impact(1000.0, Method::musl());
   const Result standard = planar_impact(1000.0, {});

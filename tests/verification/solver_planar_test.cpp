@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two dimensions: plane strain is three dimensions with nothing along z; rings keep energy and axial momentum exactly;
-// uniform pressure, Noh's problem, an expanding ring and a Taylor bar against exact solutions and three dimensions.
+// Two dimensions: plane strain equals three dimensions with nothing along z; rings conserve energy and axial momentum
+// exactly; uniform pressure, Noh's problem, an expanding ring and a Taylor bar compared with exact solutions and three
+// dimensions.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -46,7 +47,7 @@ std::string planar_impact(bool plane, const Method& method) {
 
 using Section = std::map<std::pair<long, long>, std::array<double, 6>>;
 
-/// Values of the particles by where they were at first in the section, of which several stand at each place.
+/// Returns values of the particles by their initial position in the section; several particles share each position.
 Section section(const std::string& text) {
   const cases::Case setup = read(text);
   solver::Simulation simulation(setup, parallel::world());
@@ -63,7 +64,7 @@ Section section(const std::string& text) {
   return section;
 }
 
-/// @param of_scale  difference that is left, in parts of what is usual for each value
+/// @param of_scale  remaining difference, relative to the usual magnitude of each value
 void expect_equal(const Section& plane, const Section& space, double of_scale = 1e-10) {
   constexpr std::array<double, 6> scale = {1e-3, 1e-3, 400.0, 7e9, 2e8, 8e4};
   ASSERT_EQ(space.size(), plane.size());
@@ -120,11 +121,11 @@ shape = {{ box = {{ lower = {}, upper = {} }} }}
                          of("-300.0, 150.0", "0.0"), of("2e-4, 5e-4", "0.0"), of("1e-3, 1.1e-3", "2e-4"));
     };
     // Compressed particles are thinner by the square root of their area in a plane, by the cube root of their volume in
-    // space: a block touches a wall that it sticks to, and whose gap counts, that much earlier or later.
+    // space: a block touches a no-slip wall, for which the gap is relevant, correspondingly earlier or later.
     const bool sticks = std::string(wall) == "no_slip";
     const Section plane = section(block(true));
     expect_equal(plane, section(block(false)), sticks ? 2e-2 : 1e-10);
-    // The wall has stopped the layer next to it, and only one that sticks holds it back along itself.
+    // The wall has stopped the layer next to it; only a no-slip wall also retards it along the wall.
     double along = 0.0, number = 0.0;
     for (const auto& [place, values] : plane) {
       if (place.first != plane.begin()->first.first) continue;
@@ -186,7 +187,7 @@ TEST(Axisymmetric, EnergyAxialMomentumAndTheMassOfTheBodyAreExact) {
 }
 
 TEST(Axisymmetric, UniformPressureIsInEquilibriumAtTheAxis) {
-  // Gas of pressure 1 Pa in a closed cylinder: what moves does so by the quadrature of the first two cells.
+  // Gas at a pressure of 1 Pa in a closed cylinder: any motion is caused by the quadrature of the first two cells.
   const std::string text = fmt::format(R"(
 [time]
 end = 0.5
@@ -223,7 +224,7 @@ shape = {{ box = {{ lower = [0, -1], upper = [0.4, 1] }} }}
   for (std::size_t p = 0; p < q.size(); ++p) ASSERT_NEAR(q.pressure[p], 1.0, 0.02);
 }
 
-/// Mean density of cylindrical Noh (exact: 16) between two radii, and the radius of the shock (exact: 0.2).
+/// Returns the mean density of cylindrical Noh (exact: 16) between two radii, and the radius of the shock (exact: 0.2).
 std::pair<double, double> noh(int cells) {
   const cases::Case setup = read(fmt::format(R"(
 [time]
@@ -306,7 +307,7 @@ shape = {{ box = {{ lower = ["-1 mm", "29 mm"], upper = ["1 mm", "31 mm"] }} }}
   EXPECT_LT(watch.worst, 1e-12);
 }
 
-/// Outermost radii of half the jump of the density near the axis, at 45 degrees and near the equator (exact: 1).
+/// Returns the outermost radii of half the density jump near the axis, at 45 degrees and near the equator (exact: 1).
 std::array<double, 3> sedov(int cells) {
   const double dx = 1.0 / cells, energy = 0.851 / 2.0;  // of half a space, gamma 1.4
   const cases::Case setup = read(fmt::format(R"(
@@ -339,8 +340,7 @@ shape = {{ box = {{ lower = [-1.24, -1.24], upper = [1.24, 1.24] }} }}
   });
   EnergyWatch watch;
   run_to(simulation, setup.time.end, [&](const solver::Simulation& s) {
-    if (s.state().step > 20)
-      watch(s);  // before, next to nothing has been exchanged that errors are measured by
+    if (s.state().step > 20) watch(s);  // before, the exchanged energy that scales the errors is nearly zero
   });
   EXPECT_LT(watch.worst, 1e-12);
   std::array<double, 3> radius{}, largest{};
@@ -452,12 +452,12 @@ TEST(TwoDimensions, WhatNeedsThreeIsRefusedWithTheReason) {
   EXPECT_THAT(error_of(replaced(text, "dimension = \"axisymmetric\"\n", "")),
               HasSubstr("has 2 entries, expected 3"));
   EXPECT_THAT(error_of(replaced(text, "axisymmetric", "2d")), HasSubstr("plane_strain"));
-  // A model of three dimensions that ends at a mirror plane z = 0 has a section there.
+  // A three-dimensional model that ends at a mirror plane z = 0 has its section there.
   const std::string quarter =
       replaced(text, "lower = [\"0 mm\", \"-8 mm\"], upper = [\"2 mm\", \"8 mm\"]",
                "lower = [\"0 mm\", \"0 mm\", \"0 mm\"], upper = [\"2 mm\", \"8 mm\", \"8 mm\"]");
   EXPECT_EQ(error_of(quarter), "");
-  // Gauges of such a model lie in the section at their distance from the axis, whatever its thickness.
+  // Gauges of such a model are in the section at their distance from the axis, whatever its thickness.
   const cases::Case gauged =
       read(quarter +
            "[[gauge]]\nname = \"rear\"\nkind = \"moving\"\nposition = [\"1.9 mm\", \"3 mm\", \"4 mm\"]\n");

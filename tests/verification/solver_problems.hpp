@@ -16,7 +16,7 @@
 /// Tools of the verification problems.
 namespace whipple::verification {
 
-/// Choice of method under test; the default is that of the solver.
+/// Selects the method under test; the default is that of the solver.
 struct Method {
   std::string scheme = "symplectic";
   std::string shape_function = "quadratic_bspline";
@@ -28,7 +28,7 @@ struct Method {
   int fmpm_order = 2;
   std::string options = {};  ///< further lines of the table `transfer`
 
-  /// Linear FLIP-MUSL with the usual viscosity of hydrocodes: what most peers run.
+  /// Returns linear FLIP-MUSL with the usual viscosity of hydrocodes, the method of most other codes.
   static Method musl() { return {"musl", "linear", "flip", 0.3, 0.06, 1.5}; }
   [[nodiscard]] std::string toml() const {
     return "[transfer]\nshape_function = \"" + shape_function + "\"\nparticle_update = \"" + particle_update +
@@ -42,7 +42,7 @@ struct Method {
   }
 };
 
-/// A material file in a folder of the process's own, which goes with it; returns its path.
+/// Writes a material file in a temporary folder of the process; returns its path.
 inline std::string write_material(const std::string& name, const std::string& text) {
   static const TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / (name + ".toml");
@@ -50,7 +50,7 @@ inline std::string write_material(const std::string& name, const std::string& te
   return path.string();
 }
 
-/// Aluminium, the Grueneisen material of the shock problems, with von Mises' yield stress; `more` follows
+/// Returns aluminium, the Grueneisen material of the shock problems, with von Mises' yield stress; `more` is appended
 /// (failure).
 inline std::string aluminium(const std::string& name, const std::string& yield_stress,
                              const std::string& more = {}) {
@@ -74,10 +74,10 @@ yield_stress = ")toml" + yield_stress +
                                   "\"\n" + more);
 }
 
-/// Linear elastic: yields far above every stress.
+/// Returns a linear elastic material: its yield stress is far above every stress.
 inline std::string elastic_aluminium() { return aluminium("elastic_aluminium", "1e6 GPa"); }
 
-/// Runs a simulation to a time; `each_step` may look at it after every step.
+/// Runs a simulation to a time; `each_step` is called after every step.
 inline void run_to(solver::Simulation& simulation, double end,
                    const std::function<void(const solver::Simulation&)>& each_step = {}) {
   while (simulation.state().time < end) {
@@ -86,7 +86,7 @@ inline void run_to(solver::Simulation& simulation, double end,
   }
 }
 
-/// Largest absolute error of the total energy over the run, relative to the initial energy.
+/// Records the largest absolute error of the total energy over the run, relative to the initial energy.
 struct EnergyWatch {
   double worst = 0.0;
   void operator()(const solver::Simulation& simulation) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rotation over many turns: what an unbalanced transfer of the affine field spoils.
+// Rotation over many turns: sensitive to an unbalanced transfer of the affine field.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -13,12 +13,12 @@
 namespace whipple::verification {
 namespace {
 
-/// What ten turns change, relative.
+/// Holds the relative changes in ten turns.
 struct TenTurns {
   double angular_momentum, internal_energy, energy_error;
 };
 
-/// An elastic sphere of radius 3 cells with a rim speed of 300 m/s.
+/// Computes an elastic sphere of radius 3 cells with a rim speed of 300 m/s.
 TenTurns ten_turns(const std::string& shape, const std::string& affine_field) {
   constexpr double radius = 3e-3, rim = 300.0;
   const double omega = rim / radius, end = 10 * 2 * std::numbers::pi / omega;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Taylor bar of copper, 190 m/s (Johnson & Holmquist 1988: length 16.2, foot diameter 13.5 mm). Proves:
-// strength, mirror wall with wide kernels (peers' fixed nodes give feet 12 to 40 % off), independence of the
-// time step.
+// Taylor bar of copper, 190 m/s (Johnson & Holmquist 1988: length 16.2, impact-end diameter 13.5 mm). Proves: strength,
+// mirror wall with wide kernels (fixed nodes, as in other codes, give impact-end diameters 12 to 40 % off),
+// independence of the time step.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -39,8 +39,8 @@ shape = { cylinder = { center = ["0 mm", "0 mm", "12.73 mm"], axis = "z", radius
   solver::Simulation simulation(setup, parallel::world());
   EnergyWatch watch;
   run_to(simulation, setup.time.end, std::ref(watch));
-  // Half a particle spacing (0.19 mm) lies between the outermost particle and the surface that it stands for.
-  // The cross-section is the volume per length, with a hat function of two cells.
+  // Half a particle spacing (0.19 mm) is between the outermost particle and the surface that it represents. The
+  // cross-section is the volume per length, with a hat function of two cells.
   double top = 0, foot = 0, outmost = 0, section = 0;
   const Particles& q = simulation.particles();
   for (std::size_t p = 0; p < q.size(); ++p) {
@@ -73,15 +73,15 @@ TEST(TaylorBar, DefaultSchemeMatchesExperimentForEveryTimeStep) {
     EXPECT_NEAR(shape.length, 16.2, 0.02 * 16.2);
     EXPECT_NEAR(shape.foot, 13.5, 0.02 * 13.5);
     EXPECT_NEAR(shape.middle, 10.1, 0.03 * 10.1);
-    // What the scheme gives (docs/theory/mpm.md, 7.2): the same within 0.1 % for every time step.
+    // Results of the scheme (docs/theory/mpm.md, 7.2): equal within 0.1 % for every time step.
     EXPECT_NEAR(shape.length, 16.28, 0.003 * 16.28);
     EXPECT_NEAR(shape.foot, 13.325, 0.003 * 13.325);
     EXPECT_LT(shape.energy_error, 1e-12);
   }
 }
 
-// Length, foot and middle within 3 % of the experiment with every kind of shape function, the mirror wall
-// right for all.
+// Length, impact-end and middle diameter within 3 % of the experiment with every kind of shape function; the mirror
+// wall is correct for all.
 TEST(TaylorBar, EveryShapeFunctionMatchesTheExperiment) {
   for (const char* shape_function : {"gimp", "cubic_bspline"}) {
     const bool affine = std::string(shape_function) == "cubic_bspline";
@@ -95,7 +95,7 @@ TEST(TaylorBar, EveryShapeFunctionMatchesTheExperiment) {
 }
 
 TEST(TaylorBar, LinearMuslReproducesPublishedCodes) {
-  // MPM3D-F90, Karamelo and NairnMPM agree on 16.43 mm with this scheme, feet 13.41 to 13.50 mm.
+  // MPM3D-F90, Karamelo and NairnMPM agree on 16.43 mm with this scheme, impact-end diameters 13.41 to 13.50 mm.
   Method method = Method::musl();
   const Shape shape = taylor_bar(method);
   EXPECT_NEAR(shape.length, 16.43, 0.005 * 16.43);

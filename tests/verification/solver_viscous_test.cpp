@@ -43,7 +43,7 @@ struct Decay {
   double heat;            // over the loss of kinetic energy
   double energy_error;
   double largest_step;  // over dx^2/nu
-  double unresolved;    // the same, of what became neither heat nor motion of the grid
+  double unresolved;    // the fraction that became neither heat nor motion of the grid
 };
 
 cases::Case vortex(int cells) {
@@ -103,14 +103,14 @@ TEST(ViscousFluid, TaylorGreenVortexDecaysAtTheExactRateAndItsEnergyIsHeat) {
   EXPECT_NEAR(fine.kinetic_energy, exact, 0.02 * exact);
   EXPECT_LT(std::abs(fine.kinetic_energy - exact), 0.4 * std::abs(coarse.kinetic_energy - exact));
   for (const Decay& d : {coarse, fine}) {
-    EXPECT_NEAR(d.heat + d.unresolved, 1.0, 1e-9);  // what the transfers lose is no work of the viscosity
+    EXPECT_NEAR(d.heat + d.unresolved, 1.0, 1e-9);  // losses of the transfers are not work of the viscosity
     EXPECT_GT(d.heat, 0.999);
     EXPECT_LT(d.energy_error, 1e-11);
     EXPECT_LT(d.largest_step, 1.0 / 18.0 + 1e-12);
   }
 }
 
-// Sound bounds the step of the coarse grids above; on fine grids diffusion does.
+// Sound limits the step of the coarse grids above; on fine grids diffusion does.
 TEST(ViscousFluid, DiffusionBoundsTheStepOfFineGrids) {
   constexpr int cells = 64;
   solver::Simulation simulation(vortex(cells), parallel::world());
@@ -118,13 +118,13 @@ TEST(ViscousFluid, DiffusionBoundsTheStepOfFineGrids) {
   EXPECT_NEAR(simulation.accurate_time_step(), bound, 1e-6 * bound);
 }
 
-/// A body force drives fluid at rest between no-slip walls at y = 0 and y = H; parallel to them the fluid is
-/// five times as long as the channel is wide, with free ends, and only its middle counts.
+/// A body force drives fluid at rest between no-slip walls at y = 0 and y = H; parallel to them the fluid is five times
+/// as long as the channel is wide, with free ends, and only its middle is evaluated.
 struct Channel {
   static constexpr double width = 0.01, nu = 0.004, largest = 0.5, time = 0.1 * width * width / nu;
   static constexpr double force = 8.0 * nu * largest / (width * width);  // per mass
 
-  /// Start-up of the plane flow (Batchelor, An Introduction to Fluid Dynamics (1967), section 4.3).
+  /// Returns the start-up of the plane flow (Batchelor, An Introduction to Fluid Dynamics (1967), section 4.3).
   static double exact(double y) {
     double u = 0.5 * force / nu * y * (width - y);
     for (int n = 1; n < 40; n += 2) {
@@ -135,7 +135,7 @@ struct Channel {
     return u;
   }
 
-  /// Root mean square error of the velocity over its largest value.
+  /// Returns the root-mean-square error of the velocity over its largest value.
   static double error(int cells) {
     const double dx = width / cells;
     const std::string thickness = std::to_string(1e3 * dx) + " mm";

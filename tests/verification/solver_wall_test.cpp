@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Material that flies towards mirror planes and walls: it does not act on them before it touches, and then as
-// strongly as if it had touched from the start (docs/theory/mpm.md, section 3).
+// Material that flies towards mirror planes and walls: it does not act on them before contact, and then as strongly as
+// if it had touched from the start (docs/theory/mpm.md, section 3).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ constexpr double dx = 1e-4;                 // m
 constexpr double cells = 20.0;              // of the slab
 constexpr double sticking_distance = 0.02;  // cells before a no-slip wall: half of its gap
 
-/// Pressure of aluminium that a wall stops, exact.
+/// Returns the exact pressure of aluminium that is stopped by a wall.
 double wall_pressure(double speed) { return 2785.0 * (5328.0 + 1.338 * speed) * speed; }
 double shock_speed(double speed) { return 5328.0 + 1.338 * speed; }
 
@@ -37,7 +37,7 @@ std::string body(const std::string& name, const std::string& material, const std
          "\"\nvelocity = " + vector3(velocity) + "\nshape = { " + shape + " }\n" + more;
 }
 
-/// A slab in a column of one cell, `gap` cells before a wall at x = 0 that it flies to.
+/// A slab in a column of one cell, initially `gap` cells in front of a wall at x = 0 to which it flies.
 struct Column {
   std::string wall = "symmetry";
   double gap = 0.0;      // cells
@@ -64,12 +64,12 @@ struct Column {
 
 struct Hit {
   double peak = 0.0;     // largest pressure / exact
-  double early = 0.0;    // cells of approach left at the beginning of the step with the first pressure
+  double early = 0.0;    // cells of approach remaining at the beginning of the step with the first pressure
   double step = 0.0;     // cells of approach in that step
   double plateau = 0.0;  // mean pressure of the middle of the shocked material / exact
-  double before = 0.0;   // largest impulse on the body before it touches / its momentum
+  double before = 0.0;   // largest impulse on the body before contact / its momentum
   double impulse_error = 0.0, energy_error = 0.0;
-  double contact_heat = 0.0;  // share of the kinetic energy
+  double contact_heat = 0.0;  // fraction of the kinetic energy
   int steps = 0;
 };
 
@@ -105,7 +105,7 @@ Hit hit(const Column& column) {
   int count = 0;
   const Particles& q = simulation.particles();
   for (std::size_t p = 0; p < q.size(); ++p) {
-    // Material keeps its order: by its mass from the front.
+    // Material keeps its order: by its mass from the front
     const double depth = -q.position[p][0] / dx * (us / (us - column.speed));
     if (depth < 3.0 || depth > 12.0) continue;
     sum += q.pressure[p];
@@ -124,9 +124,9 @@ void print(const Column& column, const Hit& h) {
       h.energy_error, h.contact_heat, h.steps);
 }
 
-/// A slab flies across the gap: what it does to the wall, against the run in which it touches at the start.
+/// Compares a slab that flies across the gap with the run in which it touches the wall at the start.
 void expect_as_touching(const Column& column, const Hit& touching, double peak, double plateau) {
-  // Without relaxation impulses stop the nodes (3.11), which rings less than a common field.
+  // Without relaxation impulses stop the nodes (3.11), which causes less oscillation than a common field.
   const double below = column.method.particle_update == "flip" ? 0.35 : peak;
   const Hit h = hit(column);
   print(column, h);
@@ -149,8 +149,8 @@ TEST(WallContact, ActsWhenMatterTouchesAndAsIfItHadTouchedFromTheStart) {
       const Hit touching = hit({.wall = wall, .speed = speed});
       for (const double gap : {0.1, 0.5, 1.0, 2.0, 5.0, 20.0}) {
         if (speed < 300.0 && gap > 10.0) continue;  // many steps for the same
-        // Beyond 1 km/s the first step in touch, which is a full one after a flight and a twentieth at the
-        // start, raises the peak of the first layer.
+        // Above 1 km/s the first step in contact, which is a full one after a flight and a twentieth at the start,
+        // raises the peak of the first layer.
         expect_as_touching({.wall = wall, .gap = gap, .speed = speed}, touching, speed > 1e3 ? 0.1 : 0.05,
                            0.02);
       }
@@ -158,8 +158,8 @@ TEST(WallContact, ActsWhenMatterTouchesAndAsIfItHadTouchedFromTheStart) {
   }
 }
 
-// PIC and APIC damp by the step, so all runs begin with a full one; a fold across the gap gives 3.6 times the
-// pressure.
+// The damping of PIC and APIC depends on the number of steps, so all runs begin with a full one; a fold across the gap
+// gives 3.6 times the pressure.
 TEST(WallContact, DoesSoWithEveryShapeFunctionUpdateAndScheme) {
   for (const char* shape : {"gimp", "convected_gimp", "quadratic_bspline", "cubic_bspline"}) {
     for (const char* update : {"flip", "pic", "relaxed_affine", "apic"}) {
@@ -180,7 +180,7 @@ TEST(WallContact, DoesSoWithEveryShapeFunctionUpdateAndScheme) {
   expect_as_touching({.gap = 2.3, .method = full_matrix}, hit({.method = full_matrix}), 0.15, 0.15);
 }
 
-/// Momentum after two crossings and one more, over that of the beginning: 1 exact for a wall that lets go.
+/// Returns the momentum after two transits and one more, over the initial one: 1 exactly for a separating wall.
 double rebound(const std::string& wall, double gap) {
   constexpr double cell = 1e-3, length = 0.04, speed = 10.0;
   const double c = std::sqrt(5328.0 * 5328.0 + 4.0 / 3.0 * 27.6e9 / 2785.0);
@@ -200,8 +200,8 @@ double rebound(const std::string& wall, double gap) {
   return simulation.totals().momentum[0] / (simulation.totals().mass * speed);
 }
 
-// A bar that was before the plane leaves it without sticking; one that touched it at the start is one with
-// its image, and a no-slip wall holds both.
+// A bar that started in front of the plane leaves it without sticking; one that touched it at the start is continuous
+// with its image, and a no-slip wall holds both.
 TEST(WallContact, LetsABodyGoThatCame) {
   const double lets_go = rebound("separating", 0.0);
   std::printf("rebound: separating wall, touching %.4f\n", lets_go);
@@ -215,7 +215,7 @@ TEST(WallContact, LetsABodyGoThatCame) {
   EXPECT_LT(rebound("no_slip", 0.3), 0.2);
 }
 
-/// Two slabs in a column, or one before a mirror plane in the middle of where they meet.
+/// Two slabs in a column, or one in front of a mirror plane in the middle between them.
 struct MeetingSlabs {
   bool half;
   double gap, speed;  // cells of each slab from the middle, m/s
@@ -236,7 +236,7 @@ struct MeetingSlabs {
   }
 };
 
-/// Largest difference of the positions (m) and energies (relative to v^2) of the left slab.
+/// Returns the largest difference of the positions (m) and energies (relative to v^2) of the left slab.
 std::pair<double, double> difference(const solver::Simulation& a, const solver::Simulation& b, double speed) {
   double position = 0.0, energy = 0.0;
   const Particles &x = a.particles(), &y = b.particles();
@@ -250,7 +250,8 @@ std::pair<double, double> difference(const solver::Simulation& a, const solver::
   return {position, energy / (speed * speed)};
 }
 
-// Contact with the image is contact with a real image: the common field along the normal where bodies press.
+// Contact with the image equals contact with a real image: the common field along the normal where bodies are under
+// compression.
 TEST(WallContact, EqualsContactWithARealImage) {
   for (const double gap : {0.0, 0.5, 2.3}) {
     constexpr double speed = 500.0;
@@ -258,7 +259,7 @@ TEST(WallContact, EqualsContactWithARealImage) {
     const std::string contact = "[contact]\nmethod = \"auto\"\n";
     std::optional<solver::Simulation> full;
     full.emplace(MeetingSlabs{false, gap, speed, contact}.simulation(end));
-    // Of two slabs that touch at the start each has its own field; half of them is one with its image.
+    // Two slabs that touch at the start have separate fields; half of them is continuous with its image.
     if (gap == 0.0) continue;
     solver::Simulation half = MeetingSlabs{true, gap, speed, {}}.simulation(end);
     double worst = 0.0, worst_energy = 0.0;
@@ -276,8 +277,8 @@ TEST(WallContact, EqualsContactWithARealImage) {
   }
 }
 
-// The same of a sphere and its image, but for the normals that two bodies find at nodes off the plane: those
-// lean.
+// The same for a sphere and its image, except for the normals that two bodies have at nodes off the plane, which are
+// inclined.
 TEST(WallContact, OfASphereIsThatOfTwo) {
   constexpr double cell = 1e-3, speed = 1500.0, radius = 3e-3, gap = 0.3e-3, end = 5e-6;
   const auto simulate = [&](bool half) {
@@ -312,8 +313,8 @@ TEST(WallContact, OfASphereIsThatOfTwo) {
   EXPECT_NEAR(heat, heat_of_two, 0.015 * half->state().ledger.initial.kinetic_energy);
 }
 
-// A slab on a mirror plane is one with its image, in pressure and in tension: half of a slab that two others
-// hit from both sides.
+// A slab on a mirror plane is continuous with its image, in pressure and in tension: half of a slab that two others hit
+// from both sides.
 TEST(WallContact, MatterOnAPlaneAtTheStartIsOneWithItsImage) {
   constexpr double speed = 500.0, end = 2.2e-6;
   const auto simulate = [&](bool half) {
@@ -354,8 +355,8 @@ TEST(WallContact, MatterOnAPlaneAtTheStartIsOneWithItsImage) {
   EXPECT_LT(tension, -1e9);
 }
 
-/// A block that flies obliquely into the corner of three walls, with another beside it in the same fields or
-/// fields of their own.
+/// Returns a case of a block that flies obliquely into the corner of three walls, with another one next to it in the
+/// same field or a separate one.
 cases::Case corner(const std::string& contact, const std::string& z_lower, double end) {
   constexpr double cell = 1e-3;
   return cases::read_case_text(
@@ -396,7 +397,7 @@ TEST(WallContact, IsExactWherePlanesAndBodiesMeetAndTheSameByThreadsAndRestart) 
                 simulation.state().ledger.contact_heat / simulation.state().ledger.initial.energy(),
                 static_cast<int>(simulation.state().step));
     EXPECT_LT(watch.worst, 1e-13);
-    // Where a plane without slip meets another, their mixings do not commute (docs/theory/mpm.md, section 3).
+    // Where a no-slip plane meets another plane, their couplings do not commute (docs/theory/mpm.md, section 3).
     const double least =
         std::string(z_lower) == "no_slip" ? -0.015 * simulation.totals().internal_energy : 0.0;
     EXPECT_GT(simulation.state().ledger.contact_heat, least);
@@ -412,7 +413,7 @@ TEST(WallContact, IsExactWherePlanesAndBodiesMeetAndTheSameByThreadsAndRestart) 
   }
 }
 
-// Between planes one cell apart nodes that one plane holds are the images of nodes beyond the other.
+// Between planes one cell apart nodes held by one plane are the images of nodes beyond the other.
 TEST(WallContact, KeepsEnergyAndMomentumOfAGasThatFillsACellBetweenTwoPlanes) {
   constexpr double end = 1.5e-6;
   for (const char* wall : {"symmetry", "no_slip", "separating"}) {
@@ -449,7 +450,7 @@ TEST(WallContact, KeepsEnergyAndMomentumOfAGasThatFillsACellBetweenTwoPlanes) {
   }
 }
 
-/// Elements beside particles in a column of two cells: nodes of elements near particles move with the grid.
+/// Elements next to particles in a column of two cells: nodes of elements near particles move with the grid.
 TEST(WallContact, StopsElementsThatMoveWithTheGridWhereTheirFacetsTouch) {
   constexpr double speed = 500.0, gap = 2.3;
   const double length = 10 * dx, touch = gap * dx / speed, end = touch + 0.8 * length / shock_speed(speed);

@@ -64,7 +64,7 @@ struct PorousState {
   std::span<const double> bulk_modulus;     ///< rho c^2, Pa
   std::span<const double> shear_modulus;    ///< with melting, Pa
   std::span<const double> melted_fraction;  ///< mass fraction of liquid and vapour
-  /// Of the material between the voids, with melting, Pa; only if needed.
+  /// Flow stress of the material between the voids, with melting, Pa; only if needed.
   std::span<const double> flow_stress;
   std::span<const double> trial;             ///< equivalent trial stress of the deviator, Pa
   std::span<const double> threshold_factor;  ///< scatter of the failure threshold (1: none)
@@ -118,7 +118,7 @@ class Criterion {
 template <class Law>
 class CriterionModel final : public Criterion {
  public:
-  /// @throws InputError if the constants contradict one another
+  /// @throws InputError if the constants are inconsistent
   explicit CriterionModel(const Law& law) : law_(law) { law_.require_consistent(); }
   [[nodiscard]] std::string_view model() const override { return Law::name; }
   void mark(const State& state, std::span<double> damage, std::span<std::uint8_t> failed) const override {

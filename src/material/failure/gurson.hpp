@@ -73,7 +73,7 @@ struct Gurson {
       "157;\n"
       "Chu and Needleman, J. Eng. Mater. Technol. 102 (1980) 249.";
 
-  /// @throws InputError if the constants contradict one another
+  /// @throws InputError if the constants are inconsistent
   void require_consistent() const {
     if (initial_porosity >= failure_porosity) {
       throw InputError("'initial_porosity' must be below 'failure_porosity'");

@@ -70,7 +70,7 @@ struct JohnsonCookDamage {
       "least_triaxiality <= t <= greatest_triaxiality; T* = (T - T_r)/(T_m - T_r) in [0, 1].\n"
       "Source: Johnson and Cook, Eng. Fract. Mech. 21 (1985) 31-48.";
 
-  /// @throws InputError if the constants contradict one another
+  /// @throws InputError if the constants are inconsistent
   void require_consistent() const {
     if (!(least_triaxiality < greatest_triaxiality)) {
       throw InputError("'least_triaxiality' must be below 'greatest_triaxiality'");

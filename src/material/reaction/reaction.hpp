@@ -49,7 +49,7 @@ class Reaction {
 template <class Law>
 class ReactionModel final : public Reaction {
  public:
-  /// @throws InputError if the constants contradict one another
+  /// @throws InputError if the constants are inconsistent
   explicit ReactionModel(const Law& law) : law_(law) { law_.require_consistent(); }
   [[nodiscard]] std::string_view model() const override { return Law::name; }
   [[nodiscard]] Closure closure() const override { return law_.closure; }

@@ -102,7 +102,7 @@ inline BrittleReturn brittle_return(double trial, double stiffness, const Brittl
 template <class Law>
 class BrittleModel final : public Strength, public Brittle {
  public:
-  /// @throws InputError if the constants contradict one another
+  /// @throws InputError if the constants are inconsistent
   explicit BrittleModel(const Law& law) : law_(law), modulus_(law.stiffness()) { law.require_consistent(); }
 
   [[nodiscard]] const Law& law() const { return law_; }

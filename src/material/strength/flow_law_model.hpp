@@ -25,7 +25,7 @@ namespace whipple::strength {
 template <class Law>
 class FlowLawModel final : public Strength {
  public:
-  /// @throws InputError if the constants contradict one another
+  /// @throws InputError if the constants are inconsistent
   explicit FlowLawModel(const Law& law) : law_(law), modulus_(law.stiffness()) { law.require_consistent(); }
 
   [[nodiscard]] std::string_view model() const override { return Law::name; }

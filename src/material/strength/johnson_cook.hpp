@@ -52,7 +52,7 @@ struct JohnsonCook : ElasticConstants {
       "step with its hardening and rate.\n"
       "Source: Johnson and Cook, Proc. 7th Int. Symp. Ballistics (1983) 541-547.";
 
-  /// @throws InputError if the constants contradict one another
+  /// @throws InputError if the constants are inconsistent
   void require_consistent() const {
     if (melting_temperature <= reference_temperature) {
       throw InputError("'melting_temperature' must be above 'reference_temperature'");

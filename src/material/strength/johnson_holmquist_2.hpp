@@ -69,7 +69,7 @@ struct JohnsonHolmquist2 : ElasticConstants {
       "total strain.\n"
       "Source: Johnson and Holmquist, AIP Conf. Proc. 309 (1994) 981.";
 
-  /// @throws InputError if the constants contradict one another
+  /// @throws InputError if the constants are inconsistent
   void require_consistent() const {
     if (!(hugoniot_elastic_limit > pressure_at_elastic_limit)) {
       throw InputError("'hugoniot_elastic_limit' must be above 'pressure_at_elastic_limit'");

@@ -100,7 +100,7 @@ struct MechanicalThreshold {
       "F = tanh(alpha sigma_e/sigma_es)/tanh(alpha), times the solid fraction: docs/theory/material.md.\n"
       "Source: Follansbee and Kocks, Acta Metall. 36 (1988) 81.";
 
-  /// @throws InputError if the constants contradict one another
+  /// @throws InputError if the constants are inconsistent
   void require_consistent() const {
     if (modulus_of(1.0, melting_temperature) <= 0.0) {
       throw InputError("'modulus_drop' leaves no shear modulus below 'melting_temperature'");

@@ -19,7 +19,7 @@ namespace whipple::strength {
 /// Implements Strength for MechanicalThreshold.
 class MechanicalThresholdModel final : public Strength {
  public:
-  /// @throws InputError if the constants contradict one another
+  /// @throws InputError if the constants are inconsistent
   explicit MechanicalThresholdModel(const MechanicalThreshold& constants) : constants_(constants) {
     constants.require_consistent();
   }

@@ -91,7 +91,7 @@ struct PrestonTonksWallace {
       "tau from tau_y to tau_s with the plastic strain: docs/theory/material.md.\n"
       "Source: Preston, Tonks and Wallace, J. Appl. Phys. 93 (2003) 211.";
 
-  /// @throws InputError if the constants contradict one another
+  /// @throws InputError if the constants are inconsistent
   void require_consistent() const {
     if (hot_saturation > cold_saturation) throw InputError("'hot_saturation' is above 'cold_saturation'");
     if (hot_yield > cold_yield) throw InputError("'hot_yield' is above 'cold_yield'");
@@ -163,7 +163,7 @@ struct PrestonTonksWallace {
 
 class PrestonTonksWallaceModel final : public Strength {
  public:
-  /// @throws InputError if the constants contradict one another
+  /// @throws InputError if the constants are inconsistent
   explicit PrestonTonksWallaceModel(const PrestonTonksWallace& constants) : constants_(constants) {
     constants.require_consistent();
   }

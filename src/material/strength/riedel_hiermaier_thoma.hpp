@@ -96,7 +96,7 @@ struct RiedelHiermaierThoma : ElasticConstants {
       "Riedel,\n"
       "8th European LS-DYNA Users Conf. (2011).";
 
-  /// @throws InputError if the constants contradict one another
+  /// @throws InputError if the constants are inconsistent
   void require_consistent() const {
     if (!(relative_tensile_strength * shear_meridian() < relative_shear_strength * lode_ratio)) {
       throw InputError(

@@ -91,7 +91,7 @@ struct SteinbergGuinan {
 
 class SteinbergGuinanModel final : public Strength {
  public:
-  /// @throws InputError if the constants contradict one another
+  /// @throws InputError if the constants are inconsistent
   explicit SteinbergGuinanModel(const SteinbergGuinan& constants) : constants_(constants) {
     if (constants.maximum_flow_stress < constants.yield_stress) {
       throw InputError("'maximum_flow_stress' is less than 'yield_stress'");

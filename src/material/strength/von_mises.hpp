@@ -37,7 +37,7 @@ struct VonMises : HardeningLaw<VonMises> {
       "Prager,\n"
       "Proc. Inst. Mech. Eng. 169 (1955) 41.";
 
-  /// @throws InputError if the constants contradict one another
+  /// @throws InputError if the constants are inconsistent
   void require_consistent() const {
     if (maximum_flow_stress < yield_stress) {
       throw InputError("'maximum_flow_stress' is less than 'yield_stress'");

@@ -52,7 +52,7 @@ struct ZerilliArmstrong : ElasticConstants {
       "times the solid fraction; shear modulus G times the solid fraction.\n"
       "Source: Zerilli and Armstrong, J. Appl. Phys. 61 (1987) 1816.";
 
-  /// @throws InputError if the constants contradict one another
+  /// @throws InputError if the constants are inconsistent
   void require_consistent() const {
     if (athermal_stress + thermal_stress <= 0.0) {
       throw InputError("'athermal_stress' or 'thermal_stress' must be positive");
