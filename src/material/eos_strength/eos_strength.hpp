@@ -9,6 +9,7 @@
 
 #include "src/material/common.hpp"
 #include "src/material/constitutive.hpp"
+#include "src/material/failure/fragment_size.hpp"
 
 /// Equation of state, strength and failure as one constitutive model (docs/theory/material.md).
 namespace whipple::material {
@@ -34,13 +35,14 @@ class EosStrength final : public Constitutive {
   /// All fields that it may declare.
   static std::vector<HistoryField> fields();
 
-  std::shared_ptr<const BurningExplosive> burn;  ///< null: the material does not burn
+  std::shared_ptr<const BurningExplosive> burn;      ///< null: the material does not burn
+  const failure::FragmentSize* fragments = nullptr;  ///< of its failure; null: failed points keep no size
 
   /// First lanes of the history fields; of a field that is not declared: a lane that nobody else uses.
   static constexpr std::size_t undeclared = most_history - 1;
   std::size_t damage = undeclared, distension = undeclared, back_stress = undeclared, strain = undeclared,
               stored_cold_work = undeclared, burn_fraction = undeclared, lighting_time = undeclared,
-              threshold_stress = undeclared;
+              threshold_stress = undeclared, fragment_size = undeclared;
 
  private:
   using Share = void (*)(const EosStrength& model, const Chunk& chunk, Lanes& share);
