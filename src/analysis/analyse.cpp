@@ -414,6 +414,7 @@ void analyse(const Run& run, const Options& options, const fs::path& folder) {
     row = measure(run, start, options, outflow, last);
     fragments = fragments_of(entry, last, run, frame, link);
     append(row, piece_measures(fragments, run.bodies));
+    append(row, fragment_size_measures(last, run.bodies));
     series.append(row);
     if (peaks) peaks->add(last);
     if (arrivals) arrivals->add(last);

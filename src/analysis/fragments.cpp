@@ -155,6 +155,22 @@ Quantities piece_measures(const Fragments& fragments, std::span<const BodyInput>
   return row;
 }
 
+Quantities fragment_size_measures(const Snapshot& snapshot, std::span<const BodyInput> bodies) {
+  const std::vector<double>* size = snapshot.scalar("fragment_size");
+  if (size == nullptr) return {};
+  std::vector<std::vector<std::pair<double, double>>> of_body(bodies.size());
+  for (std::size_t i = 0; i < snapshot.size(); ++i) {
+    if ((*size)[i] > 0.0) of_body[snapshot.body[i]].emplace_back((*size)[i], snapshot.mass[i]);
+  }
+  Quantities row;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    row.push_back(measured("fragment_size", bodies[b].name, weighted_quantile(of_body[b], 0.5)));
+    row.push_back(measured("fragment_size_16", bodies[b].name, weighted_quantile(of_body[b], 0.16)));
+    row.push_back(measured("fragment_size_84", bodies[b].name, weighted_quantile(of_body[b], 0.84)));
+  }
+  return row;
+}
+
 Table pieces_by_distance(const Snapshot& snapshot, std::span<const BodyInput> bodies, const Frame& frame,
                          double cell) {
   Table table{.name = "pieces_by_distance",

@@ -21,6 +21,7 @@ constexpr std::string_view no_crater = "no floor: the body is open on the axis o
 constexpr std::string_view no_bulge = "the body is perforated, or nothing of it is left on the axis";
 constexpr std::string_view bar_gone = "fewer than three cells of the bar are left";
 constexpr std::string_view no_fragments = "too few fragments of the debris";
+constexpr std::string_view no_sizes = "nothing of the body failed while it expanded, or it keeps no size";
 constexpr std::string_view no_peaks = "no particle of the body began at these depths near the axis";
 constexpr std::string_view no_hits = "no debris hits the plate";
 constexpr std::string_view no_arrivals = "nothing has passed the plane";
@@ -107,6 +108,9 @@ constexpr auto table = std::to_array<Measure>({
     {"piece_count.BODY", "1", "number of fragments: at least four connected intact particles, with what has failed beside them; in two dimensions of pieces of the section", gone},
     {"piece_mass.BODY", "kg", "mean mass of the fragments of the body", "the body has no fragments"},
     {"loose_fraction.BODY", "1", "fraction of its mass in no fragment, without vapour", gone},
+    {"fragment_size.BODY", "m", "median over the mass of the size that failed material kept (`[[failure]] model = \"fragment_size\"`; output field fragment_size)", no_sizes},
+    {"fragment_size_16.BODY", "m", "size that 16 % of that mass lies below", no_sizes},
+    {"fragment_size_84.BODY", "m", "size that 84 % of that mass lies below", no_sizes},
     {"debris_fragments", "1", "number of fragments of the debris", ""},
     {"debris_fragments_resolved", "1", "number of those of at least eight particles", ""},
     {"largest_fragment", "kg", "mass of the largest fragment of the debris", "there is no debris"},

@@ -12,6 +12,7 @@
 #include "src/core/base/error.hpp"
 #include "src/core/base/text.hpp"
 #include "src/material/eos_strength/eos_strength.hpp"
+#include "src/material/failure/fragment_size.hpp"
 #include "src/material/strength/brittle.hpp"
 #include "src/material/strength/none.hpp"
 
@@ -100,6 +101,15 @@ void require_parts_agree(const Material& material) {
   }
 }
 
+/// @throws InputError if sizes of fragments are asked for twice, or of material that does not fail
+void require_one_fragment_size(const Material& material) {
+  const auto asked = std::ranges::count_if(
+      material.failure, [](const auto& c) { return c->model() == failure::FragmentSize::name; });
+  if (asked > 1) throw InputError("failure model \"fragment_size\" is given twice");
+  if (asked == 1 && material.failure.size() == 1)
+    throw InputError("failure model \"fragment_size\" makes nothing fail: it goes with another one");
+}
+
 double initial_porosity(const Material& material) {
   return material.void_growth == nullptr ? 0.0 : material.void_growth->initial_porosity();
 }
@@ -111,6 +121,7 @@ namespace {
 /// Computes the quantities that follow from the parts.
 Material completed(Material material) {
   require_parts_agree(material);
+  require_one_fragment_size(material);
   for (const auto& criterion : material.failure) {
     if (criterion->grows_voids()) material.void_growth = criterion.get();
   }

@@ -3,12 +3,25 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <numeric>
 
 #include "tests/parallel/solver_ranks.hpp"
 #include "tests/verification/crack_problems.hpp"
 
 namespace whipple::solver {
 namespace {
+
+/// Checks the sizes of fragments that particles keep, by the sum of all ranks. Collective.
+void expect_same_sizes(const Simulation& together, const Simulation& alone) {
+  const auto sum = [](const Simulation& simulation) {
+    const std::vector<double>& sizes = simulation.particles().history.scalar("fragment_size");
+    return std::accumulate(sizes.begin(), sizes.end(), 0.0);
+  };
+  std::array everywhere = {sum(together)};
+  parallel::sum(MPI_COMM_WORLD, everywhere);
+  if (is_root()) EXPECT_NEAR(everywhere[0], sum(alone), 1e-9 * sum(alone));
+}
 
 TEST(CrackRanks, AgreeWithOneRank) {
   for (const char* dimension : {"plane_strain", "3d"}) {
@@ -20,6 +33,7 @@ TEST(CrackRanks, AgreeWithOneRank) {
     advance_to(together, end);
     advance_on_root(alone, end);
     advance_on_root(whole, end);
+    expect_same_sizes(together, alone);
     expect_agreement(together, alone, 1e-9);
     const Totals totals = together.totals();
     EXPECT_LT(together.state().ledger.momentum_error(totals), 1e-12);
@@ -27,6 +41,8 @@ TEST(CrackRanks, AgreeWithOneRank) {
     if (!is_root()) continue;
     EXPECT_GT(verification::largest_distance(alone.particles(), whole.particles()), 1e-6);  // cracks open
     EXPECT_TRUE(std::ranges::any_of(alone.particles().failed, [](std::uint8_t code) { return code != 0; }));
+    const std::vector<double>& sizes = alone.particles().history.scalar("fragment_size");
+    EXPECT_TRUE(std::ranges::any_of(sizes, [](double size) { return size > 0.0; }));
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <random>
@@ -337,6 +338,28 @@ TEST(Pieces, OfRandomPointsAgreeWithTheDefinitionInAnyOrderPlaceAndThreads) {
       EXPECT_EQ(std::set(found.begin(), found.end()).size(), pieces);
     }
   }
+}
+
+TEST(FragmentSizes, AreQuantilesOfTheMassThatKeepsASize) {
+  Maker maker(1e-3);
+  EXPECT_TRUE(fragment_size_measures(maker.snapshot, one_body).empty());  // not written
+  std::vector<double>& size = maker.snapshot.scalars["fragment_size"];
+  for (int i = 1; i <= 100; ++i) {
+    maker.add(Vector3(0, 0, 0.01 * i), Vector3::Zero(), 0);
+    size.push_back(1e-5 * (i % 2 == 0 ? i : 0));  // every other one has not failed
+  }
+  maker.add(Vector3::Zero(), Vector3::Zero(), 1);
+  size.push_back(0.0);
+  std::vector<BodyInput> bodies(2);
+  bodies[0].name = "cloud";
+  bodies[1].name = "wall";
+  const Quantities found = fragment_size_measures(maker.snapshot, bodies);
+  EXPECT_NEAR(value(found, "fragment_size_16.cloud"), 1.6e-4, 2.1e-5);
+  EXPECT_NEAR(value(found, "fragment_size.cloud"), 5.0e-4, 2.1e-5);
+  EXPECT_NEAR(value(found, "fragment_size_84.cloud"), 8.4e-4, 2.1e-5);
+  EXPECT_TRUE(std::isnan(value(found, "fragment_size.wall")));
+  maker.snapshot.mass[99] *= 1e6;  // the largest size has nearly all of the mass
+  EXPECT_NEAR(value(fragment_size_measures(maker.snapshot, bodies), "fragment_size_16.cloud"), 1e-3, 1e-9);
 }
 
 }  // namespace

@@ -34,7 +34,8 @@ inline cases::Case breaking_plate(const std::string& dimension, const std::strin
   const std::string plate =
       aluminium(fmt::format("breaking_{}", failure_strain), "0.3 GPa",
                 fmt::format("[[failure]]\nmodel = \"plastic_strain\"\nsource = \"test\"\n"
-                            "failure_strain = {}\n",
+                            "failure_strain = {}\n[[failure]]\nmodel = \"fragment_size\"\nsource = \"test\"\n"
+                            "energy_per_area = \"10 kJ/m^2\"\n",
                             failure_strain));
   const std::string block = aluminium("block_on_plate", "2 GPa");
   const bool in_space = dimension == "3d";

@@ -56,6 +56,14 @@ const HistoryField lighting_time_field = {"lighting_time",
                                           never,
                                           {.lower = never}};
 
+const HistoryField fragment_size_field = {"fragment_size",
+                                          "m",
+                                          "of the fragments that a failed point is part of; 0: none",
+                                          Rank::scalar,
+                                          Convection::kept,
+                                          0.0,
+                                          {.lower = 0.0}};
+
 void share_of_damage(const EosStrength& model, const Chunk& chunk, Lanes& share) {
   const Lanes& damage = chunk.history[model.damage];
   for (std::size_t k = 0; k < chunk.size; ++k) share[k] = chunk.intact[k] == 0.0 ? 1.0 : damage[k];
@@ -77,8 +85,9 @@ bool is_brittle(const Material& material) { return material.strength->brittle() 
 }  // namespace
 
 std::vector<HistoryField> EosStrength::fields() {
-  return {damage_field,    distension_field,    back_stress_field,   strain_field,
-          cold_work_field, burn_fraction_field, lighting_time_field, threshold_stress_field};
+  return {damage_field,        distension_field,       back_stress_field,
+          strain_field,        cold_work_field,        burn_fraction_field,
+          lighting_time_field, threshold_stress_field, fragment_size_field};
 }
 
 EosStrength::EosStrength(const Material& material) : burn(material.burn) {
@@ -99,6 +108,12 @@ EosStrength::EosStrength(const Material& material) : burn(material.burn) {
   if (burn != nullptr) {
     burn_fraction = declare(burn_fraction_field);
     lighting_time = declare(lighting_time_field);
+  }
+  for (const auto& criterion : material.failure) {
+    fragments = dynamic_cast<const failure::FragmentSize*>(criterion.get());
+    if (fragments == nullptr) continue;
+    fragment_size = declare(fragment_size_field);
+    break;
   }
   if (is_brittle(material)) {
     share_ = whole_share;
@@ -155,6 +170,7 @@ std::vector<EosStrength::Part> EosStrength::parts_of(const Material& material, E
     take_if(any_criterion(material, [](const auto& c) { return c.healing_code() != failure::intact; }), heal);
     take_if(material.void_growth != nullptr, grow_voids);
     take(strained ? mark_failed_by_strain : mark_failed);
+    take_if(fragments != nullptr, keep_fragment_size);
   }
   if (viscous) {
     take(damages ? lose_in_damaged_viscous : lose_in_viscous);

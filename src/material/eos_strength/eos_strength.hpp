@@ -9,6 +9,7 @@
 
 #include "src/material/common.hpp"
 #include "src/material/constitutive.hpp"
+#include "src/material/failure/fragment_size.hpp"
 
 /// Equation of state, strength and failure as one constitutive model (docs/theory/material.md).
 namespace whipple::material {
@@ -35,13 +36,14 @@ class EosStrength final : public Constitutive {
   /// Returns all fields that it may declare.
   static std::vector<HistoryField> fields();
 
-  std::shared_ptr<const BurningExplosive> burn;  ///< null: the material does not burn
+  std::shared_ptr<const BurningExplosive> burn;      ///< null: the material does not burn
+  const failure::FragmentSize* fragments = nullptr;  ///< of its failure; null: failed points keep no size
 
   /// First lanes of the history fields; fields that are not declared have a lane that nothing else uses.
   static constexpr std::size_t undeclared = most_history - 1;
   std::size_t damage = undeclared, distension = undeclared, back_stress = undeclared, strain = undeclared,
               stored_cold_work = undeclared, burn_fraction = undeclared, lighting_time = undeclared,
-              threshold_stress = undeclared;
+              threshold_stress = undeclared, fragment_size = undeclared;
 
  private:
   using Share = void (*)(const EosStrength& model, const Chunk& chunk, Lanes& share);

@@ -108,4 +108,14 @@ void mark_failed_by_strain(const EosStrength& model, const Step& in, Chunk& out)
   mark(model, in, out, view(out, &out.history[model.strain]));
 }
 
+void keep_fragment_size(const EosStrength& model, const Step&, Chunk& out) {
+  if (!out.codes_changed) return;
+  Lanes& size = out.history[model.fragment_size];
+  for (std::size_t k = 0; k < out.size; ++k) {
+    if (out.failed[k] == out.old_failed[k]) continue;
+    const bool fails = out.failed[k] != failure::intact;
+    size[k] = fails ? model.fragments->size_of(out.density[k], out.melted[k], out.motion.divergence[k]) : 0.0;
+  }
+}
+
 }  // namespace whipple::material::parts

@@ -78,6 +78,8 @@ void grow_voids(const EosStrength& model, const Step& in, Chunk& out);
 /// Evaluate the failure criteria; the second with the strain.
 void mark_failed(const EosStrength& model, const Step& in, Chunk& out);
 void mark_failed_by_strain(const EosStrength& model, const Step& in, Chunk& out);
+/// Keeps the size of the fragments of points that fail, and forgets that of points that heal.
+void keep_fragment_size(const EosStrength& model, const Step& in, Chunk& out);
 
 // ---- loss of strength and sound speed (loss.cpp)
 /// Divides the volume between material and voids, reduces the deviator of failed and melting points, and computes the

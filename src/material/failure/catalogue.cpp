@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 
+#include "src/material/failure/fragment_size.hpp"
 #include "src/material/failure/grady_kipp.hpp"
 #include "src/material/failure/gurson.hpp"
 #include "src/material/failure/johnson_cook_damage.hpp"
@@ -33,6 +34,14 @@ CriterionEntry entry() {
   return made;
 }
 
+CriterionEntry entry_of_fragment_size() {
+  return catalogue_entry<CriterionEntry>(FragmentSize::name, FragmentSize::summary, FragmentSize::theory,
+                                         &FragmentSize::Constants::parameters,
+                                         [](const FragmentSize::Constants& constants) {
+                                           return std::make_unique<const FragmentSize>(constants);
+                                         });
+}
+
 }  // namespace
 
 const Catalogue<CriterionEntry>& catalogue() {
@@ -47,6 +56,7 @@ const Catalogue<CriterionEntry>& catalogue() {
                                                                       entry<JohnsonCookDamage>(),
                                                                       entry<GradyKipp>(),
                                                                       entry<Gurson>(),
+                                                                      entry_of_fragment_size(),
                                                                   });
   return all;
 }
@@ -60,7 +70,9 @@ Code greatest_code() {
 const std::string& code_meanings() {
   static const std::string text = [] {
     std::map<int, std::string> causes;  // criteria with the same cause share a code
-    for (const CriterionEntry& entry : catalogue()) causes[entry.code] = entry.cause;
+    for (const CriterionEntry& entry : catalogue()) {
+      if (entry.code != intact) causes[entry.code] = entry.cause;
+    }
     std::string words;
     for (const auto& [code, cause] : causes)
       words += fmt::format("{}{} {}", words.empty() ? "" : ", ", code, cause);
