@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Did anything change unintentionally? Sums of the main case on cells of 1 mm at 3 us, as printed by
+// Detects unintended changes: sums of the main case on cells of 1 mm at 3 us, as printed by
 //   whipple run cases/copper_disk_on_aluminium/case.toml --set domain.cell_size='1 mm' --set time.end='3 us'
 // in the last row of history.csv. No proof of correctness: a deliberate change of method or material renews
 // them.

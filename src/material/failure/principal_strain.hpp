@@ -6,7 +6,7 @@
 
 namespace whipple::failure {
 
-/// Failure by the largest principal strain (Saint-Venant's hypothesis): a point fails where the greatest
+/// Failure by the largest principal strain (Saint-Venant's hypothesis): a point fails where the largest
 /// principal value of its logarithmic strain exceeds eps_f k. The strain is the sum of the increments of the
 /// steps, rotated with the material (docs/theory/material.md, eq. 17); elastic and plastic parts count alike, so
 /// the limit is a value for the loading path at hand.

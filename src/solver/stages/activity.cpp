@@ -133,7 +133,7 @@ void Activity::let_material_rest() {
     state_.run.particles_at_rest = 0;
     return;
   }
-  // Disturbed material rarely comes to rest again: if nothing is at rest, this is checked rarely.
+  // Disturbed material is rarely at rest again, so that this is checked rarely if nothing is at rest.
   if (state_.run.particles_at_rest == 0 && state_.run.step % look_for_rest_every != 0) return;
   const Explosives explosives(state_);
   const double end = state_.run.time + state_.run.time_step;

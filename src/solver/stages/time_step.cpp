@@ -70,7 +70,7 @@ void TimeStep::begin(double until) {
     accurate_step_ = accurate();
     const double first_step = control.first_step * accurate_step_;
     if (state_.run.time_step == 0.0) {
-      // The impact velocity of bodies in initial contact is not yet known to any rate of the first step.
+      // In the first step no rate reflects the impact velocity of bodies in initial contact yet.
       limit(first_step, TimeStepBound::first_step);
     } else {
       limit(control.maximum_growth * state_.run.unclipped_step, TimeStepBound::growth);
