@@ -6,45 +6,15 @@
 #include "src/core/base/simd.hpp"
 #include "src/core/base/vector_math.hpp"
 #include "src/material/eos_strength/parts.hpp"
+#include "src/material/void_formulas.hpp"
 
 namespace whipple::material::parts {
 namespace {
 
-constexpr double greatest_void_step = 0.1;       ///< |dV/V| of material beside its void in one step
 constexpr double least_sound_speed_ratio = 0.1;  ///< of the bulk sound speed of the reference state
 
 using Four = whipple::Lanes;  // points at a time
-
-/// Points with cracks or voids.
-struct Porous {
-  Four pressure;  ///< Pa, that acts
-  Four volume;    ///< m^3 of material
-  Four void_volume;
-};
-
-/// Pressure and division of the volume into material and void: the share `opening` of what exceeds the volume
-/// of zero pressure, or of the pressure `least` where it is all of it, is void (eq. 12, 13, 18). Tension
-/// opens the void, pressure lets the material grow into it.
-/// @param modulus  rho c^2 (Pa), bounded from below
-/// @param count    of points: fewer than four at the end of a chunk
-/// @param limited  grows by the number of points that are kept from changing more in one step
-Porous share_volume(const Porous& points, Four modulus, Four opening, Four least, std::size_t count,
-                    std::size_t& limited) {
-  const Four pressure = points.pressure, volume = points.volume, total = volume + points.void_volume;
-  const Four limit = broadcast(greatest_void_step);
-  const Four wanted = (pressure - least) / modulus;
-  const Four strain = minimum(maximum(wanted, -limit), limit);
-  const Four relaxed = volume + strain * volume, excess = total - relaxed;
-  const LanesMask whole = opening == 1.0, open = excess > 0.0;
-  const LanesMask beyond = (opening > 0.0) & open & (strain != wanted);
-  limited +=
-      static_cast<std::size_t>(std::popcount(bits(beyond) & ((1U << std::min<std::size_t>(count, 4)) - 1U)));
-  const Four matter = select(whole, relaxed, total - opening * excess);
-  const Four cracked = minimum(pressure + modulus * (volume - matter) / volume, Four{});
-  const Four closed = maximum(pressure - modulus * points.void_volume / volume, least);
-  return {select(open, select(whole, least, cracked), closed), select(open, matter, total),
-          select(open, total - matter, Four{})};
-}
+using Porous = formulas::PorousPoint<Four>;
 
 /// What opens voids in points that have not failed: nothing, damage, or a tension beyond that of `least_pressure`.
 enum class Opening : std::uint8_t { none, damage, tension };
@@ -70,8 +40,9 @@ inline void lose_strength(const EosStrength& model, Chunk& chunk, const Lanes& b
     const Four opening = select(loose, broadcast(1.0), damage);
     const Four least = brittle ? select(failed, Four{}, of(chunk.least_pressure)) : Four{};
     const Porous before = {of(chunk.acting_pressure), of(chunk.volume), of(chunk.void_volume)};
-    const Porous shared = share_volume(before, density * of(bulk), opening, least, chunk.size - k,
-                                       chunk.report.limited_void_steps);
+    const auto [shared, limited] = formulas::share_volume(before, density * of(bulk), opening, least);
+    const unsigned valid = (1U << std::min<std::size_t>(chunk.size - k, 4)) - 1U;
+    chunk.report.limited_void_steps += static_cast<std::size_t>(std::popcount(bits(limited) & valid));
     const LanesMask parts = opening > 0.0;
     const Four pressure = select(parts, shared.pressure, before.pressure);
     const Four void_volume = select(parts, shared.void_volume, before.void_volume);
