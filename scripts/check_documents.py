@@ -20,7 +20,7 @@ DOCUMENTS = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/**/*.md", "ca
              "studies/**/README.md")
 WRITTEN_BY_PROGRAMS = re.compile(r"docs/generated/|docs/manual/input_reference\.md")
 TIMELESS = re.compile(r"((cases/.*/)?README\.md|CONTRIBUTING\.md|docs/(manual|theory)/.*)$")
-SOURCES = (".cpp", ".hpp", ".inl", ".py", ".sh", ".cmake", ".txt")
+SOURCES = (".cpp", ".hpp", ".py", ".sh", ".cmake", ".txt")
 MONTH = "January|February|March|April|May|June|July|August|September|October|November|December"
 DIARY = (
     ("date", re.compile(rf"\b\d{{1,2}}\.? ({MONTH})\b|\b({MONTH}) \d{{1,2}}\b|\b20\d\d-\d\d-\d\d\b")),
@@ -216,7 +216,7 @@ def faults_of_language(root):
             if path.suffix not in (*SOURCES, ".md", ".toml") or not path.is_file() or relative in QUOTES_THE_GLOSSARY:
                 continue
             for i, line in enumerate(path.read_text(encoding="utf-8", errors="replace").split("\n"), start=1):
-                text = " ".join(SPOKEN.findall(line)) if path.suffix in (".cpp", ".hpp", ".inl") else line
+                text = " ".join(SPOKEN.findall(line)) if path.suffix in (".cpp", ".hpp") else line
                 for pattern, term in BANNED:
                     if match := pattern.search(text):
                         yield f"{relative}:{i}: '{match.group(0)}': the term is '{term}'"

@@ -134,7 +134,7 @@ WORDS_ALLOWED = {
 # A source file, and a header, has at most so many lines.
 MOST_LINES, MOST_LINES_OF_HEADER = 500, 250
 OWN_FOLDERS = ("src", "eos", "md_fitting", "python", "tests", "report", "scripts", "studies", "examples")
-OWN_ENDINGS = {".hpp", ".cpp", ".inl", ".h", ".py", ".sh", ".cmake"}
+OWN_ENDINGS = {".hpp", ".cpp", ".h", ".py", ".sh", ".cmake"}
 
 PYTHON_IMPORT = re.compile(rf"^\s*(?:from|import)\s+({'|'.join(PYTHON_MAY_USE)})\b")
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"')

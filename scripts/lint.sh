@@ -19,7 +19,7 @@ for argument in "$@"; do
 done
 if ((${#files[@]} == 0)); then
   scripts/check_documents.py
-  mapfile -t files < <(git ls-files --cached --others --exclude-standard -- '*.cpp' '*.hpp' '*.inl')
+  mapfile -t files < <(git ls-files --cached --others --exclude-standard -- '*.cpp' '*.hpp')
 fi
 if ! command -v clang-format-19 >/dev/null; then
   echo "lint.sh: clang-format-19 is missing: scripts/install_deps.sh" >&2

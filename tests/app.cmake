@@ -9,11 +9,13 @@ add_dependencies(app_command_line_test whipple whipple-md whipple-fit)
 
 # Which module may depend on which (docs/manual/architecture.md), and that the checker finds violations.
 add_test(NAME layers COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/scripts/check_layers.py)
+add_test(NAME wide_kernels COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/scripts/check_wide_kernels.py
+  $<TARGET_FILE:whipple_transfer> $<TARGET_FILE:whipple_fem>)
 add_test(NAME layers_self_test COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/scripts/check_layers.py --self-test)
 # Links, widths and no diary in the documents, and that the checker finds violations.
 add_test(NAME documents COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/scripts/check_documents.py)
 add_test(NAME documents_self_test COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/scripts/check_documents.py --self-test)
-set_tests_properties(layers layers_self_test documents documents_self_test PROPERTIES LABELS fast)
+set_tests_properties(layers layers_self_test wide_kernels documents documents_self_test PROPERTIES LABELS fast)
 
 if(WHIPPLE_PYTHON)
   add_test(NAME studies COMMAND ${WHIPPLE_PYTHON} -m unittest discover -s studies/tests -t .

@@ -1,6 +1,7 @@
 # Tests of src/material: strength, failure, damage, the update of a state, material files.
 whipple_test(test_material
   SOURCES unit/material_strength_test.cpp unit/mechanical_threshold_test.cpp unit/material_reference_step_test.cpp unit/material_modifiers_test.cpp
+          unit/material_formulas_test.cpp
           unit/material_file_test.cpp property/material_update_test.cpp property/material_limits_test.cpp
           property/material_failure_test.cpp property/material_spall_test.cpp
           property/material_damage_test.cpp property/material_brittle_test.cpp property/material_concrete_test.cpp

@@ -2,7 +2,7 @@
 whipple_test(test_transfer STARTS_MPI
   SOURCES unit/solver_grid_test.cpp unit/contact_first_touches_test.cpp property/transfer_shape_function_test.cpp property/solver_transfer_test.cpp property/transfer_kernels_test.cpp
           property/transfer_reference_test.cpp property/transfer_dissipation_test.cpp
-          verification/transfer_conduction_test.cpp unit/transfer_sweep_test.cpp
+          verification/transfer_conduction_test.cpp unit/transfer_sweep_test.cpp unit/transfer_formulas_test.cpp
   DEPENDS whipple_contact LABELS fast)
 whipple_test(test_solver STARTS_MPI
   SOURCES unit/case_in_code_test.cpp verification/solver_planar_test.cpp verification/solver_planar_impact_test.cpp verification/solver_taylor_bar_test.cpp verification/solver_elastic_test.cpp

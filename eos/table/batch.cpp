@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "eos/table/kernel.hpp"
+#include "eos/table/four_points.hpp"
 #include "eos/table/table.hpp"
 #include "src/core/base/vector_math.hpp"
 

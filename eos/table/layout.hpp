@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "src/core/base/simd.hpp"
+#include "src/core/base/registers.hpp"
 
 namespace whipple::eos {
 struct TableData;

@@ -8,8 +8,8 @@
 #include <string>
 #include <tuple>
 
+#include "eos/table/four_points.hpp"
 #include "eos/table/hermite_fit.hpp"
-#include "eos/table/kernel.hpp"
 #include "src/core/base/error.hpp"
 
 namespace whipple::eos::table {

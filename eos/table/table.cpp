@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "eos/root.hpp"
-#include "eos/table/kernel.hpp"
+#include "eos/table/four_points.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/vector_math.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "eos/equation_of_state.hpp"
 #include "eos/table/layout.hpp"
-#include "src/core/base/simd.hpp"
+#include "src/core/base/registers.hpp"
 
 /// Represents a complete equation of state by a table of its entropy (docs/theory/equations_of_state.md, section
 /// "Tables"). One piecewise polynomial s(ln rho, z), z = ln(e - e_0(rho)), gives all other quantities,

@@ -9,7 +9,7 @@
 
 #include "src/bench/reference_kernel.hpp"
 #include "src/core/base/error.hpp"
-#include "src/core/base/simd.hpp"
+#include "src/core/base/registers.hpp"
 #include "src/core/parallel/threads.hpp"
 
 namespace whipple::bench {

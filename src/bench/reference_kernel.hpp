@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "src/core/base/simd.hpp"
+#include "src/core/base/registers.hpp"
 
 namespace whipple::bench {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "src/core/base/simd.hpp"
+#include "src/core/base/registers.hpp"
 #include "src/core/base/tensor.hpp"
 #include "src/grid/block_grid.hpp"
 #include "src/transfer/momentum.hpp"

@@ -374,8 +374,8 @@ namespace {
 /// Computes sums over nodes, four at a time.
 MeshTotals totals_of_nodes(const Nodes& nodes, std::size_t begin, std::size_t end) {
   Lanes mass{}, scale{}, twice_kinetic{};
-  FourVectors momentum{};
-  const auto add = [&](Lanes m, const FourVectors& v) {
+  Triple<Lanes> momentum{};
+  const auto add = [&](Lanes m, const Triple<Lanes>& v) {
     const Lanes px = m * v.x, py = m * v.y, pz = m * v.z;
     mass += m;
     momentum.x += px;
@@ -385,7 +385,7 @@ MeshTotals totals_of_nodes(const Nodes& nodes, std::size_t begin, std::size_t en
     twice_kinetic += px * v.x + py * v.y + pz * v.z;
   };
   std::size_t a = begin;
-  for (; a + 4 <= end; a += 4) add(load(&nodes.mass[a]), load_four_vectors(nodes.velocity[a].data()));
+  for (; a + 4 <= end; a += 4) add(load(&nodes.mass[a]), load_vectors(nodes.velocity[a].data()));
   for (; a < end; ++a) {
     const Vector3& v = nodes.velocity[a];
     add(Lanes{nodes.mass[a]}, {Lanes{v[0]}, Lanes{v[1]}, Lanes{v[2]}});

@@ -6,6 +6,7 @@
 #include "src/core/base/marks.hpp"
 #include "src/core/base/vector_math.hpp"
 #include "src/core/parallel/threads.hpp"
+#include "src/fem/element_kernels/element_registers.hpp"
 #include "src/fem/step.hpp"
 
 namespace whipple::fem {

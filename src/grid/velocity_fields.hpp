@@ -41,18 +41,15 @@ class VelocityFields : public PointBins {
 
   /// Calls f(points of one field, field) for the points of a slot, in the order of their list: once for all points if
   /// they reach no contact slot, and never if there are none.
+  /// f, which is a whole kernel, is called and inlined in one place.
   template <class Function>
-  void for_each_field(Points points, std::size_t slot, Function&& f) const {
+  WHIPPLE_INLINE void for_each_field(Points points, std::size_t slot, Function&& f) const {
     const std::span<const std::uint32_t> all = members(points, slot);
-    if (all.empty()) return;
-    if (!meets_contact(slot)) {
-      f(all, 0U);
-      return;
-    }
+    const bool one_field = !meets_contact(slot);
     const std::vector<std::uint8_t>& field_of = points == Points::particles ? field_ : field_of_guest_;
     for (std::size_t i = 0, end = 0; i < all.size(); i = end) {
-      const std::uint8_t field = field_of[all[i]];
-      for (end = i + 1; end < all.size() && field_of[all[end]] == field;) ++end;
+      const std::uint8_t field = one_field ? std::uint8_t{0} : field_of[all[i]];
+      for (end = one_field ? all.size() : i + 1; end < all.size() && field_of[all[end]] == field;) ++end;
       f(all.subspan(i, end - i), static_cast<unsigned>(field));
     }
   }

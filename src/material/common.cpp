@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "src/core/base/vector_math.hpp"
+#include "src/material/viscosity_formulas.hpp"
 
 namespace whipple::material {
 namespace {
@@ -115,11 +116,10 @@ WHIPPLE_KERNEL void find_heating_viscosity(const Step& step, Chunk& chunk) {
     const double of_grid = std::max(-chunk.motion.divergence[k], 0.0) * settings.cell_size;
     const double of_field = std::max(-step.affine_divergence[k], 0.0) * settings.cell_size;
     const double compression = chunk.density[k] * per_initial - 1.0;
-    const double share = std::clamp(1.0 - compression * per_range, 0.0, 1.0);
-    const double closing = of_grid - share * std::max(of_grid - settings.affine_gain * of_field, 0.0);
+    const double closing =
+        formulas::heating_closing_speed(settings, of_grid, of_field, compression, per_range);
     const double viscosity =
-        chunk.density[k] * closing *
-        (settings.quadratic_viscosity * closing + settings.linear_viscosity * chunk.sound_speed[k]);
+        formulas::artificial_viscosity(settings, chunk.density[k], closing, chunk.sound_speed[k]);
     const bool tight = chunk.intact[k] != 0.0 && compression >= 0.0;
     const double whole = chunk.artificial_viscosity[k];
     chunk.heating_viscosity[k] = tight && whole > 0.0 ? std::min(viscosity, whole) : whole;
@@ -135,16 +135,14 @@ WHIPPLE_KERNEL void advance_viscosity(const Step& step, Chunk& chunk) {
       const double closing = -chunk.motion.divergence[k] * length(k);  // l |D|, m/s
       chunk.density[k] = chunk.mass[k] / chunk.volume[k];
       const double viscosity =
-          chunk.density[k] * closing *
-          (settings.quadratic_viscosity * closing + settings.linear_viscosity * chunk.sound_speed[k]);
+          formulas::artificial_viscosity(settings, chunk.density[k], closing, chunk.sound_speed[k]);
       chunk.artificial_viscosity[k] = closing > 0.0 ? viscosity : 0.0;
     }
     if (settings.expansion_viscosity == 0.0) return;
     for (std::size_t k = 0; k < chunk.size; ++k) {
       const double opening = std::max(chunk.motion.divergence[k], 0.0) * length(k);
-      const double viscosity =
-          chunk.density[k] * opening * settings.expansion_viscosity * chunk.sound_speed[k];
-      chunk.artificial_viscosity[k] -= std::min(viscosity, std::max(chunk.pressure[k], 0.0));
+      chunk.artificial_viscosity[k] -= formulas::expansion_viscosity(settings, chunk.density[k], opening,
+                                                                     chunk.sound_speed[k], chunk.pressure[k]);
     }
   };
   if (settings.lengths.empty()) {

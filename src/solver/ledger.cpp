@@ -62,13 +62,13 @@ Totals totals_of_range(const Particles& particles, std::size_t begin, std::size_
   std::size_t p = begin;
   for (; p + 4 <= end; p += 4) {
     const Lanes m = load(&particles.mass[p]);
-    const FourVectors v = load_four_vectors(particles.velocity[p].data());
+    const Triple<Lanes> v = load_vectors(particles.velocity[p].data());
     const Lanes speed2 = v.x * v.x + v.y * v.y + v.z * v.z;
     mass += m;
     x += m * v.x;
     y += m * v.y;
     z += m * v.z;
-    const FourVectors at = load_four_vectors(particles.position[p].data());
+    const Triple<Lanes> at = load_vectors(particles.position[p].data());
     about_x += m * (at.y * v.z - at.z * v.y);
     about_y += m * (at.z * v.x - at.x * v.z);
     about_z += m * (at.x * v.y - at.y * v.x);

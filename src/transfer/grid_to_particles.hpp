@@ -7,17 +7,11 @@
 #include "src/grid/block_grid.hpp"
 #include "src/particles/particles.hpp"
 #include "src/transfer/losses.hpp"
+#include "src/transfer/point_values.hpp"
 #include "src/transfer/shape_kind.hpp"
 #include "src/transfer/sweep.hpp"
 
 namespace whipple::transfer {
-
-/// Update of the affine fields of the particles.
-enum class AffineField : std::uint8_t {
-  none,      ///< there is none: FLIP, PIC and their blends
-  deformed,  ///< carried to the new positions with the deformation of the step, never growing
-  turned,    ///< turned with the rotation of the step only, which changes no energy
-};
 
 /// Settings of the gather of the symplectic scheme.
 struct ExactUpdate {

@@ -17,10 +17,10 @@ void with_kernels(Function&& f) {
   if (kernel_set() == KernelSet::plain) return f(plain::Kernels{});
 #if WHIPPLE_WIDE_KERNELS
   if constexpr (!Planar<Shape> && widest == Widest::wide) {
-    if (kernel_set() == KernelSet::wide) return f(wide::Kernels{});
+    if (kernel_set() == KernelSet::wide) return f(RegisterKernels<Wide>{});
   }
 #endif
-  f(narrow::Kernels{});
+  f(RegisterKernels<Narrow>{});
 }
 
 }  // namespace whipple::transfer

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
 #include "src/particles/particles.hpp"
+#include "src/transfer/loss_formulas.hpp"
 
 namespace whipple::transfer {
 
@@ -27,58 +27,30 @@ struct Losses {
   std::span<const double> initial_density;  ///< kg/m^3, of each body
 };
 
-/// Destination of the losses of a step, J/kg.
-struct Booking {
-  double heat = 0.0;        ///< of the transfers: internal energy
-  double kept = 0.0;        ///< of the transfers and the viscosity: unresolved energy
-  double cooling = 0.0;     ///< of the viscosity: what of its work is not internal but unresolved energy
-  double returned = 0.0;    ///< unresolved energy that became internal
-  double of_contact = 0.0;  ///< of contact: internal energy
-  double allowance = 0.0;   ///< of the particle from now on
-};
+using formulas::Booking;
 
-/// Material with gaps, as far as a particle knows: failed, beside a void, in tension, or thinner than at the
-/// start. Material in its initial state has none, and what round-off makes of its pressure and volume does not matter.
-inline bool is_loose(const Particles& particles, std::size_t p, double initial_density) {
-  constexpr double round_off = 1e-9;  // of rho c^2 and of the density
-  const double mass = particles.mass[p], volume = particles.volume[p], c = particles.sound_speed[p];
-  return particles.failed[p] != 0 || particles.void_volume[p] > 0.0 ||
-         particles.pressure[p] * volume < -round_off * mass * c * c ||
-         mass < (1.0 - round_off) * initial_density * volume;
-}
-
-/// Divides the loss of the transfers (J/kg, >= 0 but for round-off) and the work of the artificial viscosity
-/// between internal and unresolved energy (eq. 3 to 5). In material without gaps the loss is heat as far as the
-/// viscosity that heats does work, which measures what of the motion is a shock: a fraction of the work is an allowance,
-/// which is used up or forgotten, since the loss of a steady shock comes in steps in which its viscosity may rest.
-/// Where gaps close, material collides: all of the loss is heat, and so is the fraction of what had been kept before that the volume loses.
-/// Contact heats, but for fragmented material that expands, whose fragments hit those of another body as they hit
-/// one another.
+/// Divides the losses of a particle (formulas::book_losses).
 /// @param contact       J/kg, what contact of bodies and walls took
 /// @param viscous_work  J/kg, of the artificial viscosity in the step
 /// @param divergence    1/s, tr L of the step
 inline Booking book_losses(const Losses& losses, const Particles& particles, std::size_t p, double loss,
                            double contact, double viscous_work, double divergence, double dt) {
-  const bool loose = is_loose(particles, p, losses.initial_density[particles.body[p]]);
-  if (loose && divergence < 0.0) {
-    const double share = -std::expm1(losses.collision_rate * divergence * dt);
-    return {.heat = loss, .returned = share * particles.unresolved_energy[p], .of_contact = contact};
-  }
-  const double viscosity = particles.artificial_viscosity[p];
-  const double heating = viscosity > 0.0 ? particles.heating_viscosity[p] / viscosity : 1.0;
-  const double work = std::fmax(viscous_work, 0.0), heating_work = heating * work,
-               cooling = work - heating_work;
-  double allowance = losses.heat_share * heating_work;
-  if (const double before = particles.heat_allowance[p]; before > 0.0 && losses.allowance_length > 0.0) {
-    allowance += before * std::exp(-particles.sound_speed[p] * dt / losses.allowance_length);
-  }
-  const double heat = std::fmin(loss, allowance);
-  const double of_contact = loose ? 0.0 : contact;
-  return {.heat = heat,
-          .kept = loss - heat + cooling + (contact - of_contact),
-          .cooling = cooling,
-          .of_contact = of_contact,
-          .allowance = allowance - std::fmax(heat, 0.0)};
+  return formulas::book_losses(
+      {.heat_share = losses.heat_share,
+       .allowance_length = losses.allowance_length,
+       .collision_rate = losses.collision_rate,
+       .initial_density = losses.initial_density[particles.body[p]]},
+      {.mass = particles.mass[p],
+       .volume = particles.volume[p],
+       .void_volume = particles.void_volume[p],
+       .pressure = particles.pressure[p],
+       .sound_speed = particles.sound_speed[p],
+       .artificial_viscosity = particles.artificial_viscosity[p],
+       .heating_viscosity = particles.heating_viscosity[p],
+       .unresolved_energy = particles.unresolved_energy[p],
+       .heat_allowance = particles.heat_allowance[p],
+       .failed = particles.failed[p] != 0},
+      {.loss = loss, .contact = contact, .viscous_work = viscous_work, .divergence = divergence, .dt = dt});
 }
 
 }  // namespace whipple::transfer

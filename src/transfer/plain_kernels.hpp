@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/LU>
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "src/transfer/formulas.hpp"
 #include "src/transfer/plain_nodes.hpp"
-#include "src/transfer/register_kernels.hpp"
+#include "src/transfer/point_values.hpp"
 
 /// The transfers as plain loops over points and their nodes, one number at a
 /// time, as docs/theory/mpm.md, 3 to 5, writes them: the reference that the
@@ -26,13 +24,18 @@ inline std::array<Lanes, 3> columns(const Matrix3& m) {
 
 /// Convects an affine field with a step (4.8). @returns its loss of |C|^2
 inline double convect(Matrix3& c, const Matrix3& gradient, double dt) {
-  const Matrix3 deformation = Matrix3::Identity() + dt * gradient;
-  if (deformation.determinant() <= 0.1) return 0.0;
-  const Matrix3 carried = c * deformation.inverse();
-  const double before = c.squaredNorm(), after = carried.squaredNorm();
-  const double cap = after > before ? std::sqrt(before / after) : 1.0;
-  c = cap * carried;
-  return before - c.squaredNorm();
+  const auto columns_of = [](const Matrix3& m) {
+    std::array<Triple<double>, 3> columns;
+    for (int a = 0; a < 3; ++a) columns[static_cast<std::size_t>(a)] = {m(0, a), m(1, a), m(2, a)};
+    return columns;
+  };
+  std::array<Triple<double>, 3> columns = columns_of(c);
+  const double loss = formulas::convect(columns, columns_of(gradient), dt);
+  for (int a = 0; a < 3; ++a) {
+    const Triple<double>& column = columns[static_cast<std::size_t>(a)];
+    c.col(a) << column.x, column.y, column.z;
+  }
+  return loss;
 }
 
 /// What a point takes of the advanced nodes in the symplectic scheme (4.1
@@ -49,37 +52,44 @@ struct Transfer {
     const Vector3 velocity = points.velocity[p];
     Matrix3 c = Matrix3::Zero();
     if constexpr (affine) c = points.affine_velocity[p];
-    Vector3 v = Vector3::Zero(), d = v,
-            change = v;  // sum N v', N d, N (d - beta D)
+    Vector3 v = Vector3::Zero(), d = v, change = v;  // sum N v', N d, N (d - beta D)
     Matrix3 grad_v = Matrix3::Zero(), grad_d = grad_v,
             change_r = grad_v;  // the same with grad N, or with N r^T
-    double loss = 0.0, contact_heat = 0.0;
+    Vector3 loss = Vector3::Zero();
+    double contact_heat = 0.0;
     for_each([&](const grid::Node& node, const AtNode& at) {
       const Vector3 v_i = vector(node.registers.first), d_i = vector(node.registers.second);
-      const double beta = node.registers.first[3];
-      const Vector3 difference = velocity + c * at.r - v_i, change_i = d_i - beta * difference;
+      const Vector3 difference = velocity + c * at.r - v_i;
+      Vector3 change_i;
+      for (int a = 0; a < 3; ++a) {
+        const auto by_node = formulas::change_by_node(difference[a], d_i[a], node.registers.first[3]);
+        change_i[a] = by_node.velocity;
+        loss[a] += at.n * by_node.loss;
+      }
       v += at.n * (v_i + d_i);
       grad_v += (v_i + d_i) * at.gradient.transpose();
       d += at.n * d_i;
       grad_d += d_i * at.gradient.transpose();
       change += at.n * change_i;
       change_r += at.n * change_i * at.r.transpose();
-      loss += at.n * (0.5 * d_i.squaredNorm() + beta * difference.dot(difference - d_i));
       contact_heat += at.n * node.registers.second[3];
     });
-    loss -= 0.5 * change.squaredNorm();
+    double heat = 0.0;
+    for (int a = 0; a < 3; ++a) heat += formulas::heat_of_velocity(loss[a], change[a]);
     if constexpr (affine) {
-      if (carries_field(points, p)) {
-        loss -= 0.5 * change_r.squaredNorm() / inertia;
-        c += change_r / inertia;
+      const double per_inertia = carries_field(points, p) ? 1.0 / inertia : 0.0;
+      for (int a = 0; a < 9; ++a) {
+        const auto gained = formulas::change_of_field(change_r(a), per_inertia);
+        heat -= gained.energy;
+        c(a) += gained.field;
       }
-      if (field == AffineField::deformed) loss += 0.5 * inertia * convect(c, grad_v, dt);
+      if (field == AffineField::deformed) heat += 0.5 * inertia * convect(c, grad_v, dt);
     }
     return {.grid_velocity = {lanes(v), columns(grad_v)},
             .increment = {lanes(d, contact_heat), columns(grad_d)},
             .velocity = lanes(velocity + change),
             .affine = columns(c),
-            .heat = broadcast(loss)};
+            .heat = broadcast(heat)};
   }
 
  private:

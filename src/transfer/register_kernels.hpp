@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -8,195 +9,132 @@
 #include <type_traits>
 
 #include "src/core/base/prefetch.hpp"
-#include "src/core/base/simd.hpp"
-#include "src/core/base/vector_math.hpp"
 #include "src/grid/block_grid.hpp"
-#include "src/transfer/grid_to_particles.hpp"
-#include "src/transfer/shape_weights.hpp"
+#include "src/transfer/kernels/gather.hpp"
+#include "src/transfer/kernels/scatter.hpp"
 
-/// The loops over points and their nodes, kernels/, compiled for two sets of registers: `narrow` for AVX2,
-/// whose register holds half a node, and `wide` for AVX-512, whose register holds a node when points bring
-/// something to it, and halves of two nodes when two points take something at a time. Lane by lane both
-/// compute the same in the same order, so their results are the same bits.
+/// The loops over points and their nodes for registers. A register of AVX2 (Narrow) holds half a node; one of AVX-512
+/// (Wide) holds a node when points bring something to it, and halves of two nodes when two points take something at a
+/// time. Lane by lane both compute the same in the same order, so their results are the same bits.
 namespace whipple::transfer {
 
-/// Contribution of one point to a node: first += N (a0 + a_x r_x + a_y r_y + a_z r_z), second += N b0 + sum
-/// over directions of dN/dx_a b_a.
-struct Payload {
-  Lanes a0, ax, ay, az;
-  Lanes b0, bx, by, bz;
-};
+/// The entries for registers, Narrow or Wide. Everything they call is inlined into them.
+template <class Registers>
+struct RegisterKernels {
+  using Vector = typename Registers::Register;
+  static constexpr std::size_t at_a_time = points_of<Vector>;
+  template <bool affine>
+  using Transfer = TransferSums<Vector, affine>;
+  using Update = UpdateSums<Vector>;
+  using First = FirstSums<Vector>;
 
-/// Sum over nodes with N, and with the derivatives of N.
-template <class Vector = Lanes>
-struct ValueAndGradient {
-  Vector value;
-  std::array<Vector, 3> gradient;
-};
-
-/// Sums over the nodes of a particle (docs/theory/mpm.md, equations 4.2 to 4.7); lane 3 of each is
-/// meaningless, but for the increment.
-template <class Vector>
-struct Moments {
-  ValueAndGradient<Vector> velocity;   ///< v + d
-  ValueAndGradient<Vector> increment;  ///< d
-  ValueAndGradient<Vector> change;     ///< d - beta D, with N r instead of the derivatives
-  Vector loss;                         ///< (d - beta D)^2 + beta D (2 D - beta D), per component
-};
-
-/// Result of the step for one point.
-template <class Vector = Lanes>
-struct Advance {
-  ValueAndGradient<Vector> grid_velocity;  ///< after the forces
-  ValueAndGradient<Vector> increment;      ///< of it
-  Vector velocity;                         ///< of the point
-  std::array<Vector, 3> affine;            ///< columns of its affine field
-  Vector heat;                             ///< J/kg, in all lanes
-};
-
-/// New velocity of the nodes and how much of it came in the step.
-template <class Vector = Lanes>
-struct VelocityUpdate {
-  ValueAndGradient<Vector> after;
-  Vector increment;
-};
-
-namespace narrow {
-
-/// One point at a time.
-using Vector = Lanes;
-constexpr std::size_t together = 1;
-using whipple::multiply_add;
-
-/// get(0)
-template <class Get>
-WHIPPLE_INLINE inline Vector of_group(Get&& get) {
-  return get(0);
-}
-WHIPPLE_INLINE inline Lanes part(Vector v, std::size_t) { return v; }
-/// Lane a of get(0) in all lanes.
-template <class Get>
-WHIPPLE_INLINE inline Vector spread(Get&& get, std::size_t a) {
-  return broadcast(get(0)[a]);
-}
-WHIPPLE_INLINE inline Vector lane(Vector v, std::size_t a) { return broadcast(v[a]); }
-/// Lanes 1, 2, 0, 3.
-WHIPPLE_INLINE inline Vector turned(Vector v) { return __builtin_shufflevector(v, v, 1, 2, 0, 3); }
-WHIPPLE_INLINE inline Vector root(Vector v) { return sqrt(v); }
-/// Lane 3 of the first register of the points' nodes, in all lanes.
-template <class Nodes>
-WHIPPLE_INLINE inline Vector relaxation(Vector, const Nodes& node) {
-  return broadcast_from(reinterpret_cast<const double*>(&node(0).registers.first) + 3);
-}
-
-/// Both registers of a node.
-struct Both {
-  Lanes first, second;
-};
-WHIPPLE_INLINE inline Both both(Lanes first, Lanes second) { return {first, second}; }
-/// One number in all lanes of the first register, another in those of the second.
-WHIPPLE_INLINE inline Both spread_both(double first, double second) {
-  return {broadcast(first), broadcast(second)};
-}
-WHIPPLE_INLINE inline Both spread_both(double same) { return spread_both(same, same); }
-WHIPPLE_INLINE inline Both operator*(Both a, Both b) { return {a.first * b.first, a.second * b.second}; }
-WHIPPLE_INLINE inline Both operator+(Both a, Both b) { return {a.first + b.first, a.second + b.second}; }
-WHIPPLE_INLINE inline Both operator-(Both a, Both b) { return {a.first - b.first, a.second - b.second}; }
-WHIPPLE_INLINE inline Both multiply_add(Both a, Both b, Both c) {
-  return {multiply_add(a.first, b.first, c.first), multiply_add(a.second, b.second, c.second)};
-}
-WHIPPLE_INLINE inline Lanes first_of(Both both) { return both.first; }
-WHIPPLE_INLINE inline Lanes second_of(Both both) { return both.second; }
-WHIPPLE_INLINE inline Both load_node(const grid::Node& node) {
-  return {node.registers.first, node.registers.second};
-}
-WHIPPLE_INLINE inline void store_node(grid::Node& node, Both value) {
-  node.registers = {value.first, value.second};
-}
-
-#include "src/transfer/kernels/all.inl"
-
-}  // namespace narrow
-
-#if WHIPPLE_WIDE_KERNELS
-#if WHIPPLE_OTHER_TARGET
-#pragma GCC push_options
-#pragma GCC target("arch=x86-64-v4")
-#endif
-namespace wide {
-
-/// Two points at a time, one in each half.
-using Vector [[gnu::vector_size(64)]] = double;
-constexpr std::size_t together = 2;
-using whipple::multiply_add;
-
-WHIPPLE_INLINE inline Vector join(Lanes low, Lanes high) {
-  return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
-}
-/// get(0) and get(1)
-template <class Get>
-WHIPPLE_INLINE inline Vector of_group(Get&& get) {
-  return join(get(0), get(1));
-}
-WHIPPLE_INLINE inline Lanes part(Vector v, std::size_t i) {
-  return i == 0 ? __builtin_shufflevector(v, v, 0, 1, 2, 3) : __builtin_shufflevector(v, v, 4, 5, 6, 7);
-}
-/// Lane a of each half in all lanes of it.
-WHIPPLE_INLINE inline Vector lane(Vector v, std::size_t a) {
-  switch (a) {
-    case 0:
-      return __builtin_shufflevector(v, v, 0, 0, 0, 0, 4, 4, 4, 4);
-    case 1:
-      return __builtin_shufflevector(v, v, 1, 1, 1, 1, 5, 5, 5, 5);
-    case 2:
-      return __builtin_shufflevector(v, v, 2, 2, 2, 2, 6, 6, 6, 6);
-    default:
-      return __builtin_shufflevector(v, v, 3, 3, 3, 3, 7, 7, 7, 7);
+  /// Calls take(place, point, what it gets) for the points of a slot; `place` counts along its list.
+  /// @param slope_smoothing  as of ShapeFunctions
+  /// @param sums             Transfer, Update or First
+  template <class Shape, class Sums, class Points, class Take>
+  static void gather(const Points& points, grid::BlockGrid& grid, grid::BlockGrid::Points kind,
+                     std::size_t slot, double slope_smoothing, const Sums& sums, const Take& take) {
+    Registers::run([&]() WHIPPLE_INLINE {
+      const Cells cells(grid, slot, slope_smoothing);
+      const std::span<const grid::PlaceInStencil> places = grid.places(kind);
+      const std::uint32_t* const list = grid.members(kind, slot).data();
+      read_nodes<Vector, Shape, typename Sums::Content>(
+          grid, kind, slot, [&](const auto& members, auto& access) WHIPPLE_INLINE {
+            if constexpr (std::is_same_v<Shape, Linear> && !requires { typename Sums::Sum; }) {
+              const double per_cell = 1.0 / cells.size;
+              std::int32_t first_node = places[members.front()].first_node();
+              auto stencil = access.stencil(first_node);
+              for (const std::uint32_t& p : members) {
+                if (const std::int32_t first = places[p].first_node(); first != first_node) {
+                  first_node = first;
+                  stencil = access.stencil(first);
+                }
+                take(static_cast<std::size_t>(&p - list), p, Sums::between(places[p], per_cell, stencil));
+              }
+              return;
+            }
+            constexpr bool with_weights = !std::is_same_v<typename AlongAxis<Shape>::type, QuadraticBSpline>;
+            const auto gather_some = [&](const auto& some, const auto& weights) WHIPPLE_INLINE {
+              using Group = transfer::Group<Vector, Shape, std::remove_reference_t<decltype(access)>>;
+              const std::size_t groups = (some.size() + at_a_time - 1) / at_a_time;
+              const auto group_at = [&](std::size_t g) WHIPPLE_INLINE {
+                Group group;
+                for (std::size_t i = 0; i < at_a_time; ++i) {
+                  const std::size_t at = std::min(g * at_a_time + i, some.size() - 1);
+                  group.point[i] = some[at];
+                  group.place[i] = &places[some[at]];
+                  group.weights[i] = &weights[at];
+                  group.stencil[i] = access.stencil(group.place[i]->first_node());
+                }
+                return group;
+              };
+              const auto give = [&](std::size_t g, const auto& result) WHIPPLE_INLINE {
+                for (std::size_t i = 0, m = g * at_a_time; i < at_a_time && m < some.size(); ++i, ++m) {
+                  take(static_cast<std::size_t>(&some[m] - list), some[m], of_point(result, i));
+                }
+              };
+              if constexpr (requires { typename Sums::Sum; }) {
+                // Stage by stage: what becomes of the sums is another long chain.
+                std::array<PointsOfGroup<Vector>, ahead / at_a_time> point;
+                std::array<typename Sums::Sum, ahead / at_a_time> sum;
+                std::array<typename Sums::Result, ahead / at_a_time> result;
+                for (std::size_t g = 0; g < groups; ++g) {
+                  const Group group = group_at(g);
+                  point[g] = group.point;
+                  sum[g] = sums.of(points, group, cells);
+                }
+                for (std::size_t g = 0; g < groups; ++g) {
+                  result[g] = sums.template advance<Shape>(points, point[g], sum[g], cells.size);
+                }
+                for (std::size_t g = 0; g < groups; ++g) give(g, result[g]);
+              } else {
+                for (std::size_t g = 0; g < groups; ++g) give(g, sums.of(points, group_at(g), cells));
+              }
+            };
+            for_some<Shape, with_weights>(points, places, cells, members, gather_some);
+          });
+    });
   }
-}
-/// Lane a of get(0) and get(1).
-template <class Get>
-WHIPPLE_INLINE inline Vector spread(Get&& get, std::size_t a) {
-  return lane(of_group(get), a);
-}
-/// Lanes 1, 2, 0, 3 of each half.
-WHIPPLE_INLINE inline Vector turned(Vector v) {
-  return __builtin_shufflevector(v, v, 1, 2, 0, 3, 5, 6, 4, 7);
-}
-WHIPPLE_INLINE inline Vector root(Vector v) { return Vector(_mm512_maskz_sqrt_pd(0xff, __m512d(v))); }
-WHIPPLE_INLINE inline Vector multiply_add(Vector a, Vector b, Vector c) {
-  return Vector(_mm512_fmadd_pd(__m512d(a), __m512d(b), __m512d(c)));
-}
-/// Lane 3 of the first register of the points' nodes, in all lanes.
-template <class Nodes>
-WHIPPLE_INLINE inline Vector relaxation(Vector first, const Nodes&) {
-  return lane(first, 3);
-}
 
-/// Both registers of a node.
-using Both = Vector;
-using NodeRegister [[gnu::vector_size(64), gnu::may_alias]] = double;
-WHIPPLE_INLINE inline Both both(Lanes first, Lanes second) { return join(first, second); }
-WHIPPLE_INLINE inline Lanes first_of(Both both) { return part(both, 0); }
-WHIPPLE_INLINE inline Lanes second_of(Both both) { return part(both, 1); }
-/// One number in all lanes of the first half, another in those of the second.
-WHIPPLE_INLINE inline Both spread_both(double first, double second) {
-  return Vector(_mm512_mask_broadcastsd_pd(_mm512_set1_pd(first), 0xf0, _mm_set_sd(second)));
-}
-WHIPPLE_INLINE inline Both spread_both(double same) { return Vector(_mm512_set1_pd(same)); }
-WHIPPLE_INLINE inline Both load_node(const grid::Node& node) {
-  return *reinterpret_cast<const NodeRegister*>(&node);
-}
-WHIPPLE_INLINE inline void store_node(grid::Node& node, Both value) {
-  *reinterpret_cast<NodeRegister*>(&node) = value;
-}
-
-#include "src/transfer/kernels/all.inl"
-
-}  // namespace wide
-#if WHIPPLE_OTHER_TARGET
-#pragma GCC pop_options
-#endif
-#endif
+  /// Adds what the points of a slot bring to the nodes.
+  template <class Shape, class What>
+  static void scatter(const What& what, grid::BlockGrid& grid, std::size_t slot, double slope_smoothing) {
+    Registers::run([&]() WHIPPLE_INLINE {
+      const Cells cells(grid, slot, slope_smoothing);
+      const std::span<const grid::PlaceInStencil> places = grid.places(What::kind);
+      const auto load = [&](std::size_t p) WHIPPLE_INLINE {
+        if (prefetches(p)) {
+          what.prefetch_from(p + prefetch_distance);
+          prefetch(p + prefetch_distance, places);
+        }
+        return what.template load<CarriesAffineField<Shape>>(p);
+      };
+      add_to_nodes<Vector, Shape, typename What::Content>(
+          grid, What::kind, slot, [&](const auto& members, auto& access) WHIPPLE_INLINE {
+            if constexpr (std::is_same_v<Shape, Linear>) {
+              const double per_cell = 1.0 / cells.size;
+              NodesOfCell<Vector, typename What::Content> cell;
+              std::int32_t first_node = places[members.front()].first_node();
+              for (const std::uint32_t p : members) {
+                if (const std::int32_t first = places[p].first_node(); first != first_node) {
+                  cell.add_to(access.stencil(first_node));
+                  first_node = first;
+                }
+                cell.add(load(p), places[p], per_cell);
+              }
+              cell.add_to(access.stencil(first_node));
+            } else {
+              for_some<Shape>(what.points, places, cells, members,
+                              [&](const auto& some, const auto& weights) WHIPPLE_INLINE {
+                                for (std::size_t m = 0; m < some.size(); ++m) {
+                                  add_payload<Vector, Shape>(load(some[m]), weights[m],
+                                                             access.stencil(weights[m].first_node));
+                                }
+                              });
+            }
+          });
+    });
+  }
+};
 
 }  // namespace whipple::transfer

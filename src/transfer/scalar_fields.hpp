@@ -67,7 +67,7 @@ template <class Bring>
 void scatter(BlockGrid::Points kind, BlockGrid& grid, Bring&& bring) {
   with_scalar_shape(grid, [&]<class Shape>(Shape) {
     grid.for_each_apart([&](std::size_t slot) {
-      narrow::add_to_nodes<Shape, Node>(
+      add_to_nodes<Lanes, Shape, Node>(
           grid, kind, slot, [&](std::span<const std::uint32_t> members, auto& access) {
             for (const std::uint32_t p : members) {
               for_each_node<Shape>(kind, p, grid, access, [&](Node& node, double n, const Vector3& gradient) {
@@ -86,7 +86,7 @@ void gather(BlockGrid& grid, Function&& f) {
   with_scalar_shape(grid, [&]<class Shape>(Shape) {
     parallel::for_each_uneven(grid.slots(), [&](std::size_t slot) {
       if (grid.particles_in(slot).empty()) return;
-      narrow::read_nodes<Shape, Node>(
+      read_nodes<Lanes, Shape, Node>(
           grid, kind, slot, [&](std::span<const std::uint32_t> members, auto& access) {
             for (const std::uint32_t p : members) {
               f(p, [&](auto&& of_node) { for_each_node<Shape>(kind, p, grid, access, of_node); });

@@ -18,15 +18,11 @@ namespace {
 TEST(FourVectors, AreTheirComponents) {
   std::array<double, 12> numbers;
   for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = 10.0 * static_cast<double>(i) + 1.0;
-  const FourVectors v = load_four_vectors(numbers.data());
-  const std::array<Lanes, 3> beside = beside_components(Lanes{0.0, 1.0, 2.0, 3.0});
+  const Triple<Lanes> v = load_vectors(numbers.data());
   for (std::size_t k = 0; k < 4; ++k) {
     EXPECT_EQ(v.x[k], numbers[3 * k]);
     EXPECT_EQ(v.y[k], numbers[3 * k + 1]);
     EXPECT_EQ(v.z[k], numbers[3 * k + 2]);
-  }
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    EXPECT_EQ(beside[i / 4][i % 4], static_cast<double>(i / 3)) << i;
   }
 }
 

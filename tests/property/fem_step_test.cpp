@@ -7,13 +7,23 @@
 #include <limits>
 #include <numbers>
 
+#include "src/fem/element_kernels/element_registers.hpp"
 #include "src/fem/hexahedron.hpp"
 #include "tests/unit/fem_support.hpp"
 
 namespace whipple::fem_test {
 namespace {
 
-using fem::Triple;
+TEST(FourVectors, TakeOneNumberEachBesideTheirComponents) {
+  const std::array<Lanes, 3> beside = fem::beside_components(Lanes{0.0, 1.0, 2.0, 3.0});
+  std::array<double, 12> stored;
+  fem::store_vectors(stored.data(),
+                     {Lanes{0.0, 1.0, 2.0, 3.0}, Lanes{0.0, 1.0, 2.0, 3.0}, Lanes{0.0, 1.0, 2.0, 3.0}});
+  for (std::size_t i = 0; i < 12; ++i) {
+    EXPECT_EQ(beside[i / 4][i % 4], static_cast<double>(i / 3)) << i;
+    EXPECT_EQ(stored[i], static_cast<double>(i / 3)) << i;
+  }
+}
 
 std::array<Triple<double>, 8> random_hexahedron(std::mt19937_64& generator, double distortion) {
   std::uniform_real_distribution<double> uniform(-distortion, distortion);

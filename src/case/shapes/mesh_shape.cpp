@@ -67,7 +67,7 @@ class MeshShape final : public Shape {
     return box;
   }
   [[nodiscard]] fem::Modes<double> modes(const fem::Corners& corners, const Vector3& origin) const {
-    std::array<fem::Triple<double>, 8> x;
+    std::array<Triple<double>, 8> x;
     for (std::size_t a = 0; a < 8; ++a) {
       const Vector3 p = mesh_.nodes[corners[a]] - origin;
       x[a] = {p[0], p[1], p[2]};

@@ -14,18 +14,19 @@
 #define WHIPPLE_KERNEL
 #endif
 
-/// Enables kernels whose source is included twice, for AVX2 and AVX-512 registers: src/transfer/register_kernels.hpp,
-/// src/fem/element_kernels.hpp. Sanitizers, which take minutes for functions of that size, use the AVX2 versions
-/// without inlining.
+/// Enables kernels that are instantiated for AVX2 and for AVX-512 registers (src/core/base/registers.hpp): those of
+/// src/transfer and src/fem. Sanitizers, which take minutes for functions of that size, use the AVX2 versions without
+/// inlining.
 #if defined(__x86_64__) && defined(__OPTIMIZE__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 #define WHIPPLE_WIDE_KERNELS 1
 #else
 #define WHIPPLE_WIDE_KERNELS 0
 #endif
-#if WHIPPLE_WIDE_KERNELS && !defined(__AVX512F__)  // otherwise the whole program is built for AVX-512
-#define WHIPPLE_OTHER_TARGET 1
+/// Marks a function with instructions of AVX-512, unless the whole program is built for it.
+#ifdef __AVX512F__
+#define WHIPPLE_WIDE
 #else
-#define WHIPPLE_OTHER_TARGET 0
+#define WHIPPLE_WIDE [[gnu::target("arch=x86-64-v4")]]
 #endif
 
 #ifdef __SANITIZE_ADDRESS__
@@ -58,15 +59,5 @@ inline KernelSet& kernel_set() {
 #endif
   return set;
 }
-
-/// Holds four doubles that are processed together: vector extension of the compiler, one AVX2 register. The kernels
-/// vectorise over the values of a node (a scalar and a 3-vector), not over particles.
-using Lanes [[gnu::vector_size(32)]] = double;
-
-inline Lanes broadcast(double value) { return Lanes{value, value, value, value}; }
-
-/// Returns the sum of the first three lanes.
-inline double sum3(Lanes v) { return v[0] + v[1] + v[2]; }
-inline double sum4(Lanes v) { return v[0] + v[1] + v[2] + v[3]; }
 
 }  // namespace whipple

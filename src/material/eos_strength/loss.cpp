@@ -6,45 +6,15 @@
 #include "src/core/base/simd.hpp"
 #include "src/core/base/vector_math.hpp"
 #include "src/material/eos_strength/parts.hpp"
+#include "src/material/void_formulas.hpp"
 
 namespace whipple::material::parts {
 namespace {
 
-constexpr double greatest_void_step = 0.1;       ///< maximum |dV/V| of material next to its void in one step
 constexpr double least_sound_speed_ratio = 0.1;  ///< minimum, as a fraction of the reference bulk sound speed
 
 using Four = whipple::Lanes;  // points at a time
-
-/// Holds the state of points with cracks or voids.
-struct Porous {
-  Four pressure;  ///< acting pressure, Pa
-  Four volume;    ///< of the material, m^3
-  Four void_volume;
-};
-
-/// Computes pressure and division of the volume into material and void (eq. 12, 13, 18). The fraction `opening` of the
-/// excess over the volume at zero pressure is void; where it is 1, the excess over the volume at the pressure `least`.
-/// Tension opens the void, under pressure the material expands into it.
-/// @param modulus  rho c^2 (Pa), bounded from below
-/// @param count    number of points: fewer than four at the end of a chunk
-/// @param limited  increased by the number of points whose change is limited
-Porous share_volume(const Porous& points, Four modulus, Four opening, Four least, std::size_t count,
-                    std::size_t& limited) {
-  const Four pressure = points.pressure, volume = points.volume, total = volume + points.void_volume;
-  const Four limit = broadcast(greatest_void_step);
-  const Four wanted = (pressure - least) / modulus;
-  const Four strain = minimum(maximum(wanted, -limit), limit);
-  const Four relaxed = volume + strain * volume, excess = total - relaxed;
-  const LanesMask whole = opening == 1.0, open = excess > 0.0;
-  const LanesMask beyond = (opening > 0.0) & open & (strain != wanted);
-  limited +=
-      static_cast<std::size_t>(std::popcount(bits(beyond) & ((1U << std::min<std::size_t>(count, 4)) - 1U)));
-  const Four matter = select(whole, relaxed, total - opening * excess);
-  const Four cracked = minimum(pressure + modulus * (volume - matter) / volume, Four{});
-  const Four closed = maximum(pressure - modulus * points.void_volume / volume, least);
-  return {select(open, select(whole, least, cracked), closed), select(open, matter, total),
-          select(open, total - matter, Four{})};
-}
+using Porous = formulas::PorousPoint<Four>;
 
 /// Selects the cause that opens voids in points that have not failed: none, damage, or a tension beyond
 /// `least_pressure`.
@@ -71,8 +41,9 @@ inline void lose_strength(const EosStrength& model, Chunk& chunk, const Lanes& b
     const Four opening = select(loose, broadcast(1.0), damage);
     const Four least = brittle ? select(failed, Four{}, of(chunk.least_pressure)) : Four{};
     const Porous before = {of(chunk.acting_pressure), of(chunk.volume), of(chunk.void_volume)};
-    const Porous shared = share_volume(before, density * of(bulk), opening, least, chunk.size - k,
-                                       chunk.report.limited_void_steps);
+    const auto [shared, limited] = formulas::share_volume(before, density * of(bulk), opening, least);
+    const unsigned valid = (1U << std::min<std::size_t>(chunk.size - k, 4)) - 1U;
+    chunk.report.limited_void_steps += static_cast<std::size_t>(std::popcount(bits(limited) & valid));
     const LanesMask parts = opening > 0.0;
     const Four pressure = select(parts, shared.pressure, before.pressure);
     const Four void_volume = select(parts, shared.void_volume, before.void_volume);

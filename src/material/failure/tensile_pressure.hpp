@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 
 #include "src/material/failure/criterion.hpp"
+#include "src/material/void_formulas.hpp"
 
 namespace whipple::failure {
 
@@ -69,19 +69,17 @@ struct TensilePressure : Threshold {
   /// Holds the pressure at the cut-off: the volume is divided into material and void so that p = -p_cut next to a void.
   void grow_voids(const PorousState& state, std::span<double> /*damage*/,
                   std::span<std::uint8_t> failed) const {
-    constexpr double greatest_step = 0.1;  // fraction of the material's volume
     for (std::size_t i = 0; i < failed.size(); ++i) {
       const double least = -spall_strength * (1.0 - state.melted_fraction[i]) * state.threshold_factor[i];
       const bool is_open = state.void_volume[i] > 0.0;
       if (failed[i] != intact || (!is_open && state.pressure[i] >= least)) continue;
-      const double volume = state.volume[i], total = volume + state.void_volume[i];
-      const double strain =
-          std::clamp((state.pressure[i] - least) / state.bulk_modulus[i], -greatest_step, greatest_step);
-      const double matter = std::min(volume * (1.0 + strain), total);
-      const double relaxed = state.pressure[i] - state.bulk_modulus[i] * (matter - volume) / volume;
-      state.pressure[i] = matter < total ? least : std::max(relaxed, least);
-      state.volume[i] = matter;
-      state.void_volume[i] = total - matter;
+      const material::formulas::PorousPoint<double> shared =
+          material::formulas::share_volume<double>({state.pressure[i], state.volume[i], state.void_volume[i]},
+                                                   state.bulk_modulus[i], 1.0, least)
+              .point;
+      state.pressure[i] = shared.pressure;
+      state.volume[i] = shared.volume;
+      state.void_volume[i] = shared.void_volume;
     }
   }
 };

@@ -58,17 +58,14 @@ struct SteinbergGuinan {
 
   /// Returns G/G0, at least 1e-3: so soft a solid has almost no stress, and melting removes the rest. Without a
   /// temperature (NaN) of the equation of state there is no softening.
-  [[nodiscard]] double stiffness_ratio(double density, double pressure, double temperature) const {
-    const double compression = std::cbrt(density / reference_density);
-    const double thermal = std::isnan(temperature) ? 0.0 : temperature_coefficient * (temperature - 300.0);
-    return std::max(1e-3, 1.0 + pressure_coefficient * pressure / compression - thermal);
-  }
-  /// Returns the stiffness ratio of four points.
-  [[nodiscard]] Lanes stiffness_ratio(Lanes density, Lanes pressure, Lanes temperature) const {
-    const Lanes compression = exp(natural_log(density / reference_density) / 3.0);
-    const Lanes thermal =
-        select(temperature == temperature, temperature_coefficient * (temperature - 300.0), Lanes{});
-    return maximum(1.0 + pressure_coefficient * pressure / compression - thermal, broadcast(1e-3));
+  template <class Number>
+  [[nodiscard]] Number stiffness_ratio(Number density, Number pressure, Number temperature) const {
+    using std::exp, whipple::exp;
+    const Number compression = exp(natural_log(Number(density / reference_density)) / 3.0);
+    const Number thermal =
+        select(temperature == temperature, temperature_coefficient * (temperature - 300.0), Number{});
+    return maximum(Number(1.0 + pressure_coefficient * pressure / compression - thermal),
+                   broadcast<Number>(1e-3));
   }
   /// Returns the flow stress at 300 K and zero pressure, with its slope.
   [[nodiscard]] FlowStress hardening(double plastic_strain) const {

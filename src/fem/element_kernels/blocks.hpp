@@ -1,8 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Groups of elements, and the nodal fields of their block (part of src/fem/element_kernels.hpp)
+#pragma once
 
-/// Describes elements that are processed together, one per lane: `width` elements of an ElementGroup from a given lane
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "src/fem/element_kernels/element_registers.hpp"
+#include "src/fem/hexahedron.hpp"
+#include "src/fem/mesh.hpp"
+
+/// Groups of elements, one element per lane, and the nodal fields of their block.
+namespace whipple::fem {
+
+/// Describes elements that are processed together, one per lane: elements of an ElementGroup from a given lane
 /// on. Values in lanes without an element are unspecified.
+template <class Vector>
 struct Group {
   const ElementGroup& all;
   std::size_t lane;
@@ -12,7 +27,7 @@ struct Group {
   Group(const ElementGroup& group, std::size_t first_lane)
       : all(group),
         lane(first_lane),
-        count(std::min<std::size_t>(width, group.count - first_lane)),
+        count(std::min<std::size_t>(width<Vector>, group.count - first_lane)),
         first(group.first + first_lane) {}
 
   /// Returns the element of a lane; the last element for lanes without one.
@@ -20,10 +35,10 @@ struct Group {
 
   /// Loads one number per element.
   [[nodiscard]] WHIPPLE_INLINE Vector load(const std::vector<double>& from) const {
-    return load_lanes(&from[first], count);
+    return whipple::load<Vector>(&from[first], count);
   }
   WHIPPLE_INLINE void store(std::vector<double>& to, Vector values) const {
-    store_lanes(&to[first], values, count);
+    whipple::store(&to[first], values, count);
   }
 };
 
@@ -35,43 +50,45 @@ WHIPPLE_INLINE inline std::span<const ElementGroup> groups_of(const Mesh& mesh, 
 }
 
 /// Calls f(Group) for the elements of a group.
-template <class Function>
+template <class Vector, class Function>
 WHIPPLE_INLINE inline void for_each_part(const ElementGroup& all, Function&& f) {
-  for (std::size_t lane = 0; lane < all.count; lane += width) f(Group(all, lane));
+  for (std::size_t lane = 0; lane < all.count; lane += width<Vector>) f(Group<Vector>(all, lane));
 }
 
 /// Holds a nodal field at the slots of a block; not initialised. The slots are followed by space for the corners of a
 /// group.
+template <class Vector>
 class BlockField {
  public:
   /// Copies an eighth of the field, as required by `modes`.
-  void copy(const Mesh& mesh, std::size_t block, const std::vector<Vector3>& field) {
+  WHIPPLE_INLINE void copy(const Mesh& mesh, std::size_t block, const std::vector<Vector3>& field) {
     const Blocks& blocks = mesh.blocks;
     const std::uint32_t first = blocks.first_slot[block], end = blocks.first_slot[block + 1];
     const auto put = [&](std::uint32_t s, std::size_t i, Vector x)
-                         WHIPPLE_INLINE { store_lanes(&at_[i][s - first], 0.125 * x, width); };
-    for (std::uint32_t s = first; s < end; s += width) {
+                         WHIPPLE_INLINE { store(&at_[i][s - first], 0.125 * x, width<Vector>); };
+    for (std::uint32_t s = first; s < end; s += width<Vector>) {
       const std::uint32_t* const node = &blocks.slot_node[s];
-      if (s + width <= end && node[width - 1] - node[0] == width - 1) {  // ascending: contiguous
-        const auto c = load_vectors(field[node[0]].data());
-        for (std::size_t i = 0; i < 3; ++i) put(s, i, c[i]);
+      if (s + width<Vector> <= end &&
+          node[width<Vector> - 1] - node[0] == width<Vector> - 1) {  // ascending: contiguous
+        const Triple<Vector> c = load_vectors_of_group<Vector>(field[node[0]].data());
+        put(s, 0, c.x), put(s, 1, c.y), put(s, 2, c.z);
         continue;
       }
-      std::array<Lanes, width> rows;
-      for (std::uint32_t l = 0; l < width; ++l) {
+      std::array<Lanes, width<Vector>> rows;
+      for (std::uint32_t l = 0; l < width<Vector>; ++l) {
         rows[l] = load_vector(field[blocks.slot_node[std::min(s + l, end - 1)]].data());
       }
-      const auto c = columns(rows);
+      const auto c = transposed(rows);
       for (std::size_t i = 0; i < 3; ++i) put(s, i, c[i]);
     }
   }
   /// Advances the slots by a time dt (s) with velocities, by exactly the operations of `move_nodes`.
-  void advance(const Mesh& mesh, std::size_t block, double dt, const BlockField& velocity) {
+  WHIPPLE_INLINE void advance(const Mesh& mesh, std::size_t block, double dt, const BlockField& velocity) {
     const std::uint32_t count = mesh.blocks.first_slot[block + 1] - mesh.blocks.first_slot[block];
     for (std::size_t i = 0; i < 3; ++i) {
-      for (std::uint32_t s = 0; s < count; s += width) {
-        const Vector there = load_lanes(&at_[i][s], width) + dt * load_lanes(&velocity.at_[i][s], width);
-        store_lanes(&at_[i][s], there, width);
+      for (std::uint32_t s = 0; s < count; s += width<Vector>) {
+        const Vector there = load<Vector>(&at_[i][s]) + dt * load<Vector>(&velocity.at_[i][s]);
+        store(&at_[i][s], there, width<Vector>);
       }
     }
   }
@@ -80,11 +97,11 @@ class BlockField {
     for (auto& component : at_) std::fill_n(component, count, 0.0);
   }
   /// Copies the values at the slots.
-  void copy_to(std::span<Vector3> values) const {
+  WHIPPLE_INLINE void copy_to(std::span<Vector3> values) const {
     std::size_t s = 0;
-    for (; s + width <= values.size(); s += width) {
-      const auto along = [&](std::size_t i) WHIPPLE_INLINE { return load_lanes(&at_[i][s], width); };
-      store_vectors(values[s].data(), along(0), along(1), along(2));
+    for (; s + width<Vector> <= values.size(); s += width<Vector>) {
+      const auto along = [&](std::size_t i) WHIPPLE_INLINE { return load<Vector>(&at_[i][s]); };
+      store_vectors(values[s].data(), Triple<Vector>{along(0), along(1), along(2)});
     }
     for (; s < values.size(); ++s) values[s] = Vector3(at_[0][s], at_[1][s], at_[2][s]);
   }
@@ -92,12 +109,12 @@ class BlockField {
   /// Provides the values of a group as modes.
   class OfGroup {
    public:
-    OfGroup(BlockField& field, const Group& group) : field_(field), group_(group) {
+    WHIPPLE_INLINE OfGroup(BlockField& field, const Group<Vector>& group) : field_(field), group_(group) {
       if (group.all.is_row != 0) return;
       for (std::size_t a = 0; a < 8; ++a) {
         for (auto& component : field.at_) {
-          const Vector corner = gather_lanes(component, &group.all.slot[a][group.lane]);
-          store_lanes(&component[group.all.place[a] + group.lane], corner, width);
+          const Vector corner = load_from_places<Vector>(component, &group.all.slot[a][group.lane]);
+          store(&component[group.all.place[a] + group.lane], corner, width<Vector>);
         }
       }
     }
@@ -105,7 +122,7 @@ class BlockField {
     [[nodiscard]] WHIPPLE_INLINE std::array<Vector, 7> component(std::size_t i) const {
       std::array<Vector, 8> u;
       for (std::size_t a = 0; a < 8; ++a) {
-        u[a] = load_lanes(&field_.at_[i][group_.all.place[a] + group_.lane], width);
+        u[a] = load<Vector>(&field_.at_[i][group_.all.place[a] + group_.lane]);
       }
       return modes_of_eighths(u);
     }
@@ -115,12 +132,12 @@ class BlockField {
 
    private:
     const BlockField& field_;
-    const Group& group_;
+    const Group<Vector>& group_;
   };
-  [[nodiscard]] WHIPPLE_INLINE OfGroup of(const Group& group) { return OfGroup(*this, group); }
+  [[nodiscard]] WHIPPLE_INLINE OfGroup of(const Group<Vector>& group) { return OfGroup(*this, group); }
 
   /// Adds the corner values of a field given by its modes.
-  WHIPPLE_INLINE void add(const Group& group, const Modes<Vector>& field) {
+  WHIPPLE_INLINE void add(const Group<Vector>& group, const Modes<Vector>& field) {
     const std::array<Triple<Vector>, 8> corners = corners_of(field);
     add_component(at_[0], group, [&](std::size_t a) WHIPPLE_INLINE { return corners[a].x; });
     add_component(at_[1], group, [&](std::size_t a) WHIPPLE_INLINE { return corners[a].y; });
@@ -129,7 +146,7 @@ class BlockField {
 
  private:
   template <class Share>
-  WHIPPLE_INLINE static void add_component(double* to, const Group& group, const Share& share) {
+  WHIPPLE_INLINE static void add_component(double* to, const Group<Vector>& group, const Share& share) {
     // Corners at the back and at the front of elements along a direction, edge by edge.
     const auto add_lines = [&](const std::array<std::size_t, 4>& back,
                                const std::array<std::size_t, 4>& front) WHIPPLE_INLINE {
@@ -158,4 +175,8 @@ class BlockField {
   double at_[3][ElementGroup::gathered_place(8)];  // NOLINT: without initialisation
 };
 
-using Rows = std::array<std::size_t, width>;
+/// Lists the rows of the points of a group.
+template <class Vector>
+using Rows = std::array<std::size_t, width<Vector>>;
+
+}  // namespace whipple::fem

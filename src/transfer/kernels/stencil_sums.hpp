@@ -1,29 +1,45 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sums over the nodes of a stencil, built up direction by direction (part of src/transfer/register_kernels.hpp)
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "src/core/base/vectors.hpp"
+#include "src/transfer/kernels/access.hpp"
+#include "src/transfer/point_values.hpp"
+#include "src/transfer/shape_weights.hpp"
+
+/// Sums over the nodes of a stencil, built up direction by direction.
+namespace whipple::transfer {
 
 /// Points that take something at a time; if there are fewer, the last stands for the others.
-using PointsOfGroup = std::array<std::uint32_t, together>;
+template <class Vector>
+using PointsOfGroup = std::array<std::uint32_t, points_of<Vector>>;
 
 /// These points with their places, or weights where the place alone is not enough, and nodes.
-template <class ShapeOfGroup, class Access>
+template <class Vector, class ShapeOfGroup, class Access>
 struct Group {
   using Shape = ShapeOfGroup;
-  PointsOfGroup point;
-  std::array<const grid::PlaceInStencil*, together> place;
-  std::array<const Weights<Shape::count>*, together> weights;
-  std::array<typename Access::Stencil, together> stencil;
+  PointsOfGroup<Vector> point;
+  std::array<const grid::PlaceInStencil*, points_of<Vector>> place;
+  std::array<const Weights<Shape::count>*, points_of<Vector>> weights;
+  std::array<typename Access::Stencil, points_of<Vector>> stencil;
 
   [[nodiscard]] WHIPPLE_INLINE Vector first(std::size_t i, std::size_t j, std::size_t k) const {
-    return of_group([&](std::size_t m) -> Lanes { return first_register(stencil[m](i, j, k)); });
+    return by_points<Vector>([&](std::size_t m)
+                                 WHIPPLE_INLINE -> Lanes { return first_register(stencil[m](i, j, k)); });
   }
   [[nodiscard]] WHIPPLE_INLINE Vector second(std::size_t i, std::size_t j, std::size_t k) const {
-    return of_group([&](std::size_t m) -> Lanes { return stencil[m](i, j, k).registers.second; });
+    return by_points<Vector>([&](std::size_t m)
+                                 WHIPPLE_INLINE -> Lanes { return stencil[m](i, j, k).registers.second; });
   }
 };
 
 /// One direction of the stencils of a group: of values at its nodes the sum with N, and with it the sum with
 /// slopes: those of N (`derivatives` of them make 1/m), or N r, whose sums over the nodes vanish.
-template <class Shape>
+template <class Vector, class Shape>
 class Direction {
  public:
   static constexpr std::size_t n = Shape::count;
@@ -34,28 +50,31 @@ class Direction {
   WHIPPLE_INLINE Direction(const Group& group, std::size_t a, const Cells&) {
     const auto& w = group.weights;
     for (std::size_t k = 0; k < n; ++k) {
-      weight_[k] = spread([&](std::size_t m) -> const Lanes& { return w[m]->weight[k]; }, a);
-      derivative_[k] = spread([&](std::size_t m) -> const Lanes& { return w[m]->derivative[k]; }, a);
-      distance[k] = spread([&](std::size_t m) -> const Lanes& { return w[m]->distance[k]; }, a);
+      weight_[k] = component_by_points<Vector>(
+          [&](std::size_t m) WHIPPLE_INLINE -> const Lanes& { return w[m]->weight[k]; }, a);
+      derivative_[k] = component_by_points<Vector>(
+          [&](std::size_t m) WHIPPLE_INLINE -> const Lanes& { return w[m]->derivative[k]; }, a);
+      distance[k] = component_by_points<Vector>(
+          [&](std::size_t m) WHIPPLE_INLINE -> const Lanes& { return w[m]->distance[k]; }, a);
       moment_[k] = weight_[k] * distance[k];
     }
   }
   WHIPPLE_INLINE Vector sum(const Values& f) const {
     Vector of_weight, of_slopes;
-    both(weight_, f, of_weight, of_slopes);
+    sums(weight_, f, of_weight, of_slopes);
     return of_weight;
   }
   WHIPPLE_INLINE void with_derivatives(const Values& f, Vector& of_weight, Vector& of_derivatives) const {
-    both(derivative_, f, of_weight, of_derivatives);
+    sums(derivative_, f, of_weight, of_derivatives);
   }
   WHIPPLE_INLINE void with_moments(const Values& f, Vector& of_weight, Vector& of_moments) const {
-    both(moment_, f, of_weight, of_moments);
+    sums(moment_, f, of_weight, of_moments);
   }
   WHIPPLE_INLINE Vector derivatives(Vector sum) const { return sum; }
 
  private:
   /// Three nodes take differences from the middle one, which both sums share.
-  WHIPPLE_INLINE void both(const Values& slopes, const Values& f, Vector& of_weight,
+  WHIPPLE_INLINE void sums(const Values& slopes, const Values& f, Vector& of_weight,
                            Vector& of_slopes) const {
     if constexpr (n == 3) {
       const Vector before = f[0] - f[1], behind = f[2] - f[1];
@@ -76,8 +95,8 @@ class Direction {
 
 /// Quadratic B-splines: with y in cells from the middle node, N_0 = (y - 1/2)^2/2, N_2 = (y + 1/2)^2/2 and the slopes
 /// times dx {a, -2 a - 1, a + 1}, a = w(y) - 1/2.
-template <>
-class Direction<QuadraticBSpline> {
+template <class Vector>
+class Direction<Vector, QuadraticBSpline> {
  public:
   static constexpr std::size_t n = 3;
   using Values = std::array<Vector, n>;
@@ -85,7 +104,8 @@ class Direction<QuadraticBSpline> {
 
   template <class Group>
   WHIPPLE_INLINE Direction(const Group& group, std::size_t a, const Cells& cells) {
-    const Vector x = of_group([&](std::size_t m) { return broadcast(group.place[m]->from_first(a)); });
+    const Vector x = by_points<Vector>(
+        [&](std::size_t m) WHIPPLE_INLINE { return broadcast(group.place[m]->from_first(a)); });
     const Vector y = x - 1.0, to_first = y - 0.5, to_last = y + 0.5;
     a_ = multiply_add(cells.slope_smoothing[a] * y, 0.25 - y * y, to_first);  // (2.9)
     before_ = 0.5 * to_first * to_first;
@@ -118,6 +138,7 @@ class Direction<QuadraticBSpline> {
 };
 
 /// The one node along z of a stencil in a plane.
+template <class Vector>
 struct FlatDirection {
   static constexpr std::size_t n = 1;
   using Values = std::array<Vector, n>;
@@ -137,16 +158,16 @@ struct FlatDirection {
 };
 
 /// The directions x and y, and z.
-template <class Shape>
-using Along = Direction<typename AlongAxis<Shape>::type>;
-template <class Shape>
-using AlongZ = std::conditional_t<Planar<Shape>, FlatDirection, Along<Shape>>;
+template <class Vector, class Shape>
+using Along = Direction<Vector, typename AlongAxis<Shape>::type>;
+template <class Vector, class Shape>
+using AlongZ = std::conditional_t<Planar<Shape>, FlatDirection<Vector>, Along<Vector, Shape>>;
 
 enum class Slopes { derivatives, moments };
 
 /// Sums of one vector per node, built up direction by direction: along the rows in z, over the rows of a
 /// plane, over the planes.
-template <class Direction, Slopes kind>
+template <class Vector, class Direction, Slopes kind>
 struct NodeSums {
   static constexpr std::size_t n = Direction::n;
   using Values = std::array<Vector, n>;
@@ -184,3 +205,36 @@ struct NodeSums {
     return total;
   }
 };
+
+/// Value and gradient between the eight nodes of a cell, direction by direction.
+/// @tparam Value  Lanes, or both registers of a node
+/// @param node    node(i, j, k)
+template <class Value, class GetNode>
+WHIPPLE_INLINE inline ValueAndGradient<Value> between_nodes(const std::array<Value, 3>& from_first,
+                                                            const Value& per_cell, const GetNode& node) {
+  struct Edge {
+    Value value, along;
+  };
+  const auto between = [](const Value& f, const Value& before, const Value& behind) WHIPPLE_INLINE {
+    const Value along = behind - before;
+    return Edge{multiply_add(f, along, before), along};
+  };
+  struct Face {
+    Edge y;
+    Value z;
+  };
+  std::array<Face, 2> faces;
+#pragma GCC unroll 2
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Edge low = between(from_first[2], node(i, 0, 0), node(i, 0, 1)),
+               high = between(from_first[2], node(i, 1, 0), node(i, 1, 1));
+    faces[i] = {between(from_first[1], low.value, high.value),
+                between(from_first[1], low.along, high.along).value};
+  }
+  const Edge x = between(from_first[0], faces[0].y.value, faces[1].y.value);
+  return {x.value,
+          {per_cell * x.along, per_cell * between(from_first[0], faces[0].y.along, faces[1].y.along).value,
+           per_cell * between(from_first[0], faces[0].z, faces[1].z).value}};
+}
+
+}  // namespace whipple::transfer

@@ -1,6 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What points bring to their nodes (part of src/transfer/register_kernels.hpp)
+#pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+
+#include "src/transfer/kernels/access.hpp"
+#include "src/transfer/point_values.hpp"
+#include "src/transfer/shape_weights.hpp"
+
+/// What points bring to their nodes.
+namespace whipple::transfer {
+
+/// Points whose weights are computed together.
 constexpr std::size_t ahead = 8;
 
 /// Calls f(points of a block, their weights) for a few points at a time: weights are a long chain of
@@ -24,7 +39,7 @@ WHIPPLE_INLINE inline void for_some(const Points& points, std::span<const grid::
 /// Distributes contributions weighted with N, and contributions weighted with slopes, whose sum over the
 /// nodes vanishes, to the nodes of one direction: of three nodes the middle one, with the largest N, receives
 /// the remainder.
-template <std::size_t n>
+template <class Both, std::size_t n>
 WHIPPLE_INLINE inline std::array<Both, n> shares(const std::array<Both, n>& weight,
                                                  const std::array<Both, n>& slope, const Both& whole,
                                                  const Both& of_slope) {
@@ -36,7 +51,7 @@ WHIPPLE_INLINE inline std::array<Both, n> shares(const std::array<Both, n>& weig
   if constexpr (n == 3) share[1] = whole - (share[0] + share[2]);
   return share;
 }
-template <std::size_t n>
+template <class Both, std::size_t n>
 WHIPPLE_INLINE inline std::array<Both, n> shares(const std::array<Both, n>& weight, const Both& whole) {
   std::array<Both, n> share;
   for (std::size_t k = 0; k < n; ++k) {
@@ -49,9 +64,10 @@ WHIPPLE_INLINE inline std::array<Both, n> shares(const std::array<Both, n>& weig
 
 /// Adds what a point brings to its nodes (equation 4.1 and the forces): node += N P_0 + sum over directions
 /// of S_a P_a, with S_a = N r_a in the first register and the slope of N in the second.
-template <class Shape, class Stencil>
+template <class Vector, class Shape, class Stencil>
 WHIPPLE_INLINE inline void add_payload(const Payload& load, const Weights<Shape::count>& w,
                                        const Stencil& nodes) {
+  using Both = BothRegisters<Vector>;
   constexpr std::size_t n = Shape::count;
   constexpr bool affine = CarriesAffineField<Shape>;  // else the first register takes no slopes
   struct Factors {
@@ -61,15 +77,16 @@ WHIPPLE_INLINE inline void add_payload(const Payload& load, const Weights<Shape:
     Factors along;
     for (std::size_t k = 0; k < n; ++k) {
       const double weight = w.weight[k][a];
-      along.weight[k] = spread_both(weight);
-      along.slope[k] = spread_both(affine ? weight * w.distance[k][a] : 0.0, w.derivative[k][a]);
+      along.weight[k] = broadcast_both<Vector>(weight);
+      along.slope[k] = broadcast_both<Vector>(affine ? weight * w.distance[k][a] : 0.0, w.derivative[k][a]);
     }
     return along;
   };
   const Factors x = direction(0), y = direction(1), z = direction(2);
-  const auto planes = shares(x.weight, x.slope, both(load.a0, load.b0), both(load.ax, load.bx)),
-             planes_y = shares(x.weight, both(load.ay, load.by)),
-             planes_z = shares(x.weight, both(load.az, load.bz));
+  const auto planes = shares(x.weight, x.slope, join_registers<Vector>(load.a0, load.b0),
+                             join_registers<Vector>(load.ax, load.bx)),
+             planes_y = shares(x.weight, join_registers<Vector>(load.ay, load.by)),
+             planes_z = shares(x.weight, join_registers<Vector>(load.az, load.bz));
   for (std::size_t i = 0; i < n; ++i) {
     const auto rows = shares(y.weight, y.slope, planes[i], planes_y[i]),
                rows_z = shares(y.weight, planes_z[i]);
@@ -77,20 +94,20 @@ WHIPPLE_INLINE inline void add_payload(const Payload& load, const Weights<Shape:
     for (std::size_t j = 0; j < n; ++j) {
       if constexpr (Planar<Shape>) {
         grid::Node& node = nodes(i, j, 0);
-        store_node(node, load_node(node) + rows[j]);
+        store_node(node, load_node<Vector>(node) + rows[j]);
       } else {
         const auto share = shares(z.weight, z.slope, rows[j], rows_z[j]);
 #pragma GCC unroll 4
         for (std::size_t k = 0; k < n; ++k) {
           grid::Node& node = nodes(i, j, k);
-          store_node(node, load_node(node) + share[k]);
+          store_node(node, load_node<Vector>(node) + share[k]);
         }
       }
     }
   }
 }
 /// Adds mass and momentum only.
-template <class Shape, class Stencil>
+template <class Vector, class Shape, class Stencil>
 WHIPPLE_INLINE inline void add_payload(Lanes load, const Weights<Shape::count>& w, const Stencil& nodes) {
   constexpr std::size_t n = Shape::count;
   const std::array<Lanes, n> weight = of_direction(w.weight, 2);
@@ -109,27 +126,31 @@ WHIPPLE_INLINE inline void add_payload(Lanes load, const Weights<Shape::count>& 
 /// Scatters the points of one cell to its eight nodes with linear functions, as long as they are contiguous:
 /// the nodes themselves are accessed once for all of them.
 /// @tparam Content  of the nodes: grid::Node takes everything, Lanes mass and momentum
-template <class Content>
+template <class Vector, class Content>
 class NodesOfCell {
+  using Both = BothRegisters<Vector>;
+
  public:
   WHIPPLE_INLINE void add(const Payload& load, const grid::PlaceInStencil& place, double per_cell) {
     const Weight x = weight(place, 0), y = weight(place, 1), z = weight(place, 2);
     const Lanes none{};
-    const Both whole = both(load.a0, load.b0), of_x = both(none, per_cell * load.bx),
-               of_y = both(none, per_cell * load.by);
+    const Both whole = join_registers<Vector>(load.a0, load.b0),
+               of_x = join_registers<Vector>(none, per_cell * load.bx),
+               of_y = join_registers<Vector>(none, per_cell * load.by);
     const Lanes of_z = per_cell * load.bz;
 #pragma GCC unroll 2
     for (std::size_t i = 0; i < 2; ++i) {
-      const Both across = spread_both(x[i]), from_x = across * whole,
+      const Both across = broadcast_both<Vector>(x[i]), from_x = across * whole,
                  plane = i == 0 ? from_x - of_x : from_x + of_x, plane_y = across * of_y;
       const Lanes plane_z = x[i] * of_z;
 #pragma GCC unroll 2
       for (std::size_t j = 0; j < 2; ++j) {
-        const Both from_y = spread_both(y[j]) * plane, row = j == 0 ? from_y - plane_y : from_y + plane_y;
+        const Both from_y = broadcast_both<Vector>(y[j]) * plane,
+                   row = j == 0 ? from_y - plane_y : from_y + plane_y;
         slope_[i][j] += y[j] * plane_z;
 #pragma GCC unroll 2
         for (std::size_t k = 0; k < 2; ++k)
-          sum_[i][j][k] = multiply_add(spread_both(z[k]), row, sum_[i][j][k]);
+          sum_[i][j][k] = multiply_add(broadcast_both<Vector>(z[k]), row, sum_[i][j][k]);
       }
     }
   }
@@ -147,16 +168,16 @@ class NodesOfCell {
     }
   }
   template <class Stencil>
-  WHIPPLE_INLINE void hand_over(const Stencil& nodes) {
+  WHIPPLE_INLINE void add_to(const Stencil& nodes) {
 #pragma GCC unroll 2
     for (std::size_t i = 0; i < 2; ++i) {
 #pragma GCC unroll 2
       for (std::size_t j = 0; j < 2; ++j) {
         if constexpr (takes_all) {
-          const Both slope = both(Lanes{}, slope_[i][j]);
+          const Both slope = join_registers<Vector>(Lanes{}, slope_[i][j]);
           grid::Node &before = nodes(i, j, 0), &behind = nodes(i, j, 1);
-          store_node(before, load_node(before) + (sum_[i][j][0] - slope));
-          store_node(behind, load_node(behind) + (sum_[i][j][1] + slope));
+          store_node(before, load_node<Vector>(before) + (sum_[i][j][0] - slope));
+          store_node(behind, load_node<Vector>(behind) + (sum_[i][j][1] + slope));
         } else {
 #pragma GCC unroll 2
           for (std::size_t k = 0; k < 2; ++k) first_register(nodes(i, j, k)) += sum_[i][j][k];
@@ -181,3 +202,5 @@ class NodesOfCell {
   Pair<Pair<Lanes>> slope_{};  // of the functions along z: what the second register of the node behind gets
                                // of it, the one before loses
 };
+
+}  // namespace whipple::transfer

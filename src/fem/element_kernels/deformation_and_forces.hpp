@@ -1,12 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Deformation of elements, and forces of their stresses (part of src/fem/element_kernels.hpp)
+#pragma once
 
-template <HourglassControl::Kind kind>
+#include <array>
+#include <cstddef>
+
+#include "src/core/base/prefetch.hpp"
+#include "src/fem/element_kernels/formulas.hpp"
+
+/// Deformation of elements, and forces of their stresses.
+namespace whipple::fem {
+
+inline constexpr double root8 = 2.8284271247461900976;  ///< norm of a mode's corner values
+inline constexpr double negligible_cut = 0.02;  ///< energy fraction cut from hourglass forces, not counted
+inline constexpr double negligible_energy = 1e-12;  ///< of m c^2, likewise not counted as a limit
+
+/// Holds the quantities common to all groups of elements.
+struct DeformationStep {
+  Mesh& mesh;
+  double dt;
+  const HourglassControl& hourglass;
+  VelocityGradients& gradient;
+};
+
+template <class Vector, HourglassControl::Kind kind>
 struct OnePoint {
   static constexpr bool viscous = kind == HourglassControl::Kind::viscous;
 
-  WHIPPLE_INLINE void operator()(const DeformationStep& step, const Group& group, const Fields& fields,
-                                 Tally& tally) const {
+  WHIPPLE_INLINE void operator()(const DeformationStep& step, const Group<Vector>& group,
+                                 const Fields<Vector>& fields, Tally<Vector>& tally) const {
     GaussPoints& points = step.mesh.points;
     Elements& elements = step.mesh.elements;
     if (const std::size_t first = group.first; group.lane == 0) {
@@ -38,7 +59,7 @@ struct OnePoint {
       for (std::size_t m = 0; m < 4; ++m) end_modes[m].*axis = u[3 + m];
       return per_eighth * mean_gradient_times_eighth(u, beta);
     };
-    const Columns<Vector> l = by_rows(end_row);
+    const Columns<Vector> l = by_rows<Vector>(end_row);
 
     // Velocity gradient of the step. Computed first because of its chain of slow divisions.
     const VolumeGradient<Vector> end = volume_gradient(moved);
@@ -50,17 +71,17 @@ struct OnePoint {
     // Work of the stress (eq. 2.7) and of the hourglass forces (eq. 3.6), on the mean velocity.
     auto q = hourglass_forces_of(elements, group);
     Vector hourglass_rate{};
-    const Columns<Vector> mean = by_rows([&](std::size_t i, Axis axis) WHIPPLE_INLINE {
+    const Columns<Vector> mean = by_rows<Vector>([&](std::size_t i, Axis axis) WHIPPLE_INLINE {
       const std::array<Vector, 7> u = fields.mean_velocity.component(i);
       for (std::size_t m = 0; m < 4; ++m) hourglass_rate += q[m].*axis * u[3 + m];
       return mean_gradient_times_eighth(u, beta);
     });
-    const Columns<Vector> deviator = deviator_at(points, group);
+    const Columns<Vector> deviator = deviator_at<Vector>(points, group);
     Columns<Vector> stress = deviator;
     add_to_diagonal(stress, -(group.load(points.pressure) + group.load(points.artificial_viscosity)));
     const Vector work = (8.0 * dt) * contraction(stress, mean);
     Columns<Vector> carried{};  // sum_k Q_k x_k^T
-    for (std::size_t m = 0; m < 4; ++m) add_dyad(carried, q[m], x.*hourglass_modes[m]);
+    for (std::size_t m = 0; m < 4; ++m) add_dyad(carried, q[m], x.*hourglass_modes<Vector>[m]);
     const Vector hourglass_work = (root8 * dt) * (hourglass_rate - per_eighth * contraction(carried, mean));
 
     // Hourglass forces of the next step (eq. 3.3 to 3.9).
@@ -68,10 +89,10 @@ struct OnePoint {
     const Vector frequency_squared = 8.0 * beta.squared_norm() * rate * rate;  // eq. 5.1
     const double coefficient = 0.125 * root8 * step.hourglass.coefficient;
     const Vector mass = group.load(points.mass);
-    const Vector resistance = mass * (viscous ? 2.0 * coefficient * root(frequency_squared)
+    const Vector resistance = mass * (viscous ? 2.0 * coefficient * sqrt(frequency_squared)
                                               : (coefficient * dt) * frequency_squared);
     const auto end_rate = [&](std::size_t m)
-                              WHIPPLE_INLINE { return end_modes[m] - l * (x.*hourglass_modes[m]); };
+                              WHIPPLE_INLINE { return end_modes[m] - l * (x.*hourglass_modes<Vector>[m]); };
     Vector heat = hourglass_work;
     if constexpr (viscous) {
       for (std::size_t m = 0; m < 4; ++m) q[m] = resistance * end_rate(m);
@@ -97,12 +118,13 @@ struct OnePoint {
       group.store(elements.hourglass_lead, lead);
       // The spring energy is limited to the stored energy.
       const Vector most = (2.0 / (root8 * dt)) * resistance * stored;
-      const Vector kept = most < force_squared ? root(most / force_squared) : in_all(1.0);
+      const Vector kept = most < force_squared ? sqrt(most / force_squared) : broadcast<Vector>(1.0);
       for (std::size_t m = 0; m < 4; ++m) q[m] = kept * q[m] + advance[m];
       const Vector round_off =
           (negligible_energy * 2.0 / (root8 * dt)) * resistance * mass * sound_speed * sound_speed;
-      tally.add_limits(group, maximum(-booked, Vector{}),
-                       (1.0 - negligible_cut) * force_squared > most + round_off ? in_all(1.0) : Vector{});
+      tally.add_limits(
+          group, maximum(-booked, Vector{}),
+          (1.0 - negligible_cut) * force_squared > most + round_off ? broadcast<Vector>(1.0) : Vector{});
     }
     for_each_hourglass_component(q, [&](const Vector& force, const auto component)
                                         WHIPPLE_INLINE { group.store(elements.*component, force); });
@@ -114,8 +136,10 @@ struct OnePoint {
   }
 };
 
+template <class Vector>
 struct DeformEightPoints {
-  void operator()(const DeformationStep& step, const Group& group, const Fields& fields, Tally& tally) const {
+  WHIPPLE_INLINE void operator()(const DeformationStep& step, const Group<Vector>& group,
+                                 const Fields<Vector>& fields, Tally<Vector>& tally) const {
     const Modes<Vector> x = fields.position.modes(), mean_velocity = fields.mean_velocity.modes(),
                         end_velocity = fields.end_velocity.modes();
     GaussPoints& points = step.mesh.points;
@@ -124,7 +148,7 @@ struct DeformEightPoints {
     const Modes<Vector> end_position = x + dt * end_velocity;
     const VolumeGradient<Vector> end = volume_gradient(end_position);
     const Vector ratio = end.volume / beta.volume;
-    const auto along = [&](std::size_t i) {
+    const auto along = [&](std::size_t i) WHIPPLE_INLINE {
       return mean_gradient_times_eighth(fields.mean_velocity.component(i), beta);
     };
     const Vector mean_divergence = 8.0 * (along(0).x + along(1).y + along(2).z) / beta.volume;
@@ -132,11 +156,11 @@ struct DeformEightPoints {
     Vector total{};  // work
     for (std::size_t g = 0; g < 8; ++g) {
       const GaussPoint at(g);
-      const Rows rows = at.rows(group);
+      const Rows<Vector> rows = at.rows(group);
       const Columns<Vector> jacobian = at.gradient(x), cofactor = cofactors(jacobian);
       const Vector det = determinant(jacobian);
       // du/dxi J^-1 times det J: the rows of the inverse are the columns of the cofactors
-      const auto in_space = [&](const Modes<Vector>& u) {
+      const auto in_space = [&](const Modes<Vector>& u) WHIPPLE_INLINE {
         const Columns<Vector> natural = at.gradient(u);
         Columns<Vector> l{};
         add_dyad(l, natural.x, cofactor.x);
@@ -145,10 +169,10 @@ struct DeformEightPoints {
         return l;
       };
       // Work (eq. 4.3), velocity gradient (eq. 4.4)
-      const Vector work = dt * (contraction(deviator_at(points, rows), in_space(mean_velocity)) +
-                                det * mean_stress_at(points, rows) * mean_divergence);
+      const Vector work = dt * (contraction(deviator_at<Vector>(points, rows), in_space(mean_velocity)) +
+                                det * mean_stress_at<Vector>(points, rows) * mean_divergence);
       const Columns<Vector> l = with_volume_ratio(scaled(in_space(end_velocity), 1.0 / det), ratio, dt);
-      for_each_component(l, [&](const Vector& value, std::size_t c) {
+      for_each_component(l, [&](const Vector& value, std::size_t c) WHIPPLE_INLINE {
         for (std::size_t k = 0; k < group.count; ++k) step.gradient.component[c][rows[k]] = value[k];
       });
       for (std::size_t k = 0; k < group.count; ++k) {
@@ -163,17 +187,19 @@ struct DeformEightPoints {
 };
 
 /// Returns the forces f_a = sum_k F_k phi_ka of a stress on the mean gradient (eq. 2.6).
+template <class Vector>
 WHIPPLE_INLINE inline Modes<Vector> mean_gradient_forces(const Columns<Vector>& stress,
                                                          const VolumeGradient<Vector>& beta) {
   return {-(stress * beta.xi),      -(stress * beta.eta),    -(stress * beta.zeta), -(stress * beta.eta_zeta),
           -(stress * beta.zeta_xi), -(stress * beta.xi_eta), Triple<Vector>{}};
 }
 
+template <class Vector>
 struct ForcesOfOnePoint {
-  WHIPPLE_INLINE Modes<Vector> operator()(const Mesh& mesh, const Group& group,
+  WHIPPLE_INLINE Modes<Vector> operator()(const Mesh& mesh, const Group<Vector>& group,
                                           const Modes<Vector>& x) const {
     const VolumeGradient<Vector> beta = volume_gradient(x);
-    Columns<Vector> stress = deviator_at(mesh.points, group);
+    Columns<Vector> stress = deviator_at<Vector>(mesh.points, group);
     add_to_diagonal(stress,
                     -(group.load(mesh.points.pressure) + group.load(mesh.points.artificial_viscosity)));
     const auto q = hourglass_forces_of(mesh.elements, group);
@@ -190,8 +216,9 @@ struct ForcesOfOnePoint {
   }
 };
 
+template <class Vector>
 struct ForcesOfBBar {
-  WHIPPLE_INLINE Modes<Vector> operator()(const Mesh& mesh, const Group& group,
+  WHIPPLE_INLINE Modes<Vector> operator()(const Mesh& mesh, const Group<Vector>& group,
                                           const Modes<Vector>& x) const {
     const VolumeGradient<Vector> beta = volume_gradient(x);
     Modes<Vector> f{};
@@ -200,9 +227,9 @@ struct ForcesOfBBar {
       const GaussPoint at(g);
       const auto rows = at.rows(group);
       const Columns<Vector> jacobian = at.gradient(x);
-      mean_stress += determinant(jacobian) * mean_stress_at(mesh.points, rows);
+      mean_stress += determinant(jacobian) * mean_stress_at<Vector>(mesh.points, rows);
       // Deviator: det J s : grad u = (s cof J) : du/dxi
-      const Columns<Vector> cofactor = cofactors(jacobian), s = deviator_at(mesh.points, rows);
+      const Columns<Vector> cofactor = cofactors(jacobian), s = deviator_at<Vector>(mesh.points, rows);
       const Triple<Vector> px = -0.125 * (s * cofactor.x), py = -0.125 * (s * cofactor.y),
                            pz = -0.125 * (s * cofactor.z);
       f.xi += px;
@@ -219,3 +246,5 @@ struct ForcesOfBBar {
     return f + mean_gradient_forces(mean, beta);
   }
 };
+
+}  // namespace whipple::fem

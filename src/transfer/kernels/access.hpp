@@ -1,5 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The nodes that the points of a block reach, and the two ways to them (part of src/transfer/register_kernels.hpp)
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+
+#include "src/grid/block_grid.hpp"
+#include "src/transfer/kernels/node_registers.hpp"
+#include "src/transfer/shapes.hpp"
+
+/// The nodes that the points of a block reach, and the two ways to them.
+namespace whipple::transfer {
 
 /// Blocks with fewer particles than this use direct access: that costs by the stencil, of which linear
 /// functions have one for all particles of a cell.
@@ -7,23 +20,38 @@ template <class Shape>
 constexpr std::size_t direct_access_below = Shape::count == 2 ? 16 : 6;
 
 /// Copies the part of a node that a local copy holds: all of it, or only the first register.
+template <class Vector>
 WHIPPLE_INLINE inline void copy_node(const grid::Node& from, grid::Node& to) {
-  store_node(to, load_node(from));
+  store_node(to, load_node<Vector>(from));
 }
-WHIPPLE_INLINE inline void copy_node(const grid::Node& from, Lanes& to) { to = from.registers.first; }
+template <class Vector>
+WHIPPLE_INLINE inline void copy_node(const grid::Node& from, Lanes& to) {
+  to = from.registers.first;
+}
+template <class Vector>
 WHIPPLE_INLINE inline void add_node(const grid::Node& from, grid::Node& to) {
-  store_node(to, load_node(to) + load_node(from));
+  store_node(to, load_node<Vector>(to) + load_node<Vector>(from));
 }
-WHIPPLE_INLINE inline void add_node(Lanes from, grid::Node& to) { to.registers.first += from; }
-WHIPPLE_INLINE inline void clear_node(grid::Node& node) { store_node(node, both(Lanes{}, Lanes{})); }
-WHIPPLE_INLINE inline void clear_node(Lanes& first) { first = Lanes{}; }
+template <class Vector>
+WHIPPLE_INLINE inline void add_node(Lanes from, grid::Node& to) {
+  to.registers.first += from;
+}
+template <class Vector>
+WHIPPLE_INLINE inline void clear_node(grid::Node& node) {
+  store_node(node, join_registers<Vector>(Lanes{}, Lanes{}));
+}
+template <class Vector>
+WHIPPLE_INLINE inline void clear_node(Lanes& first) {
+  first = Lanes{};
+}
 WHIPPLE_INLINE inline Lanes& first_register(grid::Node& node) { return node.registers.first; }
 WHIPPLE_INLINE inline Lanes& first_register(Lanes& first) { return first; }
 
 /// Copy of the nodes that a block reaches; index = position in the reach, z fastest.
+/// @tparam Vector   register that nodes are copied by
 /// @tparam Shape    its stencil gives the reach
 /// @tparam Content  what is copied: grid::Node, or Lanes for the first register
-template <class Shape, class Content = grid::Node>
+template <class Vector, class Shape, class Content = grid::Node>
 class ReachCopy {
  public:
   static constexpr int before = Shape::stencil.before(), edge = Shape::stencil.edge();
@@ -42,18 +70,18 @@ class ReachCopy {
   /// @param first  node, as of grid::PlaceInStencil
   Stencil stencil(std::int32_t first) { return {&nodes_[static_cast<std::size_t>(first)]}; }
 
-  void clear() {
-    for (Content& node : nodes_) clear_node(node);
+  WHIPPLE_INLINE void clear() {
+    for (Content& node : nodes_) clear_node<Vector>(node);
   }
-  void load(const grid::BlockGrid& grid, std::size_t slot, unsigned field) {
-    for_each_owner(grid, slot, field, [&](const grid::Node* owner, int in_block, std::size_t here) {
-      copy_node(owner[in_block], nodes_[here]);
-    });
+  WHIPPLE_INLINE void load(const grid::BlockGrid& grid, std::size_t slot, unsigned field) {
+    for_each_owner(grid, slot, field,
+                   [&](const grid::Node* owner, int in_block, std::size_t here)
+                       WHIPPLE_INLINE { copy_node<Vector>(owner[in_block], nodes_[here]); });
   }
   /// Adds the copy to the grid. Blocks of one colour do not overlap, so no two threads meet here.
-  void add_to(grid::BlockGrid& grid, std::size_t slot, unsigned field) const {
-    for_each_owner(grid, slot, field, [&](grid::Node* owner, int in_block, std::size_t here) {
-      add_node(nodes_[here], owner[in_block]);
+  WHIPPLE_INLINE void add_to(grid::BlockGrid& grid, std::size_t slot, unsigned field) const {
+    for_each_owner(grid, slot, field, [&](grid::Node* owner, int in_block, std::size_t here) WHIPPLE_INLINE {
+      add_node<Vector>(nodes_[here], owner[in_block]);
     });
   }
 
@@ -65,13 +93,12 @@ class ReachCopy {
   /// Calls f(nodes of the owning block, index in it, index here) for every node of the reach whose block is
   /// active; no particle reaches the others.
   template <class Grid, class Function>
-  static void for_each_owner(Grid& grid, std::size_t slot, unsigned field, Function&& f) {
-    static constexpr grid::ReachMap map = grid::reach_map(block.edge);
+  WHIPPLE_INLINE static void for_each_owner(Grid& grid, std::size_t slot, unsigned field, Function&& f) {
     constexpr int skipped = 1 - before;  // the map begins one node before the block
     const auto& neighbours = grid.neighbours(slot);
     // Along a row, which is contiguous: the nodes of the block before, of the block, of the block behind.
-    const auto row = [&](int block_x, int block_y, bool along_z, int first, std::size_t here) {
-      const auto part = [&](int block_along, auto from, auto to) {
+    const auto row = [&](int block_x, int block_y, bool along_z, int first, std::size_t here) WHIPPLE_INLINE {
+      const auto part = [&](int block_along, auto from, auto to) WHIPPLE_INLINE {
         const std::int32_t owner =
             neighbours[static_cast<std::size_t>(along_z ? grid::neighbour_index(block_x, block_y, block_along)
                                                         : grid::neighbour_index(block_x, block_along, 1))];
@@ -101,6 +128,7 @@ class ReachCopy {
     }
   }
 
+  static constexpr grid::ReachMap map = grid::reach_map(block.edge);
   std::array<Content, size> nodes_;
 };
 
@@ -154,34 +182,40 @@ class DirectAccess {
 };
 
 /// Calls f(points of one velocity field, access to its nodes) to read what the points of a block reach.
-template <class Shape, class Content, class Function>
-void read_nodes(grid::BlockGrid& grid, grid::BlockGrid::Points points, std::size_t slot, Function&& f) {
-  grid.for_each_field(points, slot, [&](std::span<const std::uint32_t> members, unsigned field) {
-    if (members.size() < direct_access_below<Shape>) {
-      DirectAccess<Shape> access(grid, slot, field);
-      f(members, access);
-    } else {
-      ReachCopy<Shape, Content> copy;
-      copy.load(grid, slot, field);
-      f(members, copy);
-    }
-  });
+template <class Vector, class Shape, class Content, class Function>
+WHIPPLE_INLINE inline void read_nodes(grid::BlockGrid& grid, grid::BlockGrid::Points points, std::size_t slot,
+                                      Function&& f) {
+  grid.for_each_field(points, slot,
+                      [&](std::span<const std::uint32_t> members, unsigned field) WHIPPLE_INLINE {
+                        if (members.size() < direct_access_below<Shape>) {
+                          DirectAccess<Shape> access(grid, slot, field);
+                          f(members, access);
+                        } else {
+                          ReachCopy<Vector, Shape, Content> copy;
+                          copy.load(grid, slot, field);
+                          f(members, copy);
+                        }
+                      });
 }
 /// Calls `f` for the stencils of the points of a slot, to add to their nodes.
-template <class Shape, class Content, class Function>
-void add_to_nodes(grid::BlockGrid& grid, grid::BlockGrid::Points points, std::size_t slot, Function&& f) {
-  grid.for_each_field(points, slot, [&](std::span<const std::uint32_t> members, unsigned field) {
-    if (members.size() < direct_access_below<Shape>) {
-      DirectAccess<Shape> access(grid, slot, field);
-      f(members, access);
-    } else {
-      // Those of the block itself arrive while its points are worked on.
-      const grid::Node* const own = grid.nodes(slot, field);
-      for (int i = 0; i < grid::nodes_per_block; ++i) __builtin_prefetch(own + i, 1, 2);
-      ReachCopy<Shape, Content> copy;
-      copy.clear();
-      f(members, copy);
-      copy.add_to(grid, slot, field);
-    }
-  });
+template <class Vector, class Shape, class Content, class Function>
+WHIPPLE_INLINE inline void add_to_nodes(grid::BlockGrid& grid, grid::BlockGrid::Points points,
+                                        std::size_t slot, Function&& f) {
+  grid.for_each_field(points, slot,
+                      [&](std::span<const std::uint32_t> members, unsigned field) WHIPPLE_INLINE {
+                        if (members.size() < direct_access_below<Shape>) {
+                          DirectAccess<Shape> access(grid, slot, field);
+                          f(members, access);
+                        } else {
+                          // Those of the block itself arrive while its points are worked on.
+                          const grid::Node* const own = grid.nodes(slot, field);
+                          for (int i = 0; i < grid::nodes_per_block; ++i) __builtin_prefetch(own + i, 1, 2);
+                          ReachCopy<Vector, Shape, Content> copy;
+                          copy.clear();
+                          f(members, copy);
+                          copy.add_to(grid, slot, field);
+                        }
+                      });
 }
+
+}  // namespace whipple::transfer
