@@ -13,11 +13,12 @@
 namespace whipple::contact {
 namespace {
 
-/// Cells between surfaces that rest on one another, to round-off and what vibrations open.
+/// Maximum distance, in cells, of surfaces that count as touching: allows for round-off and for gaps opened by
+/// vibrations.
 constexpr double resting_distance = 0.01;
 constexpr int sweeps = 20;  // over the pairs, where more than two bodies meet
 
-/// Impulses between two fields that meet at a node, which stop them (docs/theory/contact.md, 5); velocities
+/// Computes the impulses that stop the approach of two fields at a node (docs/theory/contact.md, section 5). Velocities
 /// are those of b relative to a.
 struct Stop {
   Side* a;
@@ -25,8 +26,8 @@ struct Stop {
   Vector3 normal;
   double reduced_mass;
   double target;                      // normal velocity after the step
-  double grip;                        // largest tangential impulse that makes no energy
-  double friction;                    // Coulomb's coefficient
+  double grip;                        // largest tangential impulse that does not increase the energy, N s
+  double friction;                    // Coulomb coefficient
   double pushed = 0.0;                // normal impulse, N s
   Vector3 dragged = Vector3::Zero();  // tangential impulse on b, N s
 
@@ -60,7 +61,7 @@ struct Stop {
     dragged = drag;
   }
 
-  /// Accounts for what the impulses took from the bodies, half of it to either.
+  /// Adds the energy dissipated by the impulses (5.5) to the balance, and half of it to each field.
   void heat(Balance& balance) const {
     const Vector3 mean = 0.5 * (b->before() - a->before() + b->after() - a->after());
     const double by_push = -pushed * normal.dot(mean), by_drag = -dragged.dot(mean);
@@ -70,7 +71,8 @@ struct Stop {
   }
 };
 
-/// Heat of impulses on fields that press on others besides: the velocity that these gave them counts too.
+/// Accounts for the remaining dissipation of impulses on fields that are also under compression against others: the
+/// velocities that result from both contribute (docs/theory/contact.md, section 4).
 void book_rest(const Pressing& pressing, std::span<Side> sides, std::span<const Stop> stops,
                Balance& balance) {
   double rest = pressing.lost();
@@ -83,19 +85,19 @@ void book_rest(const Pressing& pressing, std::span<Side> sides, std::span<const 
   }
 }
 
-/// Two sides, by their numbers, at a node where both have mass and a normal.
+/// Describes two sides, by their numbers, at a node where both have mass and a normal is defined.
 struct Meeting {
   std::size_t a, b;
   Vector3 normal;
   double open;   // m, between their surfaces
-  double share;  // of the step in which they touch
+  double share;  // fraction of the step in contact
   double friction;
 };
 
-/// Selects the fields that are stopped by impulses: those without relaxation, such as those of elements,
-/// those of fragmented material, and whatever touches them. Mixed, they would retain their velocity
-/// difference (docs/theory/contact.md, 5).
-/// @param least  least(side): relaxation below which it is loose
+/// Selects the fields that are stopped by impulses: those without relaxation, such as those of elements, those of
+/// fragmented material, and all fields in contact with these. If they were mixed, they would retain their velocity
+/// difference (docs/theory/contact.md, section 5).
+/// @param least  least(side): relaxation at or below which the material of a side counts as fragmented
 template <class Least>
 void choose(Response response, const std::vector<Side>& sides, Least&& least,
             const std::vector<Meeting>& meetings, std::vector<std::uint8_t>& by_impulses) {
@@ -116,7 +118,7 @@ void choose(Response response, const std::vector<Side>& sides, Least&& least,
 
 }  // namespace
 
-/// Distance of two surfaces with a gap (m) beyond what counts as touching.
+/// Returns the distance (m) of two surfaces with the given gap beyond the distance that counts as touching.
 double Contact::distance(const grid::BlockGrid& grid, double gap) const {
   return settings_.gap_test ? std::max(gap - settings_.gap * grid.geometry().cell_size, 0.0) : 0.0;
 }
@@ -130,7 +132,7 @@ bool Contact::touch(const grid::BlockGrid& grid, std::size_t contact_slot, std::
                     std::size_t first, std::size_t second) const {
   const std::uint32_t slot = grid.contact_slots()[contact_slot];
   const std::uint64_t bodies = grid.wholes(slot);
-  const auto body_of = [&](std::size_t number) {  // counted among those of the slot
+  const auto body_of = [&](std::size_t number) {  // counted among the bodies of the slot
     std::uint64_t fields = grid.fields(slot);
     for (; number > 0; --number) fields &= fields - 1;
     const unsigned body = grid.whole(static_cast<unsigned>(std::countr_zero(fields)));
@@ -150,7 +152,7 @@ Balance Contact::apply(grid::BlockGrid& grid, double dt, FirstTouches& touches, 
     Sides at_node(grid, grid.contact_slots()[c], cracks);
     std::vector<Side>& sides = at_node.all();
     const auto field = [&](std::size_t side) { return at_node.field(at_node.body(side)); };
-    std::vector<double> least;  // relaxation of each body
+    std::vector<double> least;  // minimum relaxation of each body
     for (std::size_t body = 0; body < at_node.bodies(); ++body) {
       const std::size_t of_body = at_node.field(body);
       const bool known = of_body < settings_.least_relaxation_rate.size();
@@ -187,7 +189,7 @@ Balance Contact::apply(grid::BlockGrid& grid, double dt, FirstTouches& touches, 
         }
       }
       if (!meetings.empty()) {
-        // Faces of a crack alone keep no velocity difference that matters: they were one body.
+        // Where only the faces of a crack meet, their velocity difference is negligible: they were one body.
         const auto least_of = [&](std::size_t side) {
           return among_bodies ? least[at_node.body(side)] : 0.0;
         };

@@ -19,17 +19,18 @@ namespace {
 using grid::BlockGrid;
 using grid::nodes_per_block;
 
-constexpr double least_gradient = 1e-3;  ///< of the damage per cell, that has a direction
-constexpr double least_damage = 0.02;    ///< of a node with a crack
-/// Fraction of the directions along the two greatest axes that is along the first: damage of one particle is a peak and
-/// no ridge, and would part sound material.
+constexpr double least_gradient = 1e-3;  ///< minimum change of the damage per cell that defines a direction
+constexpr double least_damage = 0.02;    ///< minimum damage of a node at a crack
+/// Minimum of l_1 / (l_1 + l_2), the two largest eigenvalues of (3): the damage of a single particle is a peak, not a
+/// ridge, and would separate intact material.
 constexpr double least_anisotropy = 0.7;
 constexpr unsigned no_sector = 255, undecided = 254;  // undecided: reaches damaged nodes
 
-/// Returns the sector of a direction: of eight around the z axis, or of those of the six faces and eight corners of a cube.
+/// Returns the sector of a direction: one of eight about the z axis in two dimensions, one of the six faces and eight
+/// corners of a cube in three.
 unsigned sector_of(const Vector3& n, bool planar) {
-  if (planar) {  // 0 to 7 from the x axis on, each 45 degrees wide; this runs for all particles near cracks
-    constexpr double tangent = std::numbers::sqrt2 - 1.0;  // of half of that
+  if (planar) {  // 0 to 7, 45 degrees wide, the first about the x axis; called for all particles near cracks
+    constexpr double tangent = std::numbers::sqrt2 - 1.0;  // tan 22.5 degrees
     const double x = std::abs(n.x()), y = std::abs(n.y());
     if (y < tangent * x) return n.x() > 0.0 ? 0U : 4U;
     if (x < tangent * y) return n.y() > 0.0 ? 2U : 6U;
@@ -43,10 +44,10 @@ unsigned sector_of(const Vector3& n, bool planar) {
   return 6U + (n.x() > 0.0 ? 1U : 0U) + (n.y() > 0.0 ? 2U : 0U) + (n.z() > 0.0 ? 4U : 0U);
 }
 
-/// Calls at_point(p) for the points of a body that reach nodes that matter, and what it returns for the places
-/// of those nodes, where `contact_slot` is the slot; no two calls at a time for one node.
-/// @param members  members(slot): indices of the points in it
-/// @param counts   counts(p): does the point take part?
+/// Calls at_point(p) for the points of a body that reach relevant nodes, and the function that it returns for the place
+/// of each of those nodes (`contact_slot` is the slot). No two concurrent calls for one node.
+/// @param members  members(slot): indices of the points in the slot
+/// @param counts   counts(p): whether the point is included
 template <class Shape, class Points, class Members, class Counts, class AtPoint>
 void for_each_place_of(unsigned body, std::span<const std::uint8_t> body_of, const Points& points,
                        Members&& members, const BlockGrid& grid, const std::vector<std::uint64_t>& matter,
@@ -69,13 +70,13 @@ void for_each_place_of(unsigned body, std::span<const std::uint8_t> body_of, con
   });
 }
 
-/// Eigenvector of the greatest eigenvalue of a symmetric matrix, the greatest and the next one.
+/// Holds the eigenvector of the largest eigenvalue of a symmetric matrix, and its two largest eigenvalues.
 struct Principal {
   Vector3 axis;
   double greatest, next;
 };
 
-/// Of a matrix in the plane of x and y.
+/// Computes the principal direction of a matrix in the x-y plane.
 Principal principal_in_plane(double xx, double yy, double xy) {
   const double mean = 0.5 * (xx + yy), half = 0.5 * (xx - yy), radius = std::hypot(half, xy);
   const Vector3 axis = half >= 0.0 ? Vector3(half + radius, xy, 0.0) : Vector3(xy, radius - half, 0.0);
@@ -91,23 +92,24 @@ Principal principal(const Lanes* sums) {
   return {solver.eigenvectors().col(2), solver.eigenvalues()[2], std::max(solver.eigenvalues()[1], 0.0)};
 }
 
-/// Returns the axis of the greatest of the summed squares of directions; zero if they are not anisotropic.
+/// Returns the axis of the largest eigenvalue of the summed dyads of the directions (3); zero if they are not
+/// anisotropic.
 Vector3 axis_of(const Lanes* sums, bool planar) {
   const Principal found = planar ? principal_in_plane(sums[0][0], sums[0][1], sums[0][3]) : principal(sums);
   if (!(found.greatest > 0.0) || found.greatest < least_anisotropy * (found.greatest + found.next)) {
     return Vector3::Zero();
   }
-  // Which side is A must not depend on round-off: no direction of the grid is across this one.
+  // The choice of side A must not depend on round-off: no axis or diagonal of the grid is normal to this vector.
   return found.axis.dot(Vector3(1.0, 0.7, 0.4)) < 0.0 ? Vector3(-found.axis) : found.axis;
 }
 
 constexpr std::size_t lanes_of_directions = 2, lanes_of_part = 2;
 
-/// Decides whether damage has a ridge at a node (docs/theory/cracks.md, 4).
-/// @param sums  squares of the directions, then mass and sum of the directions, and of the places, of each part
-/// @param tolerance  m: distance that is round-off
-/// @param bit   bit(part): of its field
-/// @returns axis and side B; a zero axis where there is none
+/// Decides whether the damage has a ridge at a node (docs/theory/cracks.md, section 1, (3) and (4)).
+/// @param sums  summed dyads of the directions; then, for each part, its mass and direction sum and its position sum
+/// @param tolerance  distance within round-off, m
+/// @param bit   bit(part): bit of the field of the part
+/// @returns axis and side B; a zero axis where there is no ridge
 template <class Bit>
 Cracks::Crack ridge(const Lanes* sums, std::size_t parts, bool planar, double tolerance, Bit&& bit) {
   const Vector3 axis = axis_of(sums, planar);
@@ -129,13 +131,14 @@ Cracks::Crack ridge(const Lanes* sums, std::size_t parts, bool planar, double to
   double mass_a = 0.0, mass_b = 0.0, place_a = 0.0, place_b = 0.0;
   for (std::size_t k = 0; k < parts; ++k) {
     if (!(mass(k) > 0.0)) continue;
-    // The first part is that of particles without a direction: those in the middle of the crack, or far from any.
+    // The first part contains the particles without a direction: those in the middle of the crack, or far from any
+    // crack.
     const bool on_b = k == 0 ? place(k) - middle * mass(k) > tolerance * mass(k) : facing(k) < 0.0;
     if (on_b) crack.side_b |= bit(k);
     (on_b ? mass_b : mass_a) += mass(k);
     (on_b ? place_b : place_a) += place(k);
   }
-  // A valley, the middle of a fragment between two cracks, has the opposite sign.
+  // In a valley, the middle of a fragment between two cracks, the order of the centroids is reversed.
   const bool parts_here = mass_a > 0.0 && mass_b > 0.0 && place_a * mass_b < place_b * mass_a;
   if (!parts_here) crack.axis.setZero();
   return crack;
@@ -186,7 +189,7 @@ std::optional<Cracks::Crack> Cracks::at(unsigned body, std::size_t slot, std::si
 void Cracks::find(transfer::ShapeFunction shape, const Particles& particles, const ElementNodes& nodes,
                   BlockGrid& grid, std::vector<std::uint8_t>& field) {
   const std::vector<std::uint8_t> body_of = field;
-  std::array<double, grid::maximum_fields> failed{};  // of each body: 1 if any of it has
+  std::array<double, grid::maximum_fields> failed{};  // per body: 1 if any particle has failed
   for (std::size_t p = 0; p < particles.size(); ++p) {
     if (particles.failed[p] != 0) failed[body_of[p]] = 1.0;
   }
@@ -211,7 +214,7 @@ void Cracks::find_in(std::size_t number, const Particles& particles, const Eleme
         counts, at_point);
   };
   const auto visit_elements = [&](const Nodes& matter, auto&& at_point) {
-    if constexpr (transfer::CarriesAffineField<Shape>) {  // as elements need
+    if constexpr (transfer::CarriesAffineField<Shape>) {  // elements require this
       if (nodes.position.empty()) return;
       for_each_place_of<Shape>(
           body, nodes.body, nodes, [&](std::size_t slot) { return grid.guests_in(slot); }, grid, matter,
@@ -228,7 +231,7 @@ void Cracks::find_in(std::size_t number, const Particles& particles, const Eleme
     });
   };
 
-  // (1) damage of the nodes, only where it is not zero
+  // (1) Damage of the nodes, only where it is not zero
   Nodes damaged(grid.slots(), 0);
   visit(
       Nodes(grid.slots(), ~std::uint64_t{0}), [&](std::uint32_t p) { return particles.failed[p] != 0; },
@@ -241,7 +244,7 @@ void Cracks::find_in(std::size_t number, const Particles& particles, const Eleme
   join(damaged);
   Values damage;
   damage.lay_out(damaged, 1);
-  direction_.resize(particles.size());  // of those that reach damaged nodes
+  direction_.resize(particles.size());  // of particles that reach damaged nodes
   sector_.assign(particles.size(), static_cast<std::uint8_t>(no_sector));
   visit(damaged, every, [&](std::uint32_t p) {
     direction_[p].setZero();
@@ -266,7 +269,7 @@ void Cracks::find_in(std::size_t number, const Particles& particles, const Eleme
   if (grid.is_shared()) grid.borrow_from_owners(damage.of);
   join(candidates);
 
-  // (2) directions to the crack
+  // (2) Directions to the crack
   visit(damaged, every, [&](std::uint32_t p) {
     return [&, p](const Place& place) {
       direction_[p] +=
@@ -286,7 +289,7 @@ void Cracks::find_in(std::size_t number, const Particles& particles, const Eleme
     }
   });
 
-  // (3), (4) axes and sides
+  // (3), (4) Axes and sides
   const std::size_t parts = 1 + fields_.sectors();
   Values sums;
   sums.lay_out(candidates, lanes_of_directions + lanes_of_part * parts);
@@ -294,7 +297,7 @@ void Cracks::find_in(std::size_t number, const Particles& particles, const Eleme
     const double mass = particles.mass[p];
     const std::size_t part = sector_[p] == no_sector ? 0 : 1U + sector_[p];
     return [&, p, mass, part](const Place& place) {
-      // A crack is one with its image on a mirror plane: its faces move within the plane.
+      // A crack is continuous with its image at a mirror plane: its axis lies in the plane.
       const Vector3 n = place.sign.cwiseProduct(direction_[p]).cwiseProduct(place.off_plane);
       const Vector3 x = place.distance.cwiseProduct(place.off_plane);
       const double m = place.weight * mass;
@@ -306,7 +309,8 @@ void Cracks::find_in(std::size_t number, const Particles& particles, const Eleme
       of_part[1] += m * Lanes{x[0], x[1], x[2], 0.0};
     };
   });
-  visit_elements(candidates, [&](std::uint32_t a) {  // without a direction: with the particles that have none
+  // Element nodes have no direction and join the particles without one.
+  visit_elements(candidates, [&](std::uint32_t a) {
     return [&, mass = nodes.mass[a]](const Place& place) {
       const Vector3 x = place.distance.cwiseProduct(place.off_plane);
       const double m = place.weight * mass;
@@ -334,7 +338,8 @@ void Cracks::find_in(std::size_t number, const Particles& particles, const Eleme
   join(found.nodes);
   if (grid.is_shared()) grid.borrow_from_owners(found.cracks.of);
 
-  // Fields of the particles that reach a crack, others need none of their own; and (6) how far its faces reach.
+  // Assign fields to the particles that reach a crack; the others keep the field of their body. (6): extents of the
+  // faces.
   found.extents.lay_out(candidates, 1, broadcast(-std::numeric_limits<double>::infinity()));
   const auto extend = [&](const Place& place, unsigned of_point, double largest,
                           auto&& half_thickness_along) {

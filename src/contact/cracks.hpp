@@ -15,12 +15,13 @@
 
 namespace whipple::contact {
 
-/// The fields of bodies whose cracks part: each divides into sectors, numbered behind the fields of all bodies.
+/// Numbers the fields of bodies that are divided at cracks: each such body has a field per sector, numbered after the
+/// fields of all bodies.
 class SectorFields {
  public:
   SectorFields() = default;
   /// @param bodies   number of fields of bodies
-  /// @param cracked  those of them that divide
+  /// @param cracked  fields of the bodies that are divided
   SectorFields(unsigned bodies, std::span<const std::uint8_t> cracked, bool planar)
       : sectors_(grid::crack_sectors(planar)), bodies_(bodies), cracked_(cracked.begin(), cracked.end()) {}
 
@@ -28,13 +29,13 @@ class SectorFields {
   [[nodiscard]] unsigned count() const { return bodies_ + sectors_ * static_cast<unsigned>(cracked_.size()); }
   [[nodiscard]] std::span<const std::uint8_t> cracked() const { return cracked_; }
   [[nodiscard]] unsigned sectors() const { return sectors_; }
-  /// Returns the field of a sector, from 0, of the n-th field that divides.
+  /// Returns the field of a sector, counted from 0, of the n-th divided body.
   [[nodiscard]] unsigned field(std::size_t n, unsigned sector) const {
     return bodies_ + sectors_ * static_cast<unsigned>(n) + sector;
   }
-  /// Returns the field of a body with those of its sectors: a bit each.
+  /// Returns the fields of a body and of its sectors, one bit each.
   [[nodiscard]] std::uint64_t parts(unsigned body) const;
-  /// Returns the field of the body of each field.
+  /// Returns, for each field, the field of its body.
   [[nodiscard]] std::array<std::uint8_t, grid::maximum_fields> wholes() const;
 
  private:
@@ -42,37 +43,38 @@ class SectorFields {
   std::vector<std::uint8_t> cracked_;
 };
 
-/// Cracks: ridges of the smoothed damage of a body, at whose nodes it has two velocity fields, one on either side
-/// (docs/theory/cracks.md). Every step finds its own.
+/// Finds cracks: ridges of the smoothed damage of a body. At their nodes the body has two velocity fields, one on each
+/// side (docs/theory/cracks.md). They are determined again in every step.
 class Cracks {
  public:
   explicit Cracks(SectorFields fields) : fields_(std::move(fields)), of_body_(fields_.cracked().size()) {}
 
-  /// A crack at a node.
+  /// Describes a crack at a node.
   struct Crack {
     Vector3 axis;          ///< unit vector from side A to side B
-    std::uint64_t side_b;  ///< bit per field of the body on side B
-    double gap = 0.0;      ///< m, between its faces along the axis; negative where they overlap
+    std::uint64_t side_b;  ///< one bit per field of the body on side B
+    double gap = 0.0;      ///< between the faces along the axis, m; negative where they overlap
   };
 
   [[nodiscard]] const SectorFields& fields() const { return fields_; }
-  /// Nodes of elements that move with the grid, which belong to the field of their body as a whole.
+  /// Holds the element nodes that move with the grid; they belong to the undivided field of their body.
   struct ElementNodes {
     std::span<const Vector3> position;   ///< m
     std::span<const double> mass;        ///< kg
     std::span<const std::uint8_t> body;  ///< field of the body
   };
-  /// Finds the cracks, and gives particles beside them the fields of their sectors in place of those of their bodies.
-  /// After the particles were binned. Collective.
+  /// Finds the cracks and assigns the particles near them to the fields of their sectors instead of those of their
+  /// bodies. Call after the particles were binned. Collective.
+  /// @param field  velocity field of each particle: that of its body on entry
   void find(transfer::ShapeFunction shape, const Particles& particles, const ElementNodes& nodes,
             grid::BlockGrid& grid, std::vector<std::uint8_t>& field);
-  /// Returns the crack of a body at a node of a slot of this rank, if there is one.
+  /// Returns the crack of a body at a node of one of this rank's slots, if there is one.
   [[nodiscard]] std::optional<Crack> at(unsigned body, std::size_t slot, std::size_t node) const;
 
  private:
-  /// Bit per node of each slot; empty: none.
+  /// One bit per node of each slot; empty: no nodes.
   using Nodes = std::vector<std::uint64_t>;
-  /// Lanes of the nodes of a mask, in the order of the nodes.
+  /// Holds the values of the nodes of a mask, in the order of the nodes.
   struct Values {
     grid::SlotValues of;
     std::size_t lanes = 1;
@@ -87,10 +89,10 @@ class Cracks {
     }
   };
   struct OfBody {
-    Nodes nodes;     // with a crack
+    Nodes nodes;     // at a crack
     Nodes laid_out;  // with values
-    Values cracks;   // axis; side B
-    Values extents;  // m, from the node: of side A along the axis, of side B against it
+    Values cracks;   // axis and side B
+    Values extents;  // m, from the node: of side A along the axis, of side B in the opposite direction
   };
 
   template <class Shape>
@@ -99,7 +101,7 @@ class Cracks {
                std::vector<std::uint8_t>& field);
 
   SectorFields fields_;
-  std::vector<OfBody> of_body_;  // of each field that divides
+  std::vector<OfBody> of_body_;  // of each divided body
   std::vector<Vector3> direction_;
   std::vector<std::uint8_t> sector_;
 };

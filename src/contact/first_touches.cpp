@@ -44,7 +44,8 @@ void FirstTouches::look(unsigned field, unsigned other, double open, double clos
 }
 
 FirstTouches::Outcome FirstTouches::end_step(MPI_Comm communicator) {
-  std::vector<double> soonest(2 * next_.size());  // negative, for a maximum; then: hard?
+  // Negated, for the maximum over ranks; second half: contact above the speed threshold (1)
+  std::vector<double> soonest(2 * next_.size());
   for (std::size_t i = 0; i < next_.size(); ++i) {
     soonest[i] = -next_[i].load(std::memory_order_relaxed);
     soonest[next_.size() + i] = hard_[i].load(std::memory_order_relaxed) ? 1.0 : 0.0;

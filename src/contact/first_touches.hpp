@@ -10,24 +10,24 @@
 
 namespace whipple::contact {
 
-/// Record of which velocity fields have touched one another or a face of the domain, and forecast of the next
-/// first contact, at which the time step ends (docs/theory/mpm.md, section 6). Later contacts of the same
-/// pair are ignored.
+/// Records which velocity fields have touched each other or a face of the domain, and predicts the next first contact,
+/// at which the time step ends (docs/theory/mpm.md, section 6). Later contacts of the same pair are ignored.
 class FirstTouches {
  public:
   explicit FirstTouches(unsigned fields);
 
-  /// As words of bits: of each field those that it has touched, then the faces that any has touched.
+  /// Bit masks: for each field the fields that it has touched, then the domain faces that any field has touched.
   using Words = std::vector<std::uint64_t>;
   [[nodiscard]] const Words& words() const { return touched_; }
   void set(const Words& words);
 
-  /// @param dt           s, of the step
-  /// @param least_speed  m/s, by which surfaces must close for the time step to heed their touch
+  /// Begins a step.
+  /// @param dt           time step, s
+  /// @param least_speed  minimum closing speed of contacts that limit the time step, m/s
   void begin_step(double dt, double least_speed);
-  /// Takes note of two fields at a node; by several threads at a time. Nothing touches that does not close.
-  /// @param open     m, between their surfaces; <= 0: they touch
-  /// @param closing  m/s, after the step without contact
+  /// Records gap and closing speed of two fields at a node. Surfaces that do not close cannot touch. Thread-safe.
+  /// @param open     distance of the surfaces, m; <= 0: they touch
+  /// @param closing  closing speed after the step without contact, m/s
   void see(unsigned field, unsigned other, double open, double closing) {
     if (closing > 0.0 && (touched_[field] >> other & 1U) == 0) look(field, other, open, closing);
   }
@@ -36,21 +36,22 @@ class FirstTouches {
     see(fields_, static_cast<unsigned>(face), open, closing);
   }
 
-  /// Contacts found in the step.
+  /// Describes the contacts found in the step.
   struct Outcome {
-    bool hard = false;    ///< what closes with at least that speed has touched
-    double next = 1e300;  ///< s from the beginning of the step, until the next does; 1e300: none in sight
+    bool hard = false;  ///< surfaces with at least that closing speed have touched
+    /// Time of the next such contact from the beginning of the step, s; 1e300: none is predicted.
+    double next = 1e300;
   };
-  /// Collective.
+  /// Combines the records of all ranks. Collective.
   [[nodiscard]] Outcome end_step(MPI_Comm communicator);
 
  private:
   void look(unsigned field, unsigned other, double open, double closing);
 
   unsigned fields_;
-  std::size_t others_;  // of each field, at most
+  std::size_t others_;  // maximum number of partners of a field
   Words touched_;       // before this step
-  // In this step, of each pair, field by field; the last: of the faces.
+  // In this step, for each pair, field by field; last the pairs with domain faces.
   std::vector<std::atomic<double>> next_;  // s
   std::vector<std::atomic<bool>> hard_;
   double dt_ = 0.0, least_speed_ = 0.0;

@@ -8,7 +8,8 @@ namespace whipple::contact {
 using grid::BlockGrid;
 using transfer::Nodes;
 
-/// Contact with the images, then the nodes beyond the planes where material is one with its image.
+/// Applies contact with the mirror images, then sets the nodes beyond the planes at which the material is continuous
+/// with its image.
 void GridUpdate::meet_images(BlockGrid& grid, Nodes which) {
   mirror_contact_.apply(grid, dt_, which);
   transfer::MirrorPlanes::copy_back(grid, which);
@@ -30,7 +31,8 @@ void GridUpdate::send(BlockGrid& grid, BlockGrid::Part part) {
   sent_ = true;
 }
 
-/// Mass, momentum and perhaps force of all ranks on the nodes of this one, planes folded.
+/// Completes mass, momentum and, for both registers, force at this rank's nodes: folds at mirror planes and adds the
+/// contributions of all ranks.
 void GridUpdate::complete_sums(BlockGrid& grid, BlockGrid::Part part) {
   if (!sent_) send(grid, part);
   sent_ = false;

@@ -13,12 +13,12 @@
 
 namespace whipple::contact {
 
-/// Components of up to four normals, one in each lane; those that a pair does not need repeat its first.
+/// Holds the components of up to four normals, one per lane; unused lanes repeat the first normal.
 struct Normals {
   Lanes x, y, z;
 };
-/// Distance from the centre of a particle to its surface along unit vectors: of its box of the beginning (or
-/// of its followed domain), scaled to its present volume.
+/// Computes the distance h_p from the centre of a particle to its surface along unit vectors (docs/theory/contact.md,
+/// equation 3.4): of its initial box, or of its tracked domain, scaled to its present volume.
 class HalfThickness {
  public:
   WHIPPLE_INLINE HalfThickness(const grid::Geometry& geometry, const Particles& particles, std::size_t p)
@@ -33,12 +33,12 @@ class HalfThickness {
     if (!(box > 0.0)) extent_ = 0.25 * Matrix3::Identity();
     largest_ = scale_ * std::sqrt(std::max(extent_.trace(), 0.0));
   }
-  /// Not less than along any direction.
+  /// Returns an upper bound of the half thickness over all directions, m.
   [[nodiscard]] double largest() const { return largest_; }
   [[nodiscard]] double along(const Vector3& n) const {
     return scale_ * std::sqrt(std::max(n.dot(extent_ * n), 0.0));
   }
-  /// The same of several.
+  /// Returns the half thickness along several normals, m.
   [[nodiscard]] WHIPPLE_INLINE Lanes along(const Normals& n) const {
     const Matrix3& e = extent_;
     const Lanes square = n.x * (e(0, 0) * n.x + 2.0 * (e(0, 1) * n.y + e(0, 2) * n.z)) +

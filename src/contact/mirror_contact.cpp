@@ -18,10 +18,10 @@ using grid::nodes_per_block;
 using transfer::is_among;
 using transfer::no_mass;
 
-/// Material that comes as near as this (cells) to a wall that it sticks to has arrived.
+/// Gap, in cells, below which material sticks to a no-slip wall.
 constexpr double sticking_gap = 0.04;
 
-/// 1 for the components that reflection reverses, in lanes 0 to 2.
+/// Returns 1 for the components that reflection reverses, in lanes 0 to 2.
 Lanes reversed(grid::Boundary kind, int axis) {
   Lanes lanes{};
   for (int c = 0; c < 3; ++c) {
@@ -31,22 +31,23 @@ Lanes reversed(grid::Boundary kind, int axis) {
 }
 Lanes reversed(const grid::MirrorPlane& plane) { return reversed(plane.kind, plane.axis); }
 
-/// Returns the fraction of the step in which two surfaces touch that close with a speed (m/s) at its end (3.9).
+/// Returns the fraction of the step in which two surfaces are in contact (3.9), from their closing speed (m/s) at its
+/// end.
 double share_in_touch(double gap, double closing_speed, double dt) {
   if (gap <= 0.0) return 1.0;
   if (!(closing_speed > 0.0)) return 0.0;
   return std::clamp(1.0 - gap / (dt * closing_speed), 0.0, 1.0);
 }
 
-/// beta of the common field of two nodes (3.8); none where nodes of elements hold the relaxation.
+/// Returns beta of the common field of two nodes (3.8); 0 if either has none, as at element nodes.
 double common_relaxation(double mass, double beta, double other_mass, double other_beta) {
   if (beta == other_beta) return beta;
   if (beta == 0.0 || other_beta == 0.0) return 0.0;
   return -std::expm1((mass * std::log1p(-beta) + other_mass * std::log1p(-other_beta)) / (mass + other_mass));
 }
 
-/// Kinetic energy and work that the points of a node lose because they take the step `taken` instead of the
-/// one that the node makes by itself (3.12), J.
+/// Computes the loss of kinetic energy and work (J) of the points of a node because they use the motion `taken` instead
+/// of the uncoupled motion of the node (3.12).
 double loss(Lanes own_velocity, Lanes own_increment, const grid::NodeMotion& taken) {
   const double mass = own_velocity[3], beta = taken.relaxation();
   const Lanes v = taken.velocity_and_relaxation, d = taken.increment_and_heat;
@@ -133,7 +134,7 @@ void MirrorContact::lay_out(const BlockGrid& grid) {
       if (any && neighbour != BlockGrid::no_slot) near_[static_cast<std::size_t>(neighbour)] = 1;
     }
   }
-  // By where the nodes are, not by which blocks happen to be active around them.
+  // Counted from the positions of the nodes, not from the blocks that happen to be active around them.
   std::vector<std::uint8_t> planes_of(heat_.size(), 0);
   const auto count = [&](std::uint32_t node) {
     if (concerns_block(node / nodes_per_block)) ++planes_of[place(node) / lanes_per_node];
@@ -183,8 +184,8 @@ void MirrorContact::tell_others(BlockGrid& grid) {
   if (!planes_.empty() && grid.is_shared()) grid.borrow_from_owners(own_);
 }
 
-/// Between material and image at a couple of nodes, m: as between two bodies whose surfaces are found at one
-/// node each.
+/// Returns the gap (m) between material and image at a couple of nodes (3.7), as between two bodies whose extents are
+/// found at one node each.
 double MirrorContact::gap(const Plane& plane, const Couple& couple) const {
   const auto upper = static_cast<std::size_t>(plane.of.face % 2);
   const auto extent = [&](std::uint32_t node) { return extent_.values[place(node) + upper][plane.of.axis]; };
@@ -195,8 +196,8 @@ bool MirrorContact::sticks(const Plane& plane, double gap) const {
   return plane.of.kind == grid::Boundary::no_slip && gap < sticking_gap * cell_size_;
 }
 
-/// Returns the part that a node has in the common velocity with the image at it, by components: all of what the
-/// opposite plane holds, the part of its mass otherwise.
+/// Returns, by component, the weight of a node in the common velocity with the image at it: 1 for the components held
+/// by the opposite plane, its mass fraction otherwise.
 Lanes MirrorContact::part_of_node(const Plane& plane, const Couple& couple, double mass, double other_mass) {
   const Lanes held = couple.is_held ? reversed(plane.opposite, plane.of.axis) : Lanes{};
   return held + (1.0 - held) * (mass / (mass + other_mass));
@@ -231,8 +232,9 @@ void MirrorContact::join_relaxation_at_corners(BlockGrid& grid, transfer::Nodes 
   }
 }
 
-/// Material at a node meets its image there, and the material at the mirror node its own (3.8) to (3.12).
-/// @returns the fraction of the step in which they touch
+/// Applies contact between the material at a node and its image, and between the material at the mirror node and its
+/// image, (3.8) to (3.12).
+/// @returns the fraction of the step in which they are in contact
 double MirrorContact::meet(const Plane& plane, const Couple& couple, std::span<Node> nodes, double dt) {
   Lanes* const own = &own_.values[place(couple.node)];
   Lanes* const own_of_mirror = &own_.values[place(couple.mirror)];
@@ -242,7 +244,7 @@ double MirrorContact::meet(const Plane& plane, const Couple& couple, std::span<N
   const Lanes mixed = reversed(plane.of), sign = 1.0 - 2.0 * mixed;
   grid::NodeMotion& node = nodes[couple.node].motion;
   grid::NodeMotion& mirror = nodes[couple.mirror].motion;
-  // The image at the node.
+  // Image at the node
   const Lanes v = node.velocity_and_relaxation, d = node.increment_and_heat,
               v_image = sign * mirror.velocity_and_relaxation, d_image = sign * mirror.increment_and_heat;
   const double n = plane.of.outward();
@@ -268,7 +270,7 @@ double MirrorContact::meet(const Plane& plane, const Couple& couple, std::span<N
       mirror.increment_and_heat = sign * (d_image + to_common * (d_common - d_image));
       mirror.set_relaxation(beta);
     }
-  } else {  // (3.11): a common velocity of the nodes would not slow what is not relaxed towards it
+  } else {  // (3.11): a common velocity of the nodes would not slow points that are not relaxed towards it
     const double stopped = -(w + e) - std::max(std::max(open, 0.0) / dt, w);
     if (!(stopped > 0.0)) return 0.0;
     const double own_part = part[plane.of.axis];

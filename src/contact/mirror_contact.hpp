@@ -14,12 +14,12 @@
 
 namespace whipple::contact {
 
-/// Contact of material with its own image beyond mirror planes and walls, where it is not one with it
-/// (grid::BlockGrid::bond_at_planes): the image is another body with the reflected nodes (docs/theory/mpm.md,
-/// equations 3.7 to 3.12). Material that flies towards a plane does not act on it before it touches.
+/// Computes the contact of material with its own image beyond mirror planes and walls where it is not continuous with
+/// it (grid::BlockGrid::bond_at_planes): the image is another body at the reflected nodes (docs/theory/mpm.md,
+/// equations 3.7 to 3.12). Material that moves towards a plane does not interact with it before contact.
 ///
-/// A node and its mirror node may belong to different ranks. Every rank that works with either has both
-/// active, and computes the contact of the two as the others do, from what their owners tell it.
+/// A node and its mirror node may belong to different ranks. Every rank that uses either has both active and computes
+/// their contact redundantly from the values of their owners.
 class MirrorContact {
  public:
   /// Computes the extent of the material at the nodes near the planes, from particles and from off-grid
@@ -28,30 +28,29 @@ class MirrorContact {
   void find_surfaces(transfer::ShapeFunction shape, const Particles& particles,
                      std::span<const Vector3> guests, grid::BlockGrid& grid, double dt);
 
-  /// Tells what touches its image from now on; must outlive the calls.
+  /// Registers a recorder of contacts with images; it must outlive all later calls.
   void watch(FirstTouches& touches) { touches_ = &touches; }
 
-  /// Numbers the nodes near the planes; only what changed since the last call is done.
+  /// Numbers the nodes near the planes; does nothing if the layout of the grid has not changed since the last call.
   void lay_out(const grid::BlockGrid& grid);
   /// Returns whether a block of nodes contains nodes near the planes.
   [[nodiscard]] bool concerns_block(std::size_t block) const {
     return !first_of_block_.empty() && first_of_block_[block] != nowhere;
   }
-  /// Keeps the step that the nodes of this rank take by themselves, with their mass
-  /// (NodeMotion::mass_for_contact), which it clears where there is no contact of bodies.
+  /// Stores the uncoupled motion of this rank's nodes with their mass (NodeMotion::mass_for_contact), and clears the
+  /// latter where no bodies are in contact.
   void remember(grid::BlockGrid& grid);
-  /// Tells the other ranks what was remembered. Collective.
+  /// Sends the stored motion to the other ranks. Collective.
   void tell_others(grid::BlockGrid& grid);
-  /// Changes velocities, increments and relaxation of the nodes that touch their images, and adds the heat of
-  /// that to NodeMotion::heat.
+  /// Changes velocities, increments and relaxations of the nodes that are in contact with their images, and adds the
+  /// contact dissipation to NodeMotion::heat.
   void apply(grid::BlockGrid& grid, double dt, transfer::Nodes which);
-  /// Applies contact to NodeMotion::velocity, with the mass in its last lane: material and image are in
-  /// contact for the fractions that `apply` found in this step, or, before it, for those that follow from
-  /// their approach.
+  /// Applies contact to NodeMotion::velocity, with the mass in its last lane. The contact fractions are those that
+  /// `apply` found in this step or, before it, those that follow from the approach velocities.
   void apply_to_velocities(grid::BlockGrid& grid, transfer::Nodes which);
 
   [[nodiscard]] bool made_heat() const { return made_heat_; }
-  /// J/kg, by the last `apply`; 0 where it does nothing.
+  /// Returns the contact dissipation of a node by the last `apply`, J/kg; 0 where it does not act.
   [[nodiscard]] double heat_at(std::uint32_t node) const {
     return concerns_block(node / grid::nodes_per_block) ? heat_[place(node) / lanes_per_node] : 0.0;
   }
@@ -59,18 +58,19 @@ class MirrorContact {
  private:
   static constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
   static constexpr std::size_t lanes_per_node = 2;
-  /// A node and its mirror node; the same one twice on the plane.
+  /// Holds a node and its mirror node; both are the same node on the plane.
   struct Couple {
     std::uint32_t node, mirror;
-    /// Does the node lie on the opposite plane, where material is one with its image? It does not move across it.
+    /// Whether the node is on the opposite plane with whose image the material is continuous: it does not move across
+    /// that plane.
     bool is_held = false;
   };
   struct Plane {
-    grid::MirrorPlane of;  // without its lists
+    grid::MirrorPlane of;  // without its lists of nodes
     grid::Boundary opposite = grid::Boundary::outflow;
     std::vector<Couple> couples;
-    std::vector<double> share;  // of the step, that the two touch in: of each couple
-    /// Those of nodes that other planes concern too: up to eight nodes have images of one another.
+    std::vector<double> share;  // of each couple: fraction of the step in contact
+    /// Indices of the couples whose nodes other planes also affect: up to eight nodes are images of each other.
     std::vector<std::uint32_t> at_corners;
   };
   [[nodiscard]] std::size_t place(std::uint32_t node) const {
@@ -88,21 +88,22 @@ class MirrorContact {
   std::size_t layout_ = static_cast<std::size_t>(-1);  // of the grid
   double cell_size_ = 0.0;                             // m
   std::vector<Plane> planes_;
-  std::vector<std::uint32_t> first_of_block_;  // of each block of nodes: place of its first node's values
-  std::vector<std::uint8_t> coupled_;          // of each block of nodes: are there couples in it?
-  std::vector<std::uint8_t> near_;             // of each slot: may its points reach such blocks?
-  std::vector<Couple> folded_;                 // nodes that other planes fold, and their images: in the order
-                                               // in which they are copied back
-  /// Extent (m) of the material that reaches each node beyond the planes along x, y, z (negative: in front of
-  /// them), first of the lower faces, then of the upper ones.
+  // Of each block of nodes: index of the values of its first node
+  std::vector<std::uint32_t> first_of_block_;
+  std::vector<std::uint8_t> coupled_;  // of each block of nodes: 1 if it contains couples
+  std::vector<std::uint8_t> near_;     // of each slot: 1 if its points may reach such blocks
+  // Nodes beyond planes with continuity, and their images: in the order in which they are copied back
+  std::vector<Couple> folded_;
+  /// Extent (m) beyond the planes, along x, y, z, of the material that reaches each node (negative: in front of them):
+  /// first for the lower faces, then for the upper ones.
   grid::SlotValues extent_;
-  /// Step that each node takes without contact, as Node; lane 3 of `first` is its mass.
+  /// Uncoupled velocity and increment of each node, as in NodeMotion; lane 3 of the velocity holds its mass, kg.
   grid::SlotValues own_;
-  std::vector<double> heat_;        // J/kg, of each node
+  std::vector<double> heat_;        // of each node, J/kg
   std::vector<double> joint_mass_;  // kg, scratch
   bool made_heat_ = false;
   FirstTouches* touches_ = nullptr;
-  bool shares_known_ = false;  // in this step
+  bool shares_known_ = false;  // by `apply` in this step
   double dt_ = 0.0;            // s, of this step
 };
 

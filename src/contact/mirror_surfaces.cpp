@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far material reaches at the nodes near mirror planes (docs/theory/mpm.md, equation 3.7).
+// Extent of the material at the nodes near mirror planes (docs/theory/mpm.md, equation 3.7).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,12 +20,12 @@ using transfer::Weights;
 using transfer::weights_at;
 using transfer::with_shape;
 
-/// Points farther than this from a plane, in cells, reach no node whose image they might meet, or are behind
-/// others that do.
+/// Distance (cells) from a plane beyond which points reach no node where contact with the image is possible, or are
+/// behind other points that do.
 constexpr double reach_of_points = 3.0;
 
-/// Distances along the axes from the centre of a particle to its surface (m): of its domain at the beginning,
-/// or as it is followed, scaled to its present volume.
+/// Computes the distances (m) along the axes from the centre of a particle to its surface: of its initial or tracked
+/// domain, scaled to its present volume.
 Lanes half_thickness(const grid::Geometry& geometry, const Particles& particles, std::size_t p) {
   const double volume = particles.volume[p] + particles.void_volume[p];
   if (geometry.is_planar()) {
@@ -45,7 +45,7 @@ Lanes half_thickness(const grid::Geometry& geometry, const Particles& particles,
   return std::cbrt(volume / box) * sqrt(squared);
 }
 
-/// Positions that work with B-splines, which do not ask for more.
+/// Holds positions only; B-splines require nothing else.
 struct Positions {
   std::span<const Vector3> position;
 };
@@ -70,7 +70,7 @@ void MirrorContact::extend(const Particles& particles, std::span<const Vector3> 
   /// Raises the extents of the nodes that the points of a slot and field reach.
   const auto extend_by = [&](std::size_t slot, unsigned field, BlockGrid::Points kind, const auto& points,
                              std::span<const std::uint32_t> members, auto&& thickness) {
-    std::array<std::uint32_t, 27> first{};  // places of the nodes of the blocks around
+    std::array<std::uint32_t, 27> first{};  // indices of the values of the 27 blocks
     for (std::size_t n = 0; n < 27; ++n) {
       const std::int32_t neighbour = grid.neighbours(slot)[n];
       if (neighbour == BlockGrid::no_slot) {

@@ -11,12 +11,12 @@ constexpr double no_mass = 1e-300;  // kg
 
 inline Vector3 vector(Lanes v) { return {v[0], v[1], v[2]}; }
 
-/// Balance of contact in a step on this rank.
+/// Accumulates the energy and momentum balance of contact in a step on this rank.
 struct Balance {
-  double contact_heat = 0.0;      ///< J, lost by the normal impulses
-  double friction_heat = 0.0;     ///< J, lost by the tangential impulses
-  double impulse = 0.0;           ///< N s, sum of the normal impulses
-  double friction_impulse = 0.0;  ///< N s, sum of the tangential impulses
+  double contact_heat = 0.0;      ///< dissipated by normal impulses, J
+  double friction_heat = 0.0;     ///< dissipated by tangential impulses, J
+  double impulse = 0.0;           ///< sum of the magnitudes of the normal impulses, N s
+  double friction_impulse = 0.0;  ///< sum of the magnitudes of the tangential impulses, N s
   Balance& operator+=(const Balance& other) {
     contact_heat += other.contact_heat;
     friction_heat += other.friction_heat;
@@ -26,11 +26,11 @@ struct Balance {
   }
 };
 
-/// One velocity field at a node.
+/// Describes one velocity field at a node.
 struct Side {
   grid::Node* node = nullptr;
   double mass = 0.0;  ///< kg
-  double heat = 0.0;  ///< J, that contact makes
+  double heat = 0.0;  ///< contact dissipation, J
 
   [[nodiscard]] Vector3 before() const { return node->motion.velocity(); }
   [[nodiscard]] Vector3 increment() const { return node->motion.increment(); }

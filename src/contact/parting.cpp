@@ -24,7 +24,7 @@ bool parts(const grid::BlockGrid& grid, std::uint32_t slot, std::size_t node, st
            std::span<const Vector3> normals, double dt) {
   const grid::Node *first = nullptr, *second = nullptr;
   std::size_t number = 0, reached = 0;
-  // Sides of a crack move apart from one another.
+  // The sides of a crack have separate motions, which this test does not consider.
   if (grid.wholes(slot) != grid.fields(slot)) return false;
   grid::for_each_bit(grid.fields(slot), [&](unsigned field) {
     const grid::Node* of_field = grid.nodes(slot, field) + node;

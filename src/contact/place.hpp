@@ -6,28 +6,29 @@
 #include "src/core/base/vector_math.hpp"
 #include "src/grid/block_grid.hpp"
 
-/// A node of a contact slot, and the pairs of bodies there. A body is what has a velocity field of its own, whole or
-/// divided at cracks.
+/// Nodes of contact slots and the pairs of bodies there. A body has a separate velocity field, whole or divided at
+/// cracks.
 namespace whipple::contact {
 
-/// Number of the pair (a, b), a < b, of `bodies` bodies.
+/// Returns the index of the pair (a, b), a < b, among `bodies` bodies.
 constexpr std::size_t pair_index(std::size_t a, std::size_t b, std::size_t bodies) {
   return a * (2 * bodies - a - 1) / 2 + (b - a - 1);
 }
 
-/// A node of a contact slot as a particle, or its image beyond a mirror plane, sees it.
+/// Describes a node of a contact slot relative to a particle, or to the image of the particle beyond a mirror plane.
 struct Place {
   std::size_t contact_slot;
-  std::size_t bodies;  ///< of the slot
-  std::size_t body;    ///< of the particle, counted among those of the slot
+  std::size_t bodies;  ///< number of bodies of the slot
+  std::size_t body;    ///< body of the particle, counted among those of the slot
   std::size_t node;    ///< in its block
   double weight;       ///< N
   Vector3 gradient;    ///< of N
-  Vector3 distance;    ///< position of the particle, or its image, minus that of the node
-  Vector3 off_plane;   ///< 0 along the normals of the mirror planes that the node is on
-  Vector3 sign;        ///< of the components under the reflections that lead to the image
+  Vector3 distance;    ///< from the node to the particle or its image, m
+  Vector3 off_plane;   ///< 0 along the normals of the mirror planes on which the node is located
+  Vector3 sign;        ///< sign of each component under the reflections that lead to the image
 
-  /// Calls f(pair, is the particle of its first body?) for the pairs that the particle's body is part of.
+  /// Calls f(pair, first) for the pairs that include the body of the particle; `first` states whether it is the first
+  /// body.
   template <class Function>
   void for_each_pair(Function&& f) const {
     for (std::size_t other = 0; other < bodies; ++other) {

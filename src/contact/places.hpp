@@ -18,21 +18,21 @@
 #include "src/transfer/shape_weights.hpp"
 #include "src/transfer/shapes.hpp"
 
-/// The nodes of contact slots that points reach, mirror planes included.
+/// Nodes of contact slots that points reach, mirror planes included.
 namespace whipple::contact {
 
-/// Nodes of each contact slot that matter: a bit each.
+/// Relevant nodes of each contact slot, one bit each.
 using NodesThatMatter = std::vector<std::uint64_t>;
 static_assert(grid::nodes_per_block == 64);
 
-/// A slot as the points of a body around it see it.
+/// Describes a slot from the point of view of the points of a body near it.
 struct SeenSlot {
-  std::uint64_t nodes = 0;            ///< bit per node that matters
-  std::uint32_t contact_slot = 0;     ///< its number there
+  std::uint64_t nodes = 0;            ///< one bit per relevant node
+  std::uint32_t contact_slot = 0;     ///< its number among the contact slots
   std::uint8_t bodies = 1, body = 0;  ///< as in Place
 };
 
-/// Returns a contact slot as the points of a body see it.
+/// Returns a contact slot from the point of view of the points of a body.
 inline SeenSlot seen_at_contact(const grid::BlockGrid& grid, std::size_t slot, unsigned body,
                                 const NodesThatMatter& matter) {
   const std::int32_t number = grid.contact_number(slot);
@@ -45,14 +45,14 @@ inline SeenSlot seen_at_contact(const grid::BlockGrid& grid, std::size_t slot, u
           .body = static_cast<std::uint8_t>(std::popcount(bodies & ((std::uint64_t{1} << body) - 1)))};
 }
 
-/// The nodes that matter to the points of one body in a block. What lies beyond a mirror plane is seen from
-/// the image of the point at the image of the node.
+/// Enumerates the relevant nodes that the points of one body in a block reach. A node beyond a mirror plane is replaced
+/// by its image, which the image of the point reaches.
 class Reach {
  public:
-  /// @param block       where the points are
-  /// @param neighbours  slots of the 27 blocks around it, as far as they count
-  /// @param body        its field, whole
-  /// @param see         see(slot): a SeenSlot
+  /// @param block       block of the points
+  /// @param neighbours  slots of the 27 blocks around it, as far as they are included
+  /// @param body        undivided field of the body
+  /// @param see         see(slot): returns a SeenSlot
   template <class See>
   Reach(const grid::BlockGrid& grid, const grid::BlockCoordinate& block,
         const std::array<std::int32_t, 27>& neighbours, unsigned body, See&& see)
@@ -67,8 +67,8 @@ class Reach {
 
   [[nodiscard]] bool any() const { return any_; }
 
-  /// Calls f(place) for the nodes that matter and that point `p` reaches.
-  /// @param at_point  makes f, if there are any
+  /// Calls f(place) for the relevant nodes that point `p` reaches.
+  /// @param at_point  at_point(p) returns f; called only if there are such nodes
   template <class Shape, class Points, class AtPoint>
   void for_each_place(const Points& points, std::uint32_t p, const grid::BlockCoordinate& block,
                       const grid::Geometry& geometry, AtPoint&& at_point) const {
@@ -116,18 +116,18 @@ class Reach {
   }
 
  private:
-  static constexpr std::size_t places = grid::longest_reach_edge;  // along a direction, from -1 on
+  static constexpr std::size_t places = grid::longest_reach_edge;  // along a direction, from -1
 
-  /// One place along a direction, folded at the mirror planes.
+  /// Describes one node position along a direction, folded at the mirror planes.
   struct Folded {
-    std::uint64_t nodes = 0;  // of a block with that number along the direction
+    std::uint64_t nodes = 0;  // nodes of a block with that number along the direction
     double sign = 1.0;        // -1 beyond a plane
-    double off_plane = 1.0;   // 0 on a plane, where point and image make up for one another
+    double off_plane = 1.0;   // 0 on a plane, where the contributions of point and image cancel
     int block = 0;            // 0 to 2
   };
   using FoldedAxis = std::array<Folded, places>;
 
-  /// Nodes of a block by their number along each axis: a bit each.
+  /// One bit per node of a block, by its number along each axis.
   using LayersOfNodes = std::array<std::array<std::uint64_t, grid::block_shape(true).edge>, 3>;
   static constexpr LayersOfNodes layers_of_nodes(bool planar) {
     LayersOfNodes layers{};
@@ -160,7 +160,8 @@ class Reach {
       if (upper && place > cells) reflect(cells);
       if ((lower && place == 0) || (upper && place == cells)) all[n].off_plane = 0.0;
       const int from_corner = place - block * edge + 1;
-      if (from_corner < 0 || from_corner >= grid::reach_edge(edge)) continue;  // no stencil comes there
+      // Outside the reach of all stencils
+      if (from_corner < 0 || from_corner >= grid::reach_edge(edge)) continue;
       const auto m = static_cast<std::size_t>(from_corner);
       all[n].block = map.block[m];
       all[n].nodes = layers[static_cast<std::size_t>(map.node[m])];
@@ -168,7 +169,7 @@ class Reach {
     return all;
   }
 
-  /// Finds which of the nodes that matter the stencil reaches, by block around; returns whether any.
+  /// Finds the relevant nodes in the stencil for each of the 27 blocks; returns whether there are any.
   [[nodiscard]] WHIPPLE_INLINE bool reaches(const std::array<std::size_t, 3>& first,
                                             const std::array<int, 3>& count,
                                             std::array<std::uint64_t, 27>& reached) const {
@@ -196,12 +197,12 @@ class Reach {
   }
 
   std::array<FoldedAxis, 3> axes_;
-  std::array<SeenSlot, 27> slots_{};  // the blocks around
+  std::array<SeenSlot, 27> slots_{};  // of the 27 blocks
   bool any_ = false;
 };
 
-/// Calls at_point(p) for all particles p that reach nodes that matter, and what it returns for each of those
-/// nodes' places; no two calls at a time for one node.
+/// Calls at_point(p) for all particles p that reach relevant nodes, and the function that it returns for the place of
+/// each of those nodes. No two concurrent calls for one node.
 template <class Shape, class AtPoint>
 void for_each_place(const Particles& particles, const grid::BlockGrid& grid, const NodesThatMatter& matter,
                     AtPoint&& at_point) {
@@ -227,7 +228,7 @@ void for_each_place(const Particles& particles, const grid::BlockGrid& grid, con
   });
 }
 
-/// Visits the points on surfaces of elements, which use B-splines only.
+/// Visits the surface points of elements in the same way; these use B-splines only.
 template <class Shape, class AtPoint>
 void for_each_place(const PlacedPoints& placed, const grid::BlockGrid& grid, const NodesThatMatter& matter,
                     AtPoint&& at_point) {

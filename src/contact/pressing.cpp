@@ -8,9 +8,9 @@
 namespace whipple::contact {
 namespace {
 
-constexpr int sweeps_of_friction = 8;  // over the pairs, where more than two fields press
-/// (1 - theta)/theta of pairs that touch, where there are several: keeps their equations regular where the
-/// normals of three fields are parallel.
+constexpr int sweeps_of_friction = 8;  // over the pairs, where more than two fields are under compression
+/// Minimum of (1 - theta)/theta where several pairs are in contact: keeps their equations regular if the normals of
+/// three fields are parallel.
 constexpr double least_compliance = 1e-10;
 
 }  // namespace
@@ -65,7 +65,7 @@ std::size_t Pressing::leader(std::size_t side) const {
   return side;
 }
 
-/// (4.3): of the mean sound speed of all fields that press on one another, directly or by way of others.
+/// Computes the common relaxation (4.3) of all fields that are connected under compression, directly or through others.
 void Pressing::find_common_relaxation() {
   for (std::size_t s = 0; s < sides_.size(); ++s) former_[s].leader = s;
   for (const Pair& pair : pairs_) {
@@ -81,7 +81,7 @@ void Pressing::find_common_relaxation() {
       continue;
     }
     double mass = 0.0, sum = 0.0;
-    bool equal = true;  // as in schemes that prescribe it
+    bool equal = true;  // as in schemes that prescribe the relaxation
     for (std::size_t t = s; t < sides_.size(); ++t) {
       if (leader(t) != s || sides_[t].mass < no_mass) continue;
       mass += sides_[t].mass;
@@ -92,8 +92,8 @@ void Pressing::find_common_relaxation() {
   }
 }
 
-/// (4.9): impulses of the pairs that leave (1 - theta) of what moves the fields of each apart or together. In
-/// units of sqrt(mu), where the matrix has ones plus (1 - theta)/theta on its diagonal.
+/// Solves (4.9) for the impulses of the pairs, which leave the fraction 1 - theta of the relative normal motion of each
+/// pair. In units of sqrt(mu), in which the diagonal of the matrix is 1 + (1 - theta)/theta.
 void Pressing::solve() {
   const std::size_t count = pairs_.size();
   if (count == 1) {
@@ -108,7 +108,7 @@ void Pressing::solve() {
       const Pair& of_k = pairs_[static_cast<std::size_t>(k)];
       for (Eigen::Index l = 0; l <= k; ++l) {
         const Pair& of_l = pairs_[static_cast<std::size_t>(l)];
-        double inverse = 0.0;  // of the mass that both move
+        double inverse = 0.0;  // of the mass that both impulses accelerate
         if (of_k.a == of_l.a) inverse += 1.0 / sides_[of_k.a].mass;
         if (of_k.b == of_l.b) inverse += 1.0 / sides_[of_k.b].mass;
         if (of_k.a == of_l.b) inverse -= 1.0 / sides_[of_k.a].mass;
@@ -131,8 +131,8 @@ void Pressing::solve() {
   for (Pair& pair : pairs_) pair.given = -(pair.forces + relaxation_[pair.a] * pair.velocity);  // (4.5)
 }
 
-/// Takes out the pair that pulls most, if one does: surfaces do not hold together. @returns whether others
-/// are to be solved for again
+/// Removes the pair with the strongest tension, if there is one: surfaces transmit no tension.
+/// @returns whether the remaining pairs must be solved again
 bool Pressing::drop_tension() {
   if (pairs_.empty()) return false;
   const auto least = std::ranges::min_element(pairs_, {}, &Pair::given);
@@ -141,8 +141,8 @@ bool Pressing::drop_tension() {
   return !pairs_.empty();
 }
 
-/// From the fields themselves. Where the normals of several pairs are nearly parallel, the round-off of their
-/// impulses would be missed from the sum of the pairs.
+/// Evaluates (4.7) from the fields. With nearly parallel normals of several pairs the sum over the pairs would omit the
+/// round-off of their impulses.
 double Pressing::lost() const {
   const Vector3 frame = former_[pairs_.front().a].velocity;
   double sum = 0.0;
@@ -157,7 +157,7 @@ double Pressing::lost() const {
   return -sum;
 }
 
-/// (4.4), (4.6)
+/// Applies (4.4) and the heat (4.6) to the fields.
 void Pressing::mix(Balance& balance) {
   for (const Pair& pair : pairs_) {
     for (const bool of_b : {false, true}) {
@@ -186,14 +186,16 @@ void Pressing::mix(Balance& balance) {
   }
 }
 
-/// Friction of a pair (4.10), (4.11). @returns its heat, J
+/// Applies the friction of a pair (4.10), (4.11).
+/// @returns its dissipation, J
 double Pressing::drag(Pair& pair) {
   Side &a = sides_[pair.a], &b = sides_[pair.b];
   const auto tangential = [&](const Vector3& v) { return Vector3(v - pair.normal.dot(v) * pair.normal); };
   const Vector3 slip = tangential(b.after() - a.after());
   const double speed2 = slip.squaredNorm();
   if (!(speed2 > 0.0)) return 0.0;
-  const auto power = [&](std::size_t s) {  // velocity by which an impulse on the field is multiplied: (4.10)
+  // Velocity z of (4.10), by which the work of an impulse on the field is computed
+  const auto power = [&](std::size_t s) {
     const double beta = relaxation_[s];
     return Vector3(beta * sides_[s].before() + (1.0 - beta) * former_[s].velocity + sides_[s].increment() -
                    0.5 * former_[s].increment);

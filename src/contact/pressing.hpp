@@ -9,48 +9,53 @@
 
 namespace whipple::contact {
 
-/// Bodies that press on one another at a node move as one along the normal between them, for the fraction of the
-/// step in which they touch; else each is free (docs/theory/contact.md, equations 4.1 to 4.11). It works on
-/// one node at a time and keeps its memory from one to the next. Fields without relaxation (beta = 0) would
-/// keep what they were apart by; they need other impulses.
+/// Computes the common motion of bodies under compression at a node: they move together along the normal between them
+/// for the fraction of the step in which they are in contact and are free otherwise (docs/theory/contact.md, equations
+/// 4.1 to 4.11). Processes one node at a time and reuses its memory. Fields without relaxation (beta = 0) would retain
+/// their velocity difference; they require impulses.
 class Pressing {
  public:
-  /// theta (4.2): fraction of the step in which two fields touch.
+  /// Returns theta (4.2), the fraction of the step in which two fields are in contact.
   /// @param normal  unit vector from a to b
-  /// @param open    m, distance of their surfaces; <= 0: they touch
+  /// @param open    distance of their surfaces, m; <= 0: they touch
+  /// @param dt      time step, s
   [[nodiscard]] static double share(const Side& a, const Side& b, const Vector3& normal, double open,
                                     double dt);
 
-  /// Begins with a node where these fields meet; they must outlive `apply`.
+  /// Begins a node with these fields, which must outlive `apply`.
   void begin(std::span<Side> sides);
-  /// Two of them, numbers of the sides, touch for a fraction of the step above 0.
-  /// @param friction  Coulomb's coefficient of the two
+  /// Adds a pair of sides, by their numbers, that are in contact for a positive fraction of the step.
+  /// @param normal    unit vector from a to b
+  /// @param share     theta (4.2)
+  /// @param friction  Coulomb coefficient of the pair
   void add(std::size_t a, std::size_t b, const Vector3& normal, double share, double friction);
-  /// Changes velocities, increments and relaxations of the fields that press, and accounts for what that takes.
+  /// Changes velocities, increments and relaxations of the fields under compression and adds dissipation and impulses
+  /// to the balance.
   void apply(Balance& balance);
-  /// Returns whether fields are under compression, after `apply`.
+  /// Returns whether any fields are under compression, after `apply`.
   [[nodiscard]] bool presses() const { return !pairs_.empty(); }
-  /// J: what all changes of the fields since `begin`, of `apply` and after it, lose (4.7). If fields press.
+  /// Returns the energy (J) lost by all changes of the fields since `begin`, during and after `apply` (4.7). Requires
+  /// that fields are under compression.
   [[nodiscard]] double lost() const;
 
  private:
-  /// Two fields that touch, or would in the step.
+  /// Describes two fields that touch, or would within the step.
   struct Pair {
     std::size_t a, b;
     Vector3 normal;
     double mass;          // reduced, kg
-    double share;         // theta (4.2): of the step in which they touch
-    double friction;      // Coulomb's coefficient
-    double velocity = 0;  // impulse that makes the velocities common, N s
-    double forces = 0;    // the same of the increments
+    double share;         // theta (4.2), fraction of the step in contact
+    double friction;      // Coulomb coefficient
+    double velocity = 0;  // impulse that equalises the velocities, N s
+    double forces = 0;    // impulse that equalises the increments, N s
     double given = 0;     // normal impulse on b, N s
     double dragged = 0;   // tangential impulse, N s
   };
-  /// A field as it came to the node.
+  /// Holds the motion of a field before contact.
   struct Former {
     Vector3 velocity, increment;
-    double logarithm;    // of 1 - beta
-    std::size_t leader;  // of the fields that press on one another, the first
+    double logarithm;    // ln(1 - beta)
+    std::size_t leader;  // first of the fields connected under compression
   };
 
   [[nodiscard]] Vector3 between(const Pair& pair, Vector3 Former::* value) const {
@@ -66,7 +71,7 @@ class Pressing {
   std::span<Side> sides_;
   std::vector<Pair> pairs_;
   std::vector<Former> former_;      // of each side
-  std::vector<double> relaxation_;  // of each side: beta that it has in common with others
+  std::vector<double> relaxation_;  // of each side: common beta (4.3)
 };
 
 }  // namespace whipple::contact

@@ -17,7 +17,7 @@ Sides::Sides(grid::BlockGrid& grid, std::uint32_t slot, const Cracks* cracks)
     const std::uint64_t own = std::uint64_t{1} << field;
     parts_.push_back(present & (cracks == nullptr ? own : cracks->fields().parts(field)));
   });
-  joined_.reserve(2 * fields_.size());  // sides point to them
+  joined_.reserve(2 * fields_.size());  // sides hold pointers to them
 }
 
 void Sides::go_to(std::size_t node) {
@@ -58,7 +58,7 @@ void Sides::join(std::span<grid::Node* const> parts, std::size_t body) {
   grid::Node* node = parts.front();
   if (parts.size() > 1) {
     double mass = 0.0, logarithm = 0.0;
-    bool equal = true, free = false;  // with one relaxation; without any, as nodes of elements
+    bool equal = true, free = false;  // all have the same relaxation; some have none, as nodes of elements
     Lanes velocity{}, increment{};
     for (const grid::Node* part : parts) {
       const double m = part->motion.mass_for_contact(), beta = part->motion.relaxation();

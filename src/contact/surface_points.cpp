@@ -67,7 +67,7 @@ void SurfacePoints::add(const fem::Mesh& mesh, std::span<const fem::Facet> facet
     double edge = 0.0;
     for (std::size_t i = 0; i < 4; ++i) edge = std::max(edge, (x[(i + 1) % 4] - x[i]).norm());
     const int parts = std::max(1, static_cast<int>(std::ceil(edge / spacing - 1e-9)));
-    // Trapezoidal rule over the bilinear facet, in its natural coordinates.
+    // Trapezoidal rule over the bilinear facet, in natural coordinates
     for (int i = 0; i <= parts; ++i) {
       for (int j = 0; j <= parts; ++j) {
         const double u = static_cast<double>(i) / parts, v = static_cast<double>(j) / parts;
@@ -142,7 +142,7 @@ void SurfacePoints::send_to_owners(const grid::BlockGrid& grid, grid::Stencil st
 
 PlacedPoints::PlacedPoints(const SurfacePoints& surface, const grid::BlockGrid& grid) : points(&surface) {
   if (grid.contact_slots().empty()) return;
-  constexpr std::int32_t nowhere = -2;  // blocks that reach no contact slot
+  constexpr std::int32_t nowhere = -2;  // marks blocks that reach no contact slot
   grid::BlockTable known;
   known.reserve(64);
   for (std::size_t p = 0; p < surface.count(); ++p) {

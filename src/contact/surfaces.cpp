@@ -18,13 +18,13 @@ namespace {
 using grid::BlockGrid;
 using grid::nodes_per_block;
 
-/// Change of a body's volume per node from one node to the next, relative, below which the node lies inside
-/// and the direction of the gradient is that of the pattern of the particles.
+/// Minimum relative change of a body's nodal volume per cell; below it the node is in the interior, and the direction
+/// of the gradient is that of the particle pattern (3.1).
 constexpr double least_slope = 0.02;
-/// Cosine of the angle between two normals above which they are one.
+/// Cosine of the angle between two normals above which they count as equal.
 constexpr double one_direction = 1.0 - 1e-6;
 
-/// Lays out values of contact slots: `per_node(bodies)` lanes for each node of a slot with that many bodies.
+/// Allocates values of contact slots: `per_node(bodies)` lanes for each node of a slot with that number of bodies.
 template <class PerNode>
 void lay_out(grid::ContactValues& values, const BlockGrid& grid, Lanes initial, PerNode&& per_node) {
   values.begin.assign(1, 0);
@@ -66,21 +66,22 @@ void for_each_pair(std::size_t bodies, Function&& f) {
 
 constexpr std::size_t lanes_of_normals = 3, lanes_of_extents = 2;
 
-/// Logistic regression of two sets of particles, class -1 and +1, on their positions about a node in cells
-/// and a constant: the plane of greatest likelihood, with a small penalty on the steepness that a gap would
-/// make infinite. Newton's method; the problem is convex.
+/// Logistic regression of two sets of particles, class -1 and +1, on their positions relative to a node in cells and a
+/// constant: the plane of maximum likelihood, with a small penalty on its steepness, which would be infinite across a
+/// gap. Newton's method; the problem is convex.
 namespace regression {
 
-constexpr std::size_t lanes_per_node = 4;  // 10 numbers of the matrix, their number, 4 of the right-hand side
+// Matrix (10 independent entries), number of particles, 4 entries of the right-hand side
+constexpr std::size_t lanes_per_node = 4;
 constexpr int iterations = 8;
 constexpr double penalty = 1e-5;  // per particle, on the square of the plane's coefficients
 
 using Vector4 = Eigen::Vector4d;
 using Matrix4 = Eigen::Matrix4d;
 
-/// Adds one particle to the equations.
+/// Adds one particle to the equations of a Newton iteration.
 void add(Lanes* equations, const Vector4& x, double side, const Vector4& plane) {
-  const double share = 1.0 / (1.0 + std::exp(side * plane.dot(x)));  // of doubt about its side
+  const double share = 1.0 / (1.0 + std::exp(side * plane.dot(x)));  // likelihood of the wrong class
   const double curvature = share * (1.0 - share);
   const double slope = share * side;
   const Lanes all = {x[0], x[1], x[2], x[3]};
@@ -103,7 +104,8 @@ Vector4 step(const Lanes* e, const Vector4& plane) {
 
 }  // namespace regression
 
-/// Nodes that two bodies or more reach, if the grid holds what all ranks bring to them; else all where there are two.
+/// Finds the nodes that at least two bodies reach. If the contributions of all ranks are not available, returns all
+/// nodes of slots with at least two bodies.
 NodesThatMatter nodes_of_several(const BlockGrid& grid, bool after_transfer) {
   const auto slots = grid.contact_slots();
   NodesThatMatter nodes(slots.size(), 0);
@@ -131,7 +133,7 @@ NodesThatMatter nodes_of_several(const BlockGrid& grid, bool after_transfer) {
   return nodes;
 }
 
-/// Nodes with a normal between two bodies.
+/// Finds the nodes with a defined normal between two bodies.
 NodesThatMatter nodes_with_normals(const BlockGrid& grid, const grid::ContactValues& normals) {
   const auto slots = grid.contact_slots();
   NodesThatMatter nodes(slots.size(), 0);
@@ -144,7 +146,7 @@ NodesThatMatter nodes_with_normals(const BlockGrid& grid, const grid::ContactVal
   return nodes;
 }
 
-/// Puts unit vectors or zeros into lanes; those of zeros repeat the first that is none.
+/// Stores unit vectors or zeros in the lanes; lanes with zero vectors repeat the first nonzero one.
 void set_normals(Lanes* to, std::span<const Vector3> normals) {
   const auto first = std::ranges::find_if(normals, [](const Vector3& n) { return !n.isZero(0.0); });
   for (int component = 0; component < 3; ++component) {
@@ -189,7 +191,7 @@ void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles&
         lay_out(equations_, grid, broadcast(0.0),
                 [](std::size_t bodies) { return regression::lanes_per_node * one_per_pair(bodies); });
         const auto add = [&](const Place& place) {
-          // A node on a mirror plane has its normal in it: then only the place along the plane matters.
+          // The normal at a node on a mirror plane lies in the plane: only the position along the plane is relevant.
           const Vector3 cells = per_cell * place.distance.cwiseProduct(place.off_plane);
           place.for_each_pair([&](std::size_t pair, bool first) {
             const Lanes plane = plane_.values[place.in(plane_, pair)];
@@ -243,7 +245,8 @@ void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles&
           return gradient_.values[gradient_.begin[c] + body * nodes_per_block + node];
         };
         const auto reached = [&](std::size_t body) { return at_node(body)[3] > 0.0; };
-        const auto outward = [&](std::size_t body) {  // the volume of a node grows as particles come near
+        // The nodal volume increases as particles approach the node
+        const auto outward = [&](std::size_t body) {
           const Lanes of_body = at_node(body);
           const Vector3 gradient = vector(of_body);
           const bool inside = gradient.norm() * cell_size < least_slope * of_body[3];
@@ -252,7 +255,7 @@ void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles&
         for_each_pair(bodies, [&](std::size_t a, std::size_t b, std::size_t pair) {
           if (!reached(a) || !reached(b)) return;
           const Vector3 of_a = outward(a), of_b = -outward(b);
-          // On smooth faces all three are one.
+          // On smooth faces all three are equal.
           const bool one = kind == Normal::collinear || of_a.dot(of_b) > one_direction;
           const std::array<Vector3, 3> normals = {unit_or_zero(of_a + of_b), of_a, of_b};
           const std::span tried(normals.data(), one ? 1 : normals.size());
@@ -264,7 +267,7 @@ void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles&
       grid.borrow_from_owners(normal_);
     }
     const NodesThatMatter normals = nodes_with_normals(grid, normal_);
-    // Most points lie behind the outermost one by more than they are thick.
+    // Most points are behind the outermost one by more than their thickness.
     const auto extend = [&](const Place& place, double thickest, auto&& half_thickness_along) {
       place.for_each_pair([&](std::size_t pair, bool first) {
         const Lanes* normal = &normal_.values[place.in(normal_, pair, lanes_of_normals)];

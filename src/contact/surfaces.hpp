@@ -14,11 +14,11 @@
 
 namespace whipple::contact {
 
-/// Method to determine the normal between two bodies at a node (docs/theory/contact.md, 3).
+/// Selects the method to determine the normal between two bodies at a node (docs/theory/contact.md, section 3).
 enum class Normal : std::uint8_t {
   collinear,            ///< mean of the unit normals of both
-  separating,           ///< of one body, the other, or their mean: along which they are farthest apart
-  logistic_regression,  ///< of the plane that separates their particles best
+  separating,           ///< normal of either body or their mean: the one with the largest gap
+  logistic_regression,  ///< normal of the plane that best separates their particles
 };
 constexpr std::array<Word<Normal>, 3> words(Normal) {
   return {{{Normal::collinear, "collinear"},
@@ -26,34 +26,36 @@ constexpr std::array<Word<Normal>, 3> words(Normal) {
            {Normal::logistic_regression, "logistic_regression"}}};
 }
 
-/// Surfaces of the velocity fields at the nodes of the contact slots.
+/// Computes the surfaces of the velocity fields at the nodes of the contact slots.
 class Surfaces {
  public:
-  /// Geometry of two fields, a before b, at a node.
+  /// Describes the geometry of two fields, a before b, at a node.
   struct Gap {
-    Vector3 normal = Vector3::Zero();  ///< unit, from a to b; zero where it is not defined
-    double width = 0.0;                ///< m, between their surfaces along it; negative where they overlap
+    Vector3 normal = Vector3::Zero();  ///< unit vector from a to b; zero where it is not defined
+    double width = 0.0;  ///< between their surfaces along the normal, m; negative where they overlap
   };
 
-  /// From the particles and the surfaces of elements that reach the nodes, with their images at mirror
-  /// planes. Collective.
-  /// @param dt  s, of the step, if the nodes hold what particles and elements brought to them; 0: not yet.
-  /// Then nodes
-  ///            count where two fields cannot press either.
+  /// Computes normals and gaps from the particles and surface points of elements that reach the nodes, with their
+  /// images at mirror planes. Collective.
+  /// @param dt  time step, s, if the nodes hold the sums over particles and elements; 0: not yet. Then nodes where two
+  /// fields cannot be under compression are included as well.
   void find(Normal normal, transfer::ShapeFunction shape, const Particles& particles,
             const SurfacePoints& elements, grid::BlockGrid& grid, double dt);
 
+  /// Returns normal and gap of a pair of fields at a node.
   /// @param contact_slot  number of the slot among the contact slots
-  /// @param pair          of its fields: see `pair_index`
-  /// @param node          in its block
+  /// @param pair          pair of its bodies (`pair_index`)
+  /// @param node          number of the node in its block
   [[nodiscard]] Gap at(std::size_t contact_slot, std::size_t pair, std::size_t node) const;
 
  private:
-  grid::ContactValues gradient_;   // of each field: of its volume (x y z), m^2
-  grid::ContactValues normal_;     // of each pair: x, y, z of the normals that are tried, one in each lane
-  grid::ContactValues extent_;     // of each pair: of a along them, of b against them, from the node (m)
-  grid::ContactValues equations_;  // of each pair: of the logistic regression
-  grid::ContactValues plane_;      // of each pair: its present solution
+  // Of each body: gradient of its volume (x, y, z), m^2; sum of V N, m^3
+  grid::ContactValues gradient_;
+  grid::ContactValues normal_;  // of each pair: x, y, z of the candidate normals, one per lane
+  // Of each pair, m, from the node: of a along the normals, of b in the opposite direction
+  grid::ContactValues extent_;
+  grid::ContactValues equations_;  // of each pair: equations of the logistic regression
+  grid::ContactValues plane_;      // of each pair: current plane of the regression
 };
 
 }  // namespace whipple::contact
