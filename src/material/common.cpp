@@ -19,27 +19,16 @@ constexpr double least_density_ratio = 1e-9;
 /// Density that material may reach, as a part of that at which its equation of state ends.
 constexpr double greatest_density_ratio = 0.999;
 
-/// Returns the density at which the equation of state of a point ends: of an explosive, that of what there is of
-/// it. Products that a wall or another detonation stops are denser than the unreacted explosive ever is.
-double greatest_density_of(const Step& step, std::size_t point) {
-  const double of_reactant = step.material.eos->maximum_density();
-  if (!step.material.burns()) return of_reactant;
-  const double of_products = step.material.burn->explosive().products->maximum_density();
-  const double burnt = step.points.history.scalar("burn_fraction")[point];
-  return burnt >= 1.0 ? of_products : burnt > 0.0 ? std::min(of_reactant, of_products) : of_reactant;
-}
-
 /// Holds points below the greatest density of their equation of state, and counts them.
 WHIPPLE_KERNEL void hold_below_greatest_density(const Step& step, Chunk& chunk) {
-  double lowest = step.material.eos->maximum_density();
-  if (step.material.burns())
-    lowest = std::min(lowest, step.material.burn->explosive().products->maximum_density());
+  const Constitutive& model = *step.material.constitutive;
+  const double lowest = model.least_maximum_density(step.material);
   const double per_lowest = 1.0 / (greatest_density_ratio * lowest);
   std::size_t beyond = 0;
   for (std::size_t k = 0; k < chunk.size; ++k) beyond += chunk.volume[k] < chunk.mass[k] * per_lowest ? 1 : 0;
   if (beyond == 0) return;
   for (std::size_t k = 0; k < chunk.size; ++k) {
-    const double greatest = greatest_density_of(step, chunk.index[k]);
+    const double greatest = model.maximum_density(step.material, chunk, k);
     const double least = chunk.mass[k] / (greatest_density_ratio * greatest);
     if (!(chunk.volume[k] < least)) continue;
     chunk.volume_change[k] += least - chunk.volume[k];

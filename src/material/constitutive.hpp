@@ -13,6 +13,7 @@
 
 namespace whipple {
 
+struct Explosive;
 struct Material;
 
 namespace material {
@@ -23,7 +24,8 @@ struct Step;
 /// The law of a material: how stress, temperature and history of a point follow its motion. One virtual call per chunk
 /// of points. Around it, update.cpp collects the points, changes their volume, convects their history fields, computes
 /// the artificial viscosity, and writes the new state back. A model has no state of its own besides its constants and
-/// may be shared by threads. Implementations: `EosStrength` (eos_strength/), and those of constitutive_catalogue.cpp.
+/// may be shared by threads. Implementations: `EosStrength` (eos_strength/),
+/// `BurnModel`, and those of constitutive_catalogue.cpp.
 class Constitutive {
  public:
   virtual ~Constitutive() = default;
@@ -45,6 +47,13 @@ class Constitutive {
   /// Fraction of a change of the whole volume that goes to the voids of each point with voids: all of it where the point
   /// has failed, else its porosity.
   virtual void void_share(const Chunk& chunk, Lanes& share) const;
+  /// Returns the explosive that burns by this model; null: nothing burns.
+  [[nodiscard]] virtual const Explosive* explosive() const { return nullptr; }
+  /// Returns the density (kg/m^3) at which the equation of state of point k of a chunk ends.
+  [[nodiscard]] virtual double maximum_density(const Material& material, const Chunk& chunk,
+                                               std::size_t k) const;
+  /// Returns the least of these that a point may have.
+  [[nodiscard]] virtual double least_maximum_density(const Material& material) const;
   /// Advances a chunk over the step.
   /// @param in   state at the beginning of the step, motion and settings: read only
   /// @param out  the points after `gather`, with the new volume, density and artificial viscosity, and convected

@@ -45,16 +45,16 @@ struct Material {
   /// What the products of the equation of state are made of by burning; null: no explosive. The material itself is the
   /// products, burnt from the start, unless it `burns`.
   std::shared_ptr<const Explosive> explosive;
-  std::shared_ptr<const BurningExplosive>
-      burn;                             ///< the equation of state of an explosive that burns, else null
-  double reference_bulk_modulus = 0.0;  ///< Pa, rho c^2 of the reference state
+  double reference_bulk_modulus = 0.0;              ///< Pa, rho c^2 of the reference state
   const failure::Criterion* void_growth = nullptr;  ///< the one of `failure` that grows voids; null: none
   eos::State reference;  ///< the state that bodies start from: p = 0 at the reference temperature
 
   /// Returns whether some plastic work is stored instead of converted to heat.
   [[nodiscard]] bool stores_cold_work() const { return taylor_quinney < 1.0; }
   /// Returns whether it starts as unreacted explosive and burns to products.
-  [[nodiscard]] bool burns() const { return burn != nullptr; }
+  [[nodiscard]] bool burns() const { return constitutive->explosive() != nullptr; }
+  /// Returns the explosive as which it starts; of a material that `burns`.
+  [[nodiscard]] const Explosive& burning_explosive() const { return *constitutive->explosive(); }
   /// The material as a material file with every default written out (provenance in output files).
   [[nodiscard]] std::string constants() const;
 };

@@ -31,24 +31,36 @@ class EosStrength final : public Constitutive {
   void void_share(const Chunk& chunk, Lanes& share) const override;
   void update(const Step& in, Chunk& out) const override;
 
+  /// Advances the deviator and finds the energy that the equation of state takes. With `finish`, the update of a model
+  /// that has a pressure of its own.
+  void advance_deviator(const Step& in, Chunk& out) const;
+  /// Applies failure and loss of strength at the new pressure; the sound speed.
+  void finish(const Step& in, Chunk& out) const;
+
   /// All fields that it may declare.
   static std::vector<HistoryField> fields();
-
-  std::shared_ptr<const BurningExplosive> burn;  ///< null: the material does not burn
 
   /// First lanes of the history fields; of a field that is not declared: a lane that nobody else uses.
   static constexpr std::size_t undeclared = most_history - 1;
   std::size_t damage = undeclared, distension = undeclared, back_stress = undeclared, strain = undeclared,
-              stored_cold_work = undeclared, burn_fraction = undeclared, lighting_time = undeclared,
-              threshold_stress = undeclared;
+              stored_cold_work = undeclared, threshold_stress = undeclared;
 
  private:
   using Share = void (*)(const EosStrength& model, const Chunk& chunk, Lanes& share);
 
-  std::vector<Part> parts_of(const Material& material, Energy energy) const;
+  /// The parts of the update, in the order of their sections.
+  struct Parts {
+    std::vector<Part> deviator, pressure, rest;
+  };
+
+  Parts parts_of(const Material& material, Energy energy) const;
+
+  [[nodiscard]] const Parts& parts_for(const Step& in) const {
+    return in.energy == Energy::from_grid ? from_grid_ : integrated_;
+  }
 
   double initial_threshold_ = 0.0;  // Pa, of materials with the field
-  std::vector<Part> from_grid_, integrated_;
+  Parts from_grid_, integrated_;
   Share share_ = nullptr;  ///< null: that of `Constitutive`
 };
 
