@@ -11,7 +11,6 @@
 #include <limits>
 
 #include "eos/detonation.hpp"
-#include "eos/models/jwl.hpp"
 #include "src/core/base/error.hpp"
 
 namespace whipple::eos {
@@ -76,7 +75,7 @@ class Auditor {
 
   Audit run() {
     if (!check_reference()) return std::move(result_);
-    if (eos_.model() == Jwl::name) guarded("detonation", [&] { check_detonation(); });
+    if (eos_.detonates()) guarded("detonation", [&] { check_detonation(); });
     guarded("cold curve", [&] { check_cold_curve(); });
     guarded("Hugoniot", [&] { check_hugoniot(); });
     if (thermal_) guarded("heat capacity", [&] { check_temperatures(); });

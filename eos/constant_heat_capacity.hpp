@@ -35,6 +35,7 @@ class ConstantHeatCapacity {
   using Constants = typename C::Constants;
   static constexpr std::string_view name = C::name;
   static constexpr std::string_view summary = C::summary;
+  static constexpr bool detonates = requires { C::detonates; };
   static constexpr double least_temperature = 1.0;         ///< K
   static constexpr double least_sound_speed_ratio = 0.01;  ///< of that of the reference state
   static constexpr bool has_phases =

@@ -68,6 +68,9 @@ class EquationOfState {
   /// Returns whether the model describes condensed material, which has a state of zero pressure as the initial
   /// state of bodies. A gas has none, and its bodies start in the reference state.
   [[nodiscard]] virtual bool condensed() const { return true; }
+  /// Returns whether the model describes detonation products: its reference state is the explosive with its heat of
+  /// reaction.
+  [[nodiscard]] virtual bool detonates() const { return false; }
   /// Returns whether points may melt or vaporise; otherwise both fractions are always 0.
   [[nodiscard]] virtual bool has_phases() const { return true; }
   /// Returns the measured time of the constitutive update with this model relative to that with an explicit one

@@ -52,6 +52,13 @@ class ModelEquationOfState final : public EquationOfState {
       return true;
     }
   }
+  [[nodiscard]] bool detonates() const override {
+    if constexpr (requires { M::detonates; }) {
+      return M::detonates;
+    } else {
+      return false;
+    }
+  }
   [[nodiscard]] bool has_phases() const override {
     if constexpr (requires { M::has_phases; }) {
       return M::has_phases;

@@ -28,6 +28,7 @@ class JwlCurve {
  public:
   using Constants = JwlConstants;
   static constexpr std::string_view name = "jwl";
+  static constexpr bool detonates = true;
   static constexpr std::string_view summary = "Jones-Wilkins-Lee detonation products";
   static ParameterTable<Constants> parameters();
 

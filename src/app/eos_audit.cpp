@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "eos/detonation.hpp"
-#include "eos/models/jwl.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/text_table.hpp"
 
@@ -96,7 +95,7 @@ void print_audit(const Material& material, eos::AuditDepth depth) {
     }
     lines.push_back({"vapour", text});
   }
-  if (material.eos->model() == eos::Jwl::name) {
+  if (material.eos->detonates()) {
     const eos::ChapmanJouguet wave = eos::chapman_jouguet(*material.eos);
     lines.push_back(
         {"detonation",

@@ -106,7 +106,7 @@ void remark_on_burn(const Case& setup, std::size_t b, std::vector<std::string>& 
   const std::string& name = setup.bodies[b].name;
   const Material& material = *setup.materials[b];
   const double ideal = material.explosive->detonation_velocity;
-  const double given = material.burn->explosive().detonation_velocity;
+  const double given = material.burning_explosive().detonation_velocity;
   if (material.explosive->estimated) {
     remarks.push_back(
         fmt::format("'{}': material '{}' has no [eos.unreacted]; until it burns it is a solid of sound speed "

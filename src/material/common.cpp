@@ -20,28 +20,16 @@ constexpr double least_density_ratio = 1e-9;
 /// Maximum density as a fraction of the density at which the equation of state ends.
 constexpr double greatest_density_ratio = 0.999;
 
-/// Returns the density at which the equation of state of a point ends; for an explosive that of its reactant, its
-/// products, or the smaller of the two while it burns. Products compressed by a wall or another detonation are denser
-/// than the unreacted explosive ever is.
-double greatest_density_of(const Step& step, std::size_t point) {
-  const double of_reactant = step.material.eos->maximum_density();
-  if (!step.material.burns()) return of_reactant;
-  const double of_products = step.material.burn->explosive().products->maximum_density();
-  const double burnt = step.points.history.scalar("burn_fraction")[point];
-  return burnt >= 1.0 ? of_products : burnt > 0.0 ? std::min(of_reactant, of_products) : of_reactant;
-}
-
 /// Limits points to the maximum density of their equation of state, and counts them.
 WHIPPLE_KERNEL void hold_below_greatest_density(const Step& step, Chunk& chunk) {
-  double lowest = step.material.eos->maximum_density();
-  if (step.material.burns())
-    lowest = std::min(lowest, step.material.burn->explosive().products->maximum_density());
+  const Constitutive& model = *step.material.constitutive;
+  const double lowest = model.least_maximum_density(step.material);
   const double per_lowest = 1.0 / (greatest_density_ratio * lowest);
   std::size_t beyond = 0;
   for (std::size_t k = 0; k < chunk.size; ++k) beyond += chunk.volume[k] < chunk.mass[k] * per_lowest ? 1 : 0;
   if (beyond == 0) return;
   for (std::size_t k = 0; k < chunk.size; ++k) {
-    const double greatest = greatest_density_of(step, chunk.index[k]);
+    const double greatest = model.maximum_density(step.material, chunk, k);
     const double least = chunk.mass[k] / (greatest_density_ratio * greatest);
     if (!(chunk.volume[k] < least)) continue;
     chunk.volume_change[k] += least - chunk.volume[k];

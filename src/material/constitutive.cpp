@@ -15,6 +15,14 @@ void Constitutive::void_share(const Chunk& chunk, Lanes& share) const {
   }
 }
 
+double Constitutive::maximum_density(const Material& material, const Chunk&, std::size_t) const {
+  return material.eos->maximum_density();
+}
+
+double Constitutive::least_maximum_density(const Material& material) const {
+  return material.eos->maximum_density();
+}
+
 std::size_t Constitutive::declare(const HistoryField& field) {
   const std::size_t lane = lanes_;
   lanes_ += components_of(field.rank);

@@ -13,6 +13,7 @@
 
 namespace whipple {
 
+struct Explosive;
 struct Material;
 
 namespace material {
@@ -23,8 +24,8 @@ struct Step;
 /// Interface of the constitutive models: computes stress, temperature and history of points from their motion, with one
 /// virtual call per chunk of points. update.cpp performs the common parts: it collects the points, changes their
 /// volume, convects their history fields, computes the artificial viscosity, and writes the new state back. A model has
-/// no state except its constants and may be shared by threads. Implementations: `EosStrength` (eos_strength/), and
-/// those of constitutive_catalogue.cpp.
+/// no state except its constants and may be shared by threads. Implementations: `EosStrength` (eos_strength/),
+/// `BurnModel`, and those of constitutive_catalogue.cpp.
 class Constitutive {
  public:
   virtual ~Constitutive() = default;
@@ -46,6 +47,13 @@ class Constitutive {
   /// Computes the fraction of a change of the total volume by which the voids of each point change: 1 if the point has
   /// failed, otherwise its porosity.
   virtual void void_share(const Chunk& chunk, Lanes& share) const;
+  /// Returns the explosive that burns by this model; null: nothing burns.
+  [[nodiscard]] virtual const Explosive* explosive() const { return nullptr; }
+  /// Returns the density (kg/m^3) at which the equation of state of point k of a chunk ends.
+  [[nodiscard]] virtual double maximum_density(const Material& material, const Chunk& chunk,
+                                               std::size_t k) const;
+  /// Returns the least of these that a point may have.
+  [[nodiscard]] virtual double least_maximum_density(const Material& material) const;
   /// Advances a chunk over the step.
   /// @param in   state at the beginning of the step, motion and settings; read only
   /// @param out  the points after `gather`, with the new volume, density and artificial viscosity, and convected

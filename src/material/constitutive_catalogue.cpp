@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "src/material/burn_model.hpp"
 #include "src/material/eos_strength/eos_strength.hpp"
 #include "src/material/neo_hookean.hpp"
 
@@ -34,6 +35,7 @@ const Catalogue<ConstitutiveEntry>& catalogue() {
 const std::vector<HistoryField>& history_fields() {
   static const std::vector<HistoryField> all = [] {
     std::vector<HistoryField> fields = EosStrength::fields();
+    std::ranges::move(BurnModel::fields(), std::back_inserter(fields));
     for (const ConstitutiveEntry& model : catalogue()) {
       for (const HistoryField& field : model.fields) {  // models may share a field
         if (std::ranges::find(fields, field.name, &HistoryField::name) == fields.end())

@@ -11,6 +11,7 @@
 #include "eos/modifiers/distended.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/text.hpp"
+#include "src/material/burn_model.hpp"
 #include "src/material/eos_strength/eos_strength.hpp"
 #include "src/material/failure/fragment_size.hpp"
 #include "src/material/strength/brittle.hpp"
@@ -128,7 +129,6 @@ Material completed(Material material) {
   if (const strength::Brittle* brittle = material.strength->brittle()) {
     if (brittle->bulks()) material.eos = std::make_shared<const eos::Distended>(material.eos);
   }
-  material.burn = std::dynamic_pointer_cast<const BurningExplosive>(material.eos);
   material.reference = initial_state(material);
   const double sound_speed = material.reference.sound_speed;
   material.reference_bulk_modulus = material.reference.density * sound_speed * sound_speed;
@@ -184,13 +184,16 @@ Material burning(const Material& material, double detonation_velocity) {
         "material '{}': an explosive that burns takes no [[failure]]: products do not fail", material.name));
   }
   if (detonation_velocity > 0.0) explosive.detonation_velocity = detonation_velocity;
-  Material result = with_eos(material, std::make_shared<const BurningExplosive>(
-                                           std::make_shared<const Explosive>(std::move(explosive))));
-  if (!result.burns() || dynamic_cast<const material::EosStrength*>(result.constitutive.get()) == nullptr) {
-    throw InputError(fmt::format("material '{}': an explosive that burns takes another [strength] or none",
-                                 material.name));
-  }
-  return result;
+  const auto eos =
+      std::make_shared<const BurningExplosive>(std::make_shared<const Explosive>(std::move(explosive)));
+  Material result = material;
+  // Of another [constitutive] model nothing burns.
+  if (material.burns() || dynamic_cast<const material::EosStrength*>(material.constitutive.get()) != nullptr)
+    result.constitutive = std::make_shared<const material::BurnModel>(eos);
+  result = with_eos(result, eos);
+  if (result.burns()) return result;
+  throw InputError(
+      fmt::format("material '{}': an explosive that burns takes another [strength] or none", material.name));
 }
 
 Material unreacted(const Material& material) {

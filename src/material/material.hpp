@@ -44,8 +44,6 @@ struct Material {
   /// Explosive whose products the equation of state describes; null: no explosive. The material represents the
   /// products, burnt from the start, unless it `burns`.
   std::shared_ptr<const Explosive> explosive;
-  /// The equation of state if the material burns, otherwise null.
-  std::shared_ptr<const BurningExplosive> burn;
   double reference_bulk_modulus = 0.0;              ///< rho c^2 of the reference state, Pa
   const failure::Criterion* void_growth = nullptr;  ///< the element of `failure` that grows voids; null: none
   eos::State reference;  ///< initial state of bodies: p = 0 at the reference temperature
@@ -53,7 +51,9 @@ struct Material {
   /// Returns whether some plastic work is stored instead of being converted to heat.
   [[nodiscard]] bool stores_cold_work() const { return taylor_quinney < 1.0; }
   /// Returns whether the material starts as unreacted explosive and burns to products.
-  [[nodiscard]] bool burns() const { return burn != nullptr; }
+  [[nodiscard]] bool burns() const { return constitutive->explosive() != nullptr; }
+  /// Returns the explosive as which it starts; of a material that `burns`.
+  [[nodiscard]] const Explosive& burning_explosive() const { return *constitutive->explosive(); }
   /// Returns the material as a material file with all defaults written out (provenance in output files).
   [[nodiscard]] std::string constants() const;
 };

@@ -12,7 +12,6 @@
 
 #include "eos/audit.hpp"
 #include "eos/files/models.hpp"
-#include "eos/models/jwl.hpp"
 #include "eos/models/simulated_crystal.hpp"
 #include "src/core/base/catalogue.hpp"
 #include "src/core/base/error.hpp"
@@ -254,7 +253,7 @@ Material read_changed_material(const fs::path& file,
       reaction = build(declared.reaction.build, declared.reaction_line, "reaction");
     explosive = build([&] { return make_explosive(eos, declared.unreacted.build(), std::move(reaction)); },
                       declared.unreacted_line, "eos.unreacted");
-  } else if (eos->model() == eos::Jwl::name) {
+  } else if (eos->detonates()) {
     explosive = build([&] { return make_explosive(eos, nullptr); }, declared.eos_line, "eos");
   }
   std::shared_ptr<const strength::Strength> strength;

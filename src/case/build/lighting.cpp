@@ -220,7 +220,7 @@ DetonationField field_of(const Case& setup) {
     for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
       const Material& material = *setup.materials[b];
       if (material.burns() && setup.holds(setup.bodies[b], point))
-        return material.burn->explosive().detonation_velocity;
+        return material.burning_explosive().detonation_velocity;
     }
     return 0.0;
   };
@@ -238,7 +238,7 @@ double straight(const Case& setup, const Body& body, const Vector3& point, doubl
 
 /// Returns whether an explosive burns without lighting times away from the detonators: by compression or by a rate law.
 bool burns_elsewhere(const Case& setup, const Material& material) {
-  return setup.burn.mode == BurnMode::volume || material.burn->explosive().reaction != nullptr;
+  return setup.burn.mode == BurnMode::volume || material.burning_explosive().reaction != nullptr;
 }
 
 bool is_near_detonator(const Case& setup, const Body& body, const Vector3& point, double velocity) {
@@ -259,7 +259,7 @@ void set_lighting_times(const Case& setup, Particles& particles) {
   parallel::for_each_uneven(particles.size(), [&](std::size_t p) {
     const Material& material = *setup.materials[particles.body[p]];
     if (!material.burns()) return;
-    const double velocity = material.burn->explosive().detonation_velocity;
+    const double velocity = material.burning_explosive().detonation_velocity;
     const Vector3& at = particles.position[p];
     const Body& body = setup.bodies[particles.body[p]];
     if (burns_elsewhere(setup, material) && !is_near_detonator(setup, body, at, velocity)) return;

@@ -41,21 +41,6 @@ const HistoryField threshold_stress_field = {"threshold_stress",
                                              Convection::kept,
                                              0.0,
                                              {.lower = 0.0}};
-const HistoryField burn_fraction_field = {"burn_fraction",
-                                          "1",
-                                          "of an explosive: 0 unreacted, 1 burnt to products",
-                                          Rank::scalar,
-                                          Convection::kept,
-                                          0.0,
-                                          {.lower = 0.0, .upper = 1.0}};
-const HistoryField lighting_time_field = {"lighting_time",
-                                          "s",
-                                          "when the detonation arrives at an explosive; -1: never",
-                                          Rank::scalar,
-                                          Convection::kept,
-                                          never,
-                                          {.lower = never}};
-
 const HistoryField fragment_size_field = {"fragment_size",
                                           "m",
                                           "of the fragments that a failed point is part of; 0: none",
@@ -85,12 +70,11 @@ bool is_brittle(const Material& material) { return material.strength->brittle() 
 }  // namespace
 
 std::vector<HistoryField> EosStrength::fields() {
-  return {damage_field,        distension_field,       back_stress_field,
-          strain_field,        cold_work_field,        burn_fraction_field,
-          lighting_time_field, threshold_stress_field, fragment_size_field};
+  return {damage_field,    distension_field,       back_stress_field,  strain_field,
+          cold_work_field, threshold_stress_field, fragment_size_field};
 }
 
-EosStrength::EosStrength(const Material& material) : burn(material.burn) {
+EosStrength::EosStrength(const Material& material) {
   if (is_brittle(material) || any_criterion(material, [](const auto& c) { return c.accumulates(); })) {
     damage = declare(damage_field);
   }
@@ -104,10 +88,6 @@ EosStrength::EosStrength(const Material& material) : burn(material.burn) {
   if (const std::optional<double> initial = material.strength->initial_threshold()) {
     threshold_stress = declare(threshold_stress_field);
     initial_threshold_ = *initial;
-  }
-  if (burn != nullptr) {
-    burn_fraction = declare(burn_fraction_field);
-    lighting_time = declare(lighting_time_field);
   }
   for (const auto& criterion : material.failure) {
     fragments = dynamic_cast<const failure::FragmentSize*>(criterion.get());
@@ -124,17 +104,18 @@ EosStrength::EosStrength(const Material& material) : burn(material.burn) {
   integrated_ = parts_of(material, Energy::integrated);
 }
 
-std::vector<EosStrength::Part> EosStrength::parts_of(const Material& material, Energy energy) const {
+EosStrength::Parts EosStrength::parts_of(const Material& material, Energy energy) const {
   using namespace parts;
   const bool integrates = energy == Energy::integrated, has_phases = material.eos->has_phases();
   const bool stores = stored_cold_work != undeclared, kinematic = back_stress != undeclared;
   const bool threshold = threshold_stress != undeclared;
   const bool brittle = is_brittle(material), damages = softens(material), strained = strain != undeclared;
   const bool viscous = material.strength->viscosity() > 0.0;
-  std::vector<Part> all;
-  const auto take = [&](Part part) { all.push_back(part); };
+  Parts all;
+  std::vector<Part>* section = &all.deviator;
+  const auto take = [&](Part part) { section->push_back(part); };
   const auto take_if = [&](bool condition, Part part) {
-    if (condition) all.push_back(part);
+    if (condition) take(part);
   };
   take_if(has_phases, fetch_phases);
   take_if(integrates, fetch_old_deviator);
@@ -154,14 +135,13 @@ std::vector<EosStrength::Part> EosStrength::parts_of(const Material& material, E
   take(brittle ? free_brittle : free_failed);
   take(integrates ? energy_by_work : energy_from_grid);
   take_if(stores, take_cold_work);
-  if (burn != nullptr) {
-    take(burn->explosive().reaction != nullptr ? parts::react : parts::burn);
-    take(evaluate_burning);
-  } else if (distension != undeclared) {
+  section = &all.pressure;
+  if (distension != undeclared) {
     take(has_phases ? evaluate_porous_phases : evaluate_porous);
   } else {
     take(has_phases ? evaluate_phases : evaluate_simple);
   }
+  section = &all.rest;
   take_if(integrates, accept_energy);
   take_if(integrates && stores, return_cold_work);
   take_if(brittle, relax_brittle);
@@ -216,8 +196,18 @@ void EosStrength::void_share(const Chunk& chunk, Lanes& share) const {
   share_ != nullptr ? share_(*this, chunk, share) : Constitutive::void_share(chunk, share);
 }
 
+void EosStrength::advance_deviator(const Step& in, Chunk& out) const {
+  for (const Part part : parts_for(in).deviator) part(*this, in, out);
+}
+
+void EosStrength::finish(const Step& in, Chunk& out) const {
+  for (const Part part : parts_for(in).rest) part(*this, in, out);
+}
+
 void EosStrength::update(const Step& in, Chunk& out) const {
-  for (const Part part : in.energy == Energy::from_grid ? from_grid_ : integrated_) part(*this, in, out);
+  advance_deviator(in, out);
+  for (const Part part : parts_for(in).pressure) part(*this, in, out);
+  finish(in, out);
 }
 
 }  // namespace whipple::material

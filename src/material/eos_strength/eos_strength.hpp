@@ -33,25 +33,38 @@ class EosStrength final : public Constitutive {
   void void_share(const Chunk& chunk, Lanes& share) const override;
   void update(const Step& in, Chunk& out) const override;
 
+  /// Advances the deviator and finds the energy that the equation of state takes. With `finish`, the update of a model
+  /// that has a pressure of its own.
+  void advance_deviator(const Step& in, Chunk& out) const;
+  /// Applies failure and loss of strength at the new pressure; computes the sound speed.
+  void finish(const Step& in, Chunk& out) const;
+
   /// Returns all fields that it may declare.
   static std::vector<HistoryField> fields();
 
-  std::shared_ptr<const BurningExplosive> burn;      ///< null: the material does not burn
   const failure::FragmentSize* fragments = nullptr;  ///< of its failure; null: failed points keep no size
 
   /// First lanes of the history fields; fields that are not declared have a lane that nothing else uses.
   static constexpr std::size_t undeclared = most_history - 1;
   std::size_t damage = undeclared, distension = undeclared, back_stress = undeclared, strain = undeclared,
-              stored_cold_work = undeclared, burn_fraction = undeclared, lighting_time = undeclared,
-              threshold_stress = undeclared, fragment_size = undeclared;
+              stored_cold_work = undeclared, threshold_stress = undeclared, fragment_size = undeclared;
 
  private:
   using Share = void (*)(const EosStrength& model, const Chunk& chunk, Lanes& share);
 
-  std::vector<Part> parts_of(const Material& material, Energy energy) const;
+  /// The parts of the update, in the order of their sections.
+  struct Parts {
+    std::vector<Part> deviator, pressure, rest;
+  };
+
+  Parts parts_of(const Material& material, Energy energy) const;
+
+  [[nodiscard]] const Parts& parts_for(const Step& in) const {
+    return in.energy == Energy::from_grid ? from_grid_ : integrated_;
+  }
 
   double initial_threshold_ = 0.0;  // of materials with the field, Pa
-  std::vector<Part> from_grid_, integrated_;
+  Parts from_grid_, integrated_;
   Share share_ = nullptr;  ///< null: that of `Constitutive`
 };
 

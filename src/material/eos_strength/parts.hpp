@@ -56,12 +56,6 @@ void evaluate_simple(const EosStrength& model, const Step& in, Chunk& out);
 void evaluate_phases(const EosStrength& model, const Step& in, Chunk& out);
 void evaluate_porous(const EosStrength& model, const Step& in, Chunk& out);
 void evaluate_porous_phases(const EosStrength& model, const Step& in, Chunk& out);
-/// Advances the burn of an explosive along its lighting times.
-void burn(const EosStrength& model, const Step& in, Chunk& out);
-/// Advances the burn of an explosive by its rate law; by lighting times near the detonators.
-void react(const EosStrength& model, const Step& in, Chunk& out);
-/// Evaluates the equation of state of an explosive that burns.
-void evaluate_burning(const EosStrength& model, const Step& in, Chunk& out);
 /// Set the energy of the points to the solved one; the second adds the cold work.
 void accept_energy(const EosStrength& model, const Step& in, Chunk& out);
 void return_cold_work(const EosStrength& model, const Step& in, Chunk& out);

@@ -21,9 +21,9 @@ class Explosives {
     fraction_ = &std::get<std::vector<double>>(fraction->values);
     lighting_ = &state.particles.history.scalar("lighting_time");
     for (const auto& material : state.setup.materials) {
-      velocity_.push_back(material->burns() ? material->burn->explosive().detonation_velocity : 0.0);
-      store_.push_back(material->burns() ? material->burn->explosive().stored_energy : 0.0);
-      reacts_.push_back(material->burns() && material->burn->explosive().reaction != nullptr);
+      velocity_.push_back(material->burns() ? material->burning_explosive().detonation_velocity : 0.0);
+      store_.push_back(material->burns() ? material->burning_explosive().stored_energy : 0.0);
+      reacts_.push_back(material->burns() && material->burning_explosive().reaction != nullptr);
     }
   }
 

@@ -93,7 +93,7 @@ std::string SqueezedPoints::fault(MPI_Comm communicator,
     const Material& material = *materials[b];
     const std::string products =
         material.burns()
-            ? fmt::format(" (its products: {:.6g})", material.burn->explosive().products->maximum_density())
+            ? fmt::format(" (its products: {:.6g})", material.burning_explosive().products->maximum_density())
             : "";
     return first_[b](
         fmt::format("the equation of state of {} is out of range: {:.0f} of {:.0f} points would be denser "
