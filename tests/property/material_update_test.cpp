@@ -311,6 +311,21 @@ TEST(ColdWork, BecomesHeatInWhatMelts) {
   EXPECT_EQ(points.history.scalar("stored_cold_work")[0], 0.0);
 }
 
+// Vapour fills the volume: what is left of the solid carries no shear and keeps nothing (eq. 24 with w = 0).
+TEST(ColdWork, BecomesHeatBesideVapour) {
+  LinearInEnergy eos;
+  eos.boiling_starts = 400e3;
+  Material material = with(taylor_copper(), {}, eos);
+  set_taylor_quinney(material, 0.9);
+  MaterialPoints points = points_of(material, 1);
+  const Matrix3 rest = Matrix3::Zero();
+  points.history.scalar("stored_cold_work")[0] = 20e3;
+  points.specific_internal_energy[0] = 470e3;
+  update_material(material, points, 0, 1, std::span(&rest, 1), without_viscosity(1e-7));
+  EXPECT_GT(points.vaporised_fraction[0], 0.0);
+  EXPECT_EQ(points.history.scalar("stored_cold_work")[0], 0.0);
+}
+
 TEST(Melting, TakesYieldStressAndShearModulusLinearlyAndStressWithIt) {
   LinearInEnergy eos;
   eos.melting_starts = 400e3;

@@ -24,6 +24,7 @@ namespace whipple::material_test {
 struct LinearInEnergy : eos::EquationOfState {
   double rho0 = 8930.0, c0 = 3940.0, s = 1.49, gamma = 1.96, heat_capacity = 383.0;
   double melting_starts = 1e30, melting_ends = 2e30;  // J/kg
+  double boiling_starts = 1e30;                       // J/kg; a tenth of the material is vapour from there on
 
   void coefficients(double rho, double& a, double& b, double& da) const {
     const double mu = 1.0 - rho0 / rho;
@@ -55,6 +56,8 @@ struct LinearInEnergy : eos::EquationOfState {
     return std::clamp((e - melting_starts) / (melting_ends - melting_starts), 0.0, 1.0);
   }
 
+  [[nodiscard]] double vaporised(double e) const { return e < boiling_starts ? 0.0 : 0.1; }
+
   [[nodiscard]] std::string_view model() const override { return "linear_in_energy"; }
   [[nodiscard]] double reference_density() const override { return rho0; }
   [[nodiscard]] double reference_temperature() const override { return 300.0; }
@@ -76,7 +79,7 @@ struct LinearInEnergy : eos::EquationOfState {
       batch.temperature[i] = 300.0 + e / heat_capacity;
       batch.sound_speed[i] = std::sqrt(std::max(sound_squared(rho, e), 1.0));
       batch.melted_fraction[i] = melted(e);
-      batch.vaporised_fraction[i] = 0.0;
+      batch.vaporised_fraction[i] = vaporised(e);
     }
     return report;
   }
@@ -88,6 +91,7 @@ struct LinearInEnergy : eos::EquationOfState {
     result.pressure = pressure(density, e);
     result.sound_speed = std::sqrt(sound_squared(density, e));
     result.melted_fraction = melted(e);
+    result.vaporised_fraction = vaporised(e);
     return result;
   }
   [[nodiscard]] eos::State state_at_temperature(double density, double temperature) const override {

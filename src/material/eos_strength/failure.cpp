@@ -81,7 +81,7 @@ void grow_voids(const EosStrength& model, const Step& in, Chunk& out) {
     in.material.strength->flow_stress(out.strength_state(out.density, model.threshold_stress), out.view(rate),
                                       out.view(flow));
     for (std::size_t k = 0; k < out.size; ++k) {
-      flow[k] *= 1.0 - out.melted[k];
+      flow[k] *= shear_bearing_fraction(out.melted[k], out.vaporised[k]);
       before[k] = equivalent[k] = std::sqrt(1.5 * tensor(out.motion.deviator, k).squared_norm());
     }
   }

@@ -131,7 +131,10 @@ void lose_back_stress(const EosStrength& model, const Step&, Chunk& out) {
 void release_cold_work(const EosStrength& model, const Step& in, Chunk& out) {
   Lanes& stored = out.history[model.stored_cold_work];
   for (std::size_t k = 0; k < out.size; ++k) {
-    const double solid_before = 1.0 - in.points.melted_fraction[out.index[k]], solid = 1.0 - out.melted[k];
+    const std::size_t p = out.index[k];
+    const double solid_before =
+        shear_bearing_fraction(in.points.melted_fraction[p], in.points.vaporised_fraction[p]);
+    const double solid = shear_bearing_fraction(out.melted[k], out.vaporised[k]);
     if (solid < solid_before) stored[k] *= solid / solid_before;
   }
 }
