@@ -140,7 +140,8 @@ def piece_figure(run: Run, bodies: list[str]) -> Figure | None:
         if not shares.get(name, 0.0) > 0.0:
             continue
         masses = pieces.masses_of(run.analysis.tables["fragments"], run.analysis.body_names.index(name))
-        exponent, error = pieces.weibull_exponent(masses)
+        exponent, error, typical = (run.analysis.quantity(f"{kind}.{name}")
+                                    for kind in ("piece_exponent", "piece_exponent_error", "piece_scale"))
         if not np.isfinite(exponent):
             continue
         colour = style.LINES[drawn % len(style.LINES)]
@@ -149,7 +150,6 @@ def piece_figure(run: Run, bodies: list[str]) -> Figure | None:
         ax.step(units.MILLIGRAMS * mass, masses.number - np.cumsum(copies) + copies, where="pre", color=colour,
                 label=f"{name}: {masses.number} fragments, mean {units.mass(masses.mean)}; {units.percent(shares[name])} of the mass has "
                 f"failed, {units.percent(run.analysis.quantity(f'loose_fraction.{name}'))} is in no fragment")
-        typical = float(((copies * mass**exponent).sum() / copies.sum()) ** (1.0 / exponent))
         along = np.linspace(0.0, mass[-1], 200)
         ax.plot(units.MILLIGRAMS * along, masses.number * np.exp(-((along / typical) ** exponent)), "--", color=colour,
                 label=f"exponent b {exponent:.3g} ± {error:.1g}, m_c {units.mass(typical)}")

@@ -94,9 +94,6 @@ class Measures:
             return measured_history.measure(self.folder / "gauges.csv", of, expectation.table)
         if kind in tension.KINDS:
             return tension.measure(expectation.measure, self.folder, expectation.place, expectation.travel)
-        if kind == "piece_exponent":
-            from report import pieces  # takes numpy
-            return pieces.exponent_of_run(self.folder, of, self.report)
         if kind == "jet_speed":
             return detonation.jet_speed(self.folder, of, expectation.fraction)
         if kind == "jet_gap":

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Fragments of a body, as `whipple analyse` found them (docs/theory/analysis.md, section 3): their masses, and the exponent b of
-the distribution N(>m) = N exp(-(m/m_c)^b)."""
+"""Fragments of a body, as `whipple analyse` found them (docs/theory/analysis.md, section 3)."""
 import csv
 import dataclasses
 import math
@@ -35,32 +34,6 @@ class Masses:
 NONE = Masses(np.array([]), np.array([]))
 
 
-def joined(several):
-    """The fragments of several runs as those of one."""
-    return Masses(np.concatenate([masses.mass for masses in several]), np.concatenate([masses.copies for masses in several]))
-
-
-def weibull_exponent(masses):
-    """Exponent b and its standard error of `Masses` that follow exp(-(m/m_c)^b), by maximum likelihood with the copies c as weights:
-    sum c m^b ln m / sum c m^b - 1/b = sum c ln m / sum c; variance 0.608 b^2/n with n = (sum c)^2 / sum c^2, the number of
-    fragments of the model where all have equally many copies."""
-    if len(masses.mass) < 3:
-        return np.nan, np.nan
-    m, weight = masses.mass / np.max(masses.mass), masses.copies / masses.copies.sum()
-    logarithm = np.log(m)
-    mean = (weight * logarithm).sum()
-
-    def excess(b):
-        power = weight * m**b
-        return (power * logarithm).sum() / power.sum() - 1.0 / b - mean
-
-    lower, upper = 0.05, 50.0
-    for _ in range(100):
-        b = 0.5 * (lower + upper)
-        lower, upper = (b, upper) if excess(b) < 0.0 else (lower, b)
-    return b, b * np.sqrt(0.608 * (weight**2).sum())
-
-
 def masses_of(table, number):
     """Fragments of a body. table: the columns `body`, `mass` and `copies` of fragments.csv; number: of the body in the case."""
     if "body" not in table:  # no rows
@@ -76,8 +49,3 @@ def masses_of_run(folder, body, report=None):
         rows = list(csv.DictReader(stream))
     table = {head.split(" [")[0]: np.array([float(row[head]) for row in rows]) for head in (rows[0] if rows else [])}
     return masses_of(table, bodies.index(body)) if body in bodies else NONE
-
-
-def exponent_of_run(folder, body, report=None):
-    """Exponent b of the masses of the fragments of a body; NaN of fewer than three."""
-    return float(weibull_exponent(masses_of_run(folder, body, report))[0]) if (folder / "run.toml").is_file() else math.nan

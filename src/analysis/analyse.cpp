@@ -432,10 +432,11 @@ void analyse(const Run& run, const Options& options, const fs::path& folder) {
   const std::string none =
       frame.is_planar() ? "in two dimensions a piece of the section is a ring or a bar: see piece_count"
                         : fragments.unknown;
-  for (Quantity& value : of_fragments) {
-    if (none.empty()) break;
-    value.value = nan;
-    value.reason = none;
+  if (!none.empty()) {
+    for (Quantity& value : of_fragments) {
+      value.value = nan;
+      value.reason = none;
+    }
   }
   append(values, std::move(of_fragments));
 

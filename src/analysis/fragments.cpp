@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "src/analysis/cloud.hpp"
@@ -151,6 +152,14 @@ Quantities piece_measures(const Fragments& fragments, std::span<const BodyInput>
     row.push_back(measured("piece_count", bodies[b].name, there ? of.pieces : nan, reason));
     row.push_back(measured("piece_mass", bodies[b].name, there ? of.connected / of.pieces : nan, reason));
     row.push_back(measured("loose_fraction", bodies[b].name, there ? of.loose / of.mass : nan, reason));
+    std::vector<std::pair<double, double>> masses;
+    for (const Fragment& f : fragments.list) {
+      if (f.body == b && there) masses.emplace_back(f.mass, f.copies);
+    }
+    const Weibull weibull = weibull_distribution(masses);
+    row.push_back(measured("piece_exponent", bodies[b].name, weibull.exponent, reason));
+    row.push_back(measured("piece_exponent_error", bodies[b].name, weibull.error, reason));
+    row.push_back(measured("piece_scale", bodies[b].name, weibull.scale, reason));
   }
   return row;
 }
@@ -256,6 +265,38 @@ Exponent distribution_exponent(std::span<const std::pair<double, double>> mass_a
   if (!(logarithms > 0.0)) return {nan, nan, count};
   const double value = count / logarithms;
   return {value, value / std::sqrt(independent), count};
+}
+
+Weibull weibull_distribution(std::span<const std::pair<double, double>> mass_and_copies) {
+  if (mass_and_copies.size() < 3) return {nan, nan, nan};
+  const double largest =
+      std::ranges::max_element(mass_and_copies, {}, &std::pair<double, double>::first)->first;
+  double count = 0.0, squares = 0.0, logarithms = 0.0;
+  for (const auto& [mass, copies] : mass_and_copies) {
+    count += copies;
+    squares += copies * copies;
+    logarithms += copies * std::log(mass / largest);
+  }
+  double power = 0.0;  // sum c m^b at the last b
+  const auto excess = [&](double b) {
+    double moment = 0.0;
+    power = 0.0;
+    for (const auto& [mass, copies] : mass_and_copies) {
+      const double of_one = copies * std::pow(mass / largest, b);
+      power += of_one;
+      moment += of_one * std::log(mass / largest);
+    }
+    return moment / power - 1.0 / b - logarithms / count;
+  };
+  double lower = 0.05, upper = 50.0;  // increases with b
+  for (int iteration = 0; iteration < 60; ++iteration) {
+    const double b = 0.5 * (lower + upper);
+    (excess(b) < 0.0 ? lower : upper) = b;
+  }
+  const double b = 0.5 * (lower + upper);
+  excess(b);
+  return {b, b * std::sqrt(6.0 * squares) / (std::numbers::pi * count),
+          largest * std::pow(power / count, 1.0 / b)};
 }
 
 Quantities fragment_measures(const std::vector<Fragment>& fragments, double projectile_mass,

@@ -57,8 +57,8 @@ struct Fragments {
 Fragments find_fragments(const Snapshot& snapshot, std::span<const BodyInput> bodies, const Frame& frame,
                          double link, Links links = Links::intact);
 
-/// Computes number and mean mass of the fragments of each body, and the fraction of its mass that belongs to no
-/// fragment.
+/// Computes number, mean mass and Weibull distribution of the fragments of each body, and the fraction of its mass that
+/// belongs to no fragment.
 Quantities piece_measures(const Fragments& fragments, std::span<const BodyInput> bodies);
 
 /// Computes the sizes that 16, 50 and 84 % of the failed mass of each body lie below, by the field `fragment_size` that
@@ -84,6 +84,17 @@ struct Exponent {
   double count = 0.0;  ///< number of fragments included
 };
 Exponent distribution_exponent(std::span<const std::pair<double, double>> mass_and_copies, double least);
+
+/// Holds the Weibull distribution N(m) = N exp(-(m/m_c)^b) of fragments.
+struct Weibull {
+  double exponent = 0.0,
+         error = 0.0;  ///< b and its standard error; NaN of fewer than three fragments of the model
+  double scale = 0.0;  ///< m_c, kg
+};
+/// Fits a Weibull distribution by maximum likelihood with the copies c as weights: sum c m^b ln m / sum c m^b - 1/b =
+/// sum c ln m / sum c, m_c^b = sum c m^b / sum c. Mirror images are no further observations: the variance of b is
+/// (6/pi^2) b^2/n, that of large samples, with n = (sum c)^2 / sum c^2.
+Weibull weibull_distribution(std::span<const std::pair<double, double>> mass_and_copies);
 
 /// Computes number, largest mass, mean mass and exponent of the debris fragments. The exponent includes fragments of at
 /// least eight particles, without the largest one.

@@ -18,7 +18,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[0] = str(ROOT)
 from report.measured import Measures  # noqa: E402
 from report.expectations import BadExpectation  # noqa: E402
-from report.pieces import joined, masses_of_run, weibull_exponent  # noqa: E402
+from report.pieces import masses_of_run  # noqa: E402
+from studies.fragment_statistics import joined, weibull_exponent  # noqa: E402
 from studies.commands import cell_size  # noqa: E402
 
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <random>
 #include <set>
@@ -116,6 +117,50 @@ TEST(Fragments, ExponentOfAPowerLaw) {
   EXPECT_NEAR(found.error, b / std::sqrt(4000.0), 1e-4) << "mirror images tell nothing more";
 }
 
+using Masses = std::vector<std::pair<double, double>>;
+
+TEST(Fragments, WeibullDistributionOfItsOwnQuantiles) {
+  constexpr double scale = 3e-6;
+  for (const double b : {0.8, 1.1, 2.0}) {
+    Masses masses;
+    for (int i = 0; i < 4000; ++i)
+      masses.emplace_back(scale * std::pow(-std::log((i + 0.5) / 4000), 1.0 / b), 1.0);
+    const Weibull found = weibull_distribution(masses);
+    EXPECT_NEAR(found.exponent, b, 0.01 * b);
+    EXPECT_NEAR(found.scale, scale, 0.01 * scale);
+  }
+  EXPECT_TRUE(std::isnan(weibull_distribution(Masses{{1.0, 1.0}, {2.0, 1.0}}).exponent));
+}
+
+TEST(Fragments, ImagesAreNoFurtherObservationsOfAWeibullDistribution) {
+  const Weibull found = weibull_distribution(Masses{{1.0, 1.0}, {2.0, 1.0}, {4.0, 1.0}, {7.0, 1.0}});
+  EXPECT_NEAR(found.error, found.exponent * std::sqrt(6.0 / 4.0) / std::numbers::pi, 1e-12);
+  const Weibull images = weibull_distribution(Masses{{1.0, 4.0}, {2.0, 4.0}, {4.0, 4.0}, {7.0, 4.0}});
+  EXPECT_NEAR(images.exponent, found.exponent, 1e-12);
+  EXPECT_NEAR(images.error, found.error, 1e-12);
+  // A fragment that counts twice pulls the exponent as two of them do, with less certainty.
+  const Weibull twice = weibull_distribution(Masses{{1.0, 1.0}, {2.0, 1.0}, {4.0, 1.0}, {7.0, 2.0}});
+  const Weibull same =
+      weibull_distribution(Masses{{1.0, 1.0}, {2.0, 1.0}, {4.0, 1.0}, {7.0, 1.0}, {7.0, 1.0}});
+  EXPECT_NEAR(twice.exponent, same.exponent, 1e-9);
+  EXPECT_GT(twice.error, same.error);
+}
+
+TEST(Fragments, ErrorOfAWeibullExponentIsTheScatterOfSamples) {
+  std::mt19937 generator(1);
+  std::weibull_distribution<double> law(1.5, 1.0);
+  constexpr int samples = 300;
+  double sum = 0.0, squares = 0.0, errors = 0.0;
+  for (int sample = 0; sample < samples; ++sample) {
+    Masses masses;
+    for (int i = 0; i < 60; ++i) masses.emplace_back(law(generator), 2.0);
+    const Weibull found = weibull_distribution(masses);
+    sum += found.exponent, squares += found.exponent * found.exponent, errors += found.error;
+  }
+  const double mean = sum / samples, scatter = std::sqrt(squares / samples - mean * mean);
+  EXPECT_NEAR(scatter / (errors / samples), 1.0, 0.15);
+}
+
 /// Particles of a section, two in a cell.
 struct Section {
   Maker maker{half};
@@ -198,7 +243,7 @@ TEST(Pieces, AreUnknownWithoutTheFieldOfFailure) {
   const Fragments found = section.found();
   EXPECT_TRUE(found.list.empty());
   const Quantities row = piece_measures(found, one_body);
-  ASSERT_EQ(row.size(), 3U);
+  ASSERT_EQ(row.size(), 6U);
   for (const Quantity& quantity : row) {
     EXPECT_TRUE(std::isnan(quantity.value)) << quantity.name;
     EXPECT_NE(quantity.reason.find("no field \"failed\""), std::string::npos) << quantity.reason;

@@ -1,10 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measures of an impact do not depend on the frame in which its case was written; damaged snapshots are refused by name.
+"""Measures of an impact do not depend on the frame in which its case was written; damaged snapshots are refused by name;
+expectations and report have the fragments of the analysis.
 
 usage: analysis_frames.py WHIPPLE
 """
 import csv
+import math
 import pathlib
 import subprocess
 import sys
@@ -14,6 +16,11 @@ import h5py
 
 sys.path[0] = str(pathlib.Path(__file__).resolve().parent)
 from checks import require  # noqa: E402
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
+from report.analysis import Analysis  # noqa: E402
+from report.expectations import Expectation  # noqa: E402
+from report.measured import Measures  # noqa: E402
+from report.pieces import masses_of, masses_of_run  # noqa: E402
 
 CASE = """title = "sphere on plate in a frame"
 [domain]
@@ -48,6 +55,18 @@ def quantities(whipple, folder):
         return {row["quantity"]: float(row["value"]) for row in csv.DictReader(file)}
 
 
+def require_same_fragments(folder):
+    """Fails unless expected.toml, the report and the tables of a run have the same fragments of each body."""
+    measures, analysis = Measures(folder), Analysis(folder / "report" / "analysis.h5")
+    for body in analysis.body_names:
+        of_page, of_table = masses_of(analysis.tables["fragments"], analysis.body_names.index(body)), masses_of_run(folder, body)
+        for name, value in (("piece_count", of_page.number), ("piece_mass", of_page.mean)):
+            expectation = Expectation({"name": name, "measure": f"{name}.{body}", "source": "this test", "kind": "record"}, body)
+            expected = measures.value(expectation)
+            require(of_page.number > 0 and math.isclose(expected, value, rel_tol=1e-12), f"{name}.{body}: {expected}, {value}")
+        require(sorted(of_page.mass) == sorted(of_table.mass), f"{body}: {of_page}, {of_table}")
+
+
 def main():
     whipple = pathlib.Path(sys.argv[1]).resolve()
     with tempfile.TemporaryDirectory() as name:
@@ -62,6 +81,7 @@ def main():
             values = [row[key] for row in found]
             require(all(abs(v - values[0]) <= tolerance * abs(values[0]) for v in values), f"{key}: {values}")
 
+        require_same_fragments(work / "run_2")
         damaged = work / "run_2"
         with h5py.File(sorted(damaged.glob("*.particles.0*.hdf"))[-1], "r+") as file:
             file["VTKHDF/Points"][...] = -1e30
