@@ -53,6 +53,7 @@ struct Point {
   const Vector3 &position, &velocity;  ///< m, m/s
   double sound_speed;                  ///< m/s, of nodes that of the reference state
   bool is_stressed;                    ///< its pressure is more than a millionth of rho c^2; nodes carry none
+  double mass;                         ///< kg; of a node on several ranks the contribution of this one
 };
 
 /// A particle, or one of the eight that an element may become: what gauges sample.
