@@ -48,6 +48,15 @@ class Run:
         file = f"{os.major(lock.st_dev):02x}:{os.minor(lock.st_dev):02x}:{lock.st_ino}"
         return any(line.split()[1:2] == ["FLOCK"] and file in line.split() for line in held.splitlines())
 
+    @property
+    def ended_by(self) -> str:
+        """Returns the condition of the case that ended the run (status.json); empty if none did."""
+        try:
+            status = json.loads((self.folder / "status.json").read_text(encoding="utf-8"))
+            return str(status.get("ended_by", ""))
+        except (OSError, ValueError, AttributeError):
+            return ""
+
     def _read_columns(self) -> list[dict[str, str]]:
         """Reads what the columns of history.csv mean (docs/manual/output.md); nothing of a run that does not say it."""
         path = self.folder / "columns.json"

@@ -104,6 +104,8 @@ class Report:
                            f"is {units.quantity(str(run.input.get('time', {}).get('end', 'not known')))}.")
             self.metrics["goes_on"] = True
         self.page.tiles(tiles)
+        if run.ended_by:
+            self.page.note(f"The run ended before its end time because {run.ended_by}.")
         if run.analysis and run.analysis.geometry.planar:
             self.page.note(DIMENSIONS[run.analysis.geometry.dimension])
         if run.multiplicity > 1:

@@ -41,13 +41,16 @@ MAY_USE = {
                   "src/transfer", "src/fem", "src/contact", "src/io"],
     "src/solver": ["src/core/base", "src/core/parallel", "eos", "src/particles", "src/grid", "src/material", "src/transfer",
                    "src/fem", "src/contact", "src/afemp", "src/io", "src/case"],
-    # The loop around the solver: what a run writes, and what may be asked of it.
-    "src/run": ["src/core/base", "src/core/input", "src/core/parallel", "eos", "src/particles", "src/grid", "src/material", "src/fem",
-                "src/io", "src/case", "src/solver"],
-    # Times the solver.
-    "src/bench": ["src/core/base", "src/core/parallel", "src/core/process", "src/particles", "src/grid", "src/material", "src/transfer", "src/io", "src/case", "src/solver"],
     # Reads what runs wrote, with the keys of a case; knows no solver.
     "src/analysis": ["src/core/base", "src/core/parallel", "src/core/hdf5", "src/grid", "src/material", "src/case"],
+    # The loop around the solver: what a run writes, and what may be asked of it.
+    "src/run": ["src/core/base", "src/core/input", "src/core/parallel", "eos", "src/particles", "src/grid", "src/material", "src/fem",
+                "src/io", "src/analysis", "src/case", "src/solver"],
+    # Times the solver.
+    "src/bench": ["src/core/base", "src/core/parallel", "src/core/process", "src/particles", "src/grid", "src/material", "src/transfer", "src/io", "src/case", "src/solver"],
+    # Many runs of a case as other processes, and the table of what they wrote.
+    "src/sweep": ["src/core/base", "src/core/input", "src/core/process", "src/core/hdf5", "src/grid", "src/material", "src/io", "src/case",
+                  "src/analysis", "src/run"],
     # Packs what runs wrote for the browser.
     "src/view": ["src/core/base", "src/grid", "src/io", "src/analysis"],
     # The page of running simulations and its server.
@@ -67,7 +70,7 @@ MAY_USE = {
     # whipple-md for states.
     "src/app": ["src/core/base", "src/core/input", "src/core/parallel", "src/core/process", "eos", "eos/curves", "eos/experiments", "eos/files",
                 "src/particles", "src/grid", "src/material",
-                "src/transfer", "src/io", "src/analysis", "src/view", "src/monitor", "src/decks", "src/case", "src/solver", "src/run", "src/bench",
+                "src/transfer", "src/io", "src/analysis", "src/view", "src/monitor", "src/decks", "src/case", "src/solver", "src/run", "src/sweep", "src/bench",
                 "md_fitting/elements", "md_fitting/plan",
                 "md_fitting/simulated_crystal"],
     # The Python module whipple.eos: no MPI, no grid.
@@ -128,6 +131,8 @@ WORDS_ALLOWED = {
     "src/monitor/handler.cpp": "header fields of HTTP",
     "src/monitor/folder.cpp": "endings of file names",
     "src/run/directory_control.cpp": "endings of file names",
+    "src/sweep/points.cpp": "the unit 1",
+    "src/sweep/results.cpp": "the unit 1",
     "src/run/run.cpp": "the file name case.toml",
 }
 

@@ -7,6 +7,14 @@ if(TARGET whipple_python_eos AND WHIPPLE_PYTHON)
     set_tests_properties(python_${part} PROPERTIES LABELS fast TIMEOUT 300 ENVIRONMENT "${python_environment}")
   endforeach()
 
+  # Cases, runs and results, and the example of them.
+  foreach(part runs stopping_ball)
+    add_test(NAME python_${part} COMMAND ${WHIPPLE_PYTHON} -m unittest test_${part}
+             WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}/python/tests)
+    set_tests_properties(python_${part} PROPERTIES LABELS fast TIMEOUT 300
+                         ENVIRONMENT "${python_environment};${mpi_environment};WHIPPLE_PROGRAM=$<TARGET_FILE:whipple>;MPLCONFIGDIR=${CMAKE_CURRENT_BINARY_DIR}")
+  endforeach()
+
   # A million states beside C++, by processor times.
   add_executable(evaluate_states benchmark/evaluate_states.cpp)
   target_link_libraries(evaluate_states PRIVATE whipple_material)

@@ -72,6 +72,9 @@ if(WHIPPLE_PYTHON)
   set_tests_properties(run_processes PROPERTIES LABELS fast TIMEOUT 300 COST 20)
   add_test(NAME run_replay COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/parallel/run_replay.py $<TARGET_FILE:whipple>
            ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml ${CMAKE_CURRENT_BINARY_DIR}/run_replay)
+  add_test(NAME run_stop COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/parallel/run_stop.py $<TARGET_FILE:whipple>
+           ${CMAKE_CURRENT_SOURCE_DIR}/data ${CMAKE_CURRENT_BINARY_DIR}/run_stop)
+  set_tests_properties(run_stop PROPERTIES LABELS fast TIMEOUT 300 COST 5)
   set_tests_properties(run_replay PROPERTIES LABELS fast TIMEOUT 300 COST 15)
   # Calls to the system that fail; sanitizers want to be loaded before all other libraries.
   if(NOT WHIPPLE_SANITIZE)

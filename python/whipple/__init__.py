@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Equations of state of whipple for Python: `from whipple import eos` (docs/manual/python.md)."""
+"""Cases, runs and equations of state of whipple for Python: `import whipple`, `from whipple import eos`
+(docs/manual/python.md)."""
 import os
 import pathlib
 import sys
@@ -38,12 +39,18 @@ class _Remedy:
 
 sys.meta_path.append(_Remedy)
 
+_RUNS = ("Case", "CaseError", "Fault", "Quantity", "Results", "Run", "RunError", "StudyResults", "Table", "materials",
+         "program", "sweep")
+__all__ = ["eos", *_RUNS]
+
 
 def __getattr__(name):
-    """Import the compiled module on its first use."""
+    """Import the compiled module and that of runs on their first use."""
+    import importlib
+    if name in _RUNS:
+        return getattr(importlib.import_module(f"{__name__}.runs"), name)
     if name != "eos":
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    import importlib
     try:
         return importlib.import_module(f"{__name__}.eos")
     except ImportError as missing:  # hasattr() is to say no

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <sstream>
 
 #include "src/core/base/csv.hpp"
 #include "src/core/base/error.hpp"
@@ -184,6 +186,24 @@ void write_quantities(const Quantities& values, const std::filesystem::path& fol
                         csv_cell(q.reason));
   }
   write_text_atomically(folder / "quantities.csv", text);
+}
+
+Quantities read_quantities(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "quantities.csv";
+  std::istringstream lines(read_text(file));
+  Quantities all;
+  std::string line;
+  std::getline(lines, line);  // names of the columns
+  while (std::getline(lines, line)) {
+    const std::vector<std::string> cells = csv_cells(line);
+    double value = 0.0;
+    const bool is_row =
+        cells.size() >= 5 &&
+        std::from_chars(cells[1].data(), cells[1].data() + cells[1].size(), value).ec == std::errc();
+    if (!is_row) throw InputError(fmt::format("{}: error: no row of measures: {}", file.string(), line));
+    all.push_back({cells[0], cells[2], cells[3], value, cells[4]});
+  }
+  return all;
 }
 
 }  // namespace whipple::analysis

@@ -38,4 +38,8 @@ std::string measures_as_markdown();
 /// @throws InputError if the file cannot be written
 void write_quantities(const Quantities& values, const std::filesystem::path& folder);
 
+/// Reads FOLDER/quantities.csv.
+/// @throws InputError if the file is missing or damaged
+Quantities read_quantities(const std::filesystem::path& folder);
+
 }  // namespace whipple::analysis

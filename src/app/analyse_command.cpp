@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "src/analysis/analyse.hpp"
+#include "src/analysis/measures.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
 #include "src/core/base/log.hpp"
@@ -25,6 +28,19 @@ struct AnalyseOptions {
 /// Converts the text of an option to a length > 0; returns 0 for an empty text.
 double length(const std::string& text, const char* option) {
   return text.empty() ? 0.0 : option_quantity(option, text, "m", range::positive());
+}
+
+/// Prints quantities.csv of a folder as JSON; values that could not be measured are null, with their reason.
+void print_quantities_as_json(const std::filesystem::path& folder) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::object();
+  for (const analysis::Quantity& quantity : analysis::read_quantities(folder)) {
+    nlohmann::ordered_json& entry = all[quantity.name];
+    entry["value"] = std::isfinite(quantity.value) ? nlohmann::ordered_json(quantity.value) : nullptr;
+    entry["unit"] = quantity.unit;
+    entry["meaning"] = quantity.meaning;
+    if (!quantity.reason.empty()) entry["reason"] = quantity.reason;
+  }
+  fmt::print("{}\n", all.dump(1));
 }
 
 }  // namespace
@@ -121,10 +137,14 @@ void add_analyse_command(CLI::App& app) {
       "Example:\n  whipple analyse run/disk --witness '200 mm'\n"
       "Writes quantities.csv, series.csv, bodies.csv, fragments.csv and more, and analysis.h5 with all of "
       "it");
-  command->callback([options] {
+  auto json = std::make_shared<bool>(false);
+  command->add_flag("--json", *json,
+                    "Print the final values for programs: {name: {value, unit, meaning}} (SI)");
+  command->callback([options, json] {
     const std::filesystem::path output =
         std::filesystem::path(options->output.empty() ? options->run + "/report" : options->output);
     run_analysis(options->run, options->words, output);
+    if (*json) print_quantities_as_json(output);
     log::info("wrote {}", output.string());
   });
 }

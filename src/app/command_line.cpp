@@ -98,6 +98,11 @@ int run_command_line(CLI::App& app, int argc, char** argv) {
   } catch (const CLI::RuntimeError& end) {
     return end.get_exit_code();
   } catch (const CLI::Success& request) {  // --help, --version
+    const CLI::App& command = faulty(app);
+    for (const std::string& rest : command.remaining(false)) {  // help for what does not exist
+      if (!rest.starts_with('-') && !command.get_allow_extras())
+        throw InputError(fmt::format("{}\nsee {} --help", unexpected(command, rest), full_name(command)));
+    }
     return app.exit(request);
   } catch (const CLI::ParseError& error) {
     report(app, error);

@@ -23,6 +23,7 @@
 #include "src/material/material_schema.hpp"
 #include "src/material/reaction/catalogue.hpp"
 #include "src/material/strength/catalogue.hpp"
+#include "src/sweep/study.hpp"
 
 namespace whipple::app {
 namespace {
@@ -72,6 +73,9 @@ const std::vector<Topic>& topics() {
       {"md", "Plans of molecular dynamics (`whipple md PLAN.toml`)",
        [](const std::string& name) { return single("md", name, md::describe_plan()); },
        [] { return std::vector<std::string>(); }, &md::plan_schema},
+      {"study", "Studies (`whipple sweep STUDY.toml`)",
+       [](const std::string& name) { return single("study", name, sweep::describe_study()); },
+       [] { return std::vector<std::string>(); }, &sweep::study_schema},
       {"element", "Constants of elements (`whipple fit --defaults FILE.toml`)",
        [](const std::string& name) { return single("element", name, elements::describe_elements()); },
        [] { return std::vector<std::string>(); }, nullptr},
@@ -162,9 +166,9 @@ void add_describe_command(CLI::App& app) {
   command->add_option("name", options->name, "A model, criterion or shape");
   command->add_flag("--markdown", options->markdown,
                     "Everything, as the page docs/manual/input_reference.md");
-  command->add_flag(
-      "--json-schema", options->json_schema,
-      "JSON schema of case files, of material files (topic material) or of plans (topic md), for editors");
+  command->add_flag("--json-schema", options->json_schema,
+                    "JSON schema of case files, of material files (topic material), of plans (topic md) or "
+                    "of studies, for editors");
   command->footer(
       "Example:\n  whipple describe eos gray\n  whipple describe case --json-schema > case.schema.json");
   command->callback([options] { describe_inputs(*options); });

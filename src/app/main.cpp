@@ -32,6 +32,7 @@
 #include "src/app/report_command.hpp"
 #include "src/app/run_command.hpp"
 #include "src/app/steer_command.hpp"
+#include "src/app/sweep_command.hpp"
 #include "src/app/units_command.hpp"
 #include "src/app/version_command.hpp"
 #include "src/app/view_command.hpp"
@@ -69,6 +70,7 @@ int whipple_main(int argc, char** argv) {
 
   add_run_command(app);
   add_check_command(app);
+  add_sweep_command(app);
   add_edit_command(app);
   add_status_command(app);
   add_steer_command(app);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -42,6 +43,19 @@ void print_materials() {
   log::info("{} materials; a bare file name is searched in the folder of the case, then in:",
             materials.size());
   for (const std::filesystem::path& folder : library_folders()) log::info("  {}", folder.string());
+}
+
+/// Prints the library for programs.
+void print_materials_as_json() {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const LibraryMaterial& material : library_materials()) {
+    list.push_back({{"key", material.file.stem().string()},
+                    {"name", material.name},
+                    {"group", material.group},
+                    {"note", material.note},
+                    {"file", material.file.string()}});
+  }
+  fmt::print("{}\n", list.dump(1));
 }
 
 std::string lower(std::string text) {
@@ -111,9 +125,13 @@ void add_materials_command(CLI::App& app) {
   command->add_flag(
       "--markdown", *markdown,
       "Tables of values computed from the equations of state (docs/manual/materials.md), in Markdown");
-  command->callback([command, markdown] {
+  const auto json = std::make_shared<bool>(false);
+  command->add_flag("--json", *json, "The list for programs");
+  command->callback([command, markdown, json] {
     if (!command->get_subcommands().empty()) return;
-    if (*markdown) {
+    if (*json) {
+      print_materials_as_json();
+    } else if (*markdown) {
       fmt::print("{}", library_as_markdown());
     } else {
       print_materials();

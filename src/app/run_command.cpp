@@ -9,6 +9,7 @@
 #include <exception>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -28,6 +29,7 @@
 #include "src/core/process/mpirun.hpp"
 #include "src/core/process/paths.hpp"
 #include "src/decks/import.hpp"
+#include "src/run/check.hpp"
 #include "src/run/restart.hpp"
 #include "src/run/run.hpp"
 #include "src/run/signal_control.hpp"
@@ -130,6 +132,29 @@ int run_here(const Arguments& arguments) {
       parallel::end_all_ranks(parallel::world(), message_for_user("whipple", error),
                               static_cast<int>(exit_code(error)));
     }
+    throw;
+  }
+}
+
+/// Prints what a case would run, or its faults as data.
+/// @throws the error of a wrong case, after its faults were printed
+void print_check_as_json(const Arguments& arguments, bool with_forecast) {
+  using nlohmann::json;
+  const auto print = [](const json& text) {
+    fmt::print("{}\n", text.dump(1, ' ', false, json::error_handler_t::replace));
+  };
+  try {
+    print(run::check_json(run::examine_case(run_options(arguments), with_forecast, parallel::world())));
+  } catch (const InputError& error) {
+    json faults = json::array();
+    for (const InputFault& fault : error.faults()) {
+      faults.push_back({{"file", fault.file},
+                        {"line", fault.line},
+                        {"column", fault.column},
+                        {"key", fault.key},
+                        {"text", fault.text}});
+    }
+    print({{"faults", faults}});
     throw;
   }
 }
@@ -244,14 +269,23 @@ void add_check_command(CLI::App& app) {
   command->footer(
       "Example:\n  whipple check cases/copper_disk_on_aluminium/case.toml --threads 2\n"
       "  whipple check cases/copper_disk_on_aluminium/case.toml --preview disk.html");
-  command->callback([arguments, preview] {
+  auto json = std::make_shared<bool>(false);
+  auto brief = std::make_shared<bool>(false);
+  command->add_flag("--json", *json, "The same for programs (SI), with the faults of a wrong case as data");
+  command->add_flag("--brief", *brief, "Without steps and time, which take a second to measure");
+  command->callback([arguments, preview, json, brief] {
     if (arguments->case_file.empty()) throw InputError("expected a case file (CASE.toml)");
     require_case_file(arguments->case_file);
     if (!preview->empty() && !preview->ends_with(".html"))
       throw InputError(
           fmt::format("--preview {}: a page for the browser: its name ends with .html", *preview));
     require_new_file(*preview, arguments->force);
-    fmt::print("{}", run::check_case(run_options(*arguments), parallel::world()));
+    if (*json) {
+      print_check_as_json(*arguments, !*brief);
+    } else {
+      fmt::print("{}",
+                 run::check_text(run::examine_case(run_options(*arguments), !*brief, parallel::world())));
+    }
     if (!preview->empty()) write_preview(*arguments, *preview);
   });
 }

@@ -38,7 +38,8 @@ std::span<const Section<Case>> Case::sections() {
       section<&Case::bodies>("body"),
       section<&Case::detonations>("detonation"),
       section<&Case::gauges>("gauge"),
-      section<&Case::tracers>("tracers")};
+      section<&Case::tracers>("tracers"),
+      section<&Case::stops>("stop", ", ends the run before time.end")};
   return all;
 }
 

@@ -20,6 +20,7 @@
 #include "src/case/heat.hpp"
 #include "src/case/output_control.hpp"
 #include "src/case/splitting.hpp"
+#include "src/case/stop.hpp"
 #include "src/case/time_control.hpp"
 #include "src/case/transfer_control.hpp"
 #include "src/grid/geometry.hpp"
@@ -45,6 +46,7 @@ struct Case {
   std::vector<Detonation> detonations;
   std::vector<Gauge> gauges;
   std::vector<Tracers> tracers;
+  std::vector<Stop> stops;
 
   std::filesystem::path file;  ///< the case file; materials are searched for in its folder
 

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "src/run/check.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <nlohmann/json.hpp>
 
 #include "eos/table/table.hpp"
+#include "src/case/build/placement.hpp"
 #include "src/case/build/tables.hpp"
 #include "src/case/remarks.hpp"
 #include "src/core/base/error.hpp"
@@ -12,9 +16,8 @@
 #include "src/core/base/text.hpp"
 #include "src/core/parallel/threads.hpp"
 #include "src/io/ranks.hpp"
-#include "src/run/forecast.hpp"
+#include "src/run/observers/stop_conditions.hpp"
 #include "src/run/preparation.hpp"
-#include "src/run/run.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple::run {
@@ -61,24 +64,77 @@ std::string of_splitting(const solver::Simulation& simulation) {
 
 }  // namespace
 
-std::string check_case(const RunOptions& options, MPI_Comm communicator) {
+CaseCheck examine_case(const RunOptions& options, bool with_forecast, MPI_Comm communicator) {
   set_threads(options.threads, communicator);
-  cases::Case setup = cases::read_case(options.case_file, options.overrides);
+  CaseCheck found;
+  found.setup = cases::read_case(options.case_file, options.overrides);
+  cases::Case& setup = found.setup;
+  require_known_columns(setup);
   require_memory(setup, communicator);
+  found.expected_memory = cases::expected_memory(setup);
   cases::tabulate_materials(setup, io::Ranks(communicator));
   setup.transfer.rest_tolerance = 0.0;  // the cost is measured with no block inactive
   solver::Simulation simulation(setup, communicator);
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    const cases::BodySummary& body = simulation.bodies()[b];
+    CaseCheck::OfBody& of_body = found.bodies.emplace_back();
+    for (const solver::Carrier* carrier : simulation.carriers()) of_body.parts += carrier->count_text(b);
+    of_body.mass = body.mass;
+    of_body.shape_mass = body.shape_mass;
+    of_body.at_faces = at_faces(setup, simulation, b);
+  }
+  found.warnings = cases::remarks(setup);
+  found.particles = simulation.particle_count();  // before splitting adds more
+  found.blocks = simulation.grid().slots();
+  found.bytes = static_cast<double>(simulation.bytes());
+  found.splitting = of_splitting(simulation);
+  found.threads = parallel::threads();
+  if (with_forecast) found.cost = forecast(simulation);
+  return found;
+}
+
+nlohmann::json check_json(const CaseCheck& found) {
+  using nlohmann::json;
+  const cases::Case& setup = found.setup;
+  json bodies = json::array();
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    bodies.push_back({{"name", setup.bodies[b].name},
+                      {"material", setup.materials[b]->name},
+                      {"parts", found.bodies[b].parts},
+                      {"mass", found.bodies[b].mass},
+                      {"shape_mass", found.bodies[b].shape_mass}});
+  }
+  json text = {{"file", setup.file.string()},
+               {"title", setup.title},
+               {"cells", setup.geometry.cells},
+               {"cell_size", setup.geometry.cell_size},
+               {"end", setup.time.end},
+               {"bodies", bodies},
+               {"particles", found.particles},
+               {"memory", found.bytes},
+               {"expected_memory", found.expected_memory},
+               {"threads", found.threads},
+               {"warnings", found.warnings},
+               {"remarks", setup.contact_fields.remarks},
+               {"faults", json::array()}};
+  if (found.cost) {
+    text["steps"] = {found.cost->least_steps, found.cost->most_steps};
+    text["seconds"] = {found.cost->least_time, found.cost->most_time};
+  }
+  return text;
+}
+
+std::string check_text(const CaseCheck& found) {
+  const cases::Case& setup = found.setup;
   std::string text = fmt::format("{}\n{}\n\n", setup.file.string(), setup.title);
   text += fmt::format("grid: {} x {} x {} cells of {:.6g} mm\n", setup.geometry.cells[0],
                       setup.geometry.cells[1], setup.geometry.cells[2], 1e3 * setup.geometry.cell_size);
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
-    const cases::BodySummary& body = simulation.bodies()[b];
-    std::string parts;
-    for (const solver::Carrier* carrier : simulation.carriers()) parts += carrier->count_text(b);
+    const CaseCheck::OfBody& body = found.bodies[b];
     text += fmt::format("body \"{}\" of {}: {}, {:.6g} g in the domain; whole shape {:.6g} g\n",
-                        setup.bodies[b].name, setup.materials[b]->name, parts, 1e3 * body.mass,
+                        setup.bodies[b].name, setup.materials[b]->name, body.parts, 1e3 * body.mass,
                         1e3 * body.shape_mass);
-    text += at_faces(setup, simulation, b);
+    text += body.at_faces;
     if (const auto* table = dynamic_cast<const eos::Table*>(setup.materials[b]->eos.get())) {
       text += fmt::format("  equation of state: table of {}, {} kB, error {:.2g}, {:.4g} to {:.6g} kg/m^3\n",
                           table->data().origin, table->data().size() / 1000, table->data().requested_error,
@@ -86,21 +142,20 @@ std::string check_case(const RunOptions& options, MPI_Comm communicator) {
     }
   }
   for (const std::string& remark : setup.contact_fields.remarks) text += remark + "\n";
-  for (const std::string& remark : cases::remarks(setup)) text += "warning: " + remark + "\n";
-  const std::size_t particles = simulation.particle_count();  // before splitting adds more
-  const std::string splitting = of_splitting(simulation);
-  const Forecast cost = forecast(simulation);
-  text += fmt::format("particles: {}, active blocks: {}, memory: {} now\n", particles,
-                      simulation.grid().slots(), format_bytes(static_cast<double>(simulation.bytes())));
-  text += splitting;
+  for (const std::string& remark : found.warnings) text += "warning: " + remark + "\n";
+  text += fmt::format("particles: {}, active blocks: {}, memory: {} now\n", found.particles, found.blocks,
+                      format_bytes(found.bytes));
+  text += found.splitting;
+  if (!found.cost) return text;
+  const Forecast& cost = *found.cost;
   text += fmt::format("steps: {:.0f} to {:.0f} to t = {:.6g} us\n", cost.least_steps, cost.most_steps,
                       1e6 * setup.time.end);
   text += fmt::format(
       "estimated time: {} to {} on {} thread{} ({:.0f} ns per particle{} and step, measured; on average "
       "{:.0f} % of "
       "them take part)\n",
-      format_duration(cost.least_time), format_duration(cost.most_time), parallel::threads(),
-      parallel::threads() == 1 ? "" : "s", cost.nanoseconds, setup.has_elements() ? " or element" : "",
+      format_duration(cost.least_time), format_duration(cost.most_time), found.threads,
+      found.threads == 1 ? "" : "s", cost.nanoseconds, setup.has_elements() ? " or element" : "",
       1e2 * cost.moving_share);
   constexpr double long_time = 86400.0;  // s
   if (cost.least_time > long_time) {

@@ -13,6 +13,7 @@ struct Requests {
   bool out_of_time = false;  ///< the limit of wall time ends the run
   bool checkpoint = false;
   Request steering;
+  int condition = 0;  ///< number of the entry [[stop]] that holds, from 1; 0: none
 
   /// Returns whether the run ends before its end time.
   [[nodiscard]] bool stop() const { return signal != 0 || out_of_time || steering.act == Act::stop; }

@@ -45,7 +45,7 @@ struct Outcome {
   };
   Kind kind = Kind::done;
   int exit_code = 0;
-  std::string message;  ///< empty if the run is complete; observers may add messages for the user
+  std::string message;  ///< empty if the run reached its end time; observers may add messages for the user
 };
 
 /// Observes a run and writes outputs. Observers are called in the order of their list, on all ranks, and may
@@ -61,6 +61,8 @@ class RunObserver {
   virtual void resume(const Moment&, const io::CheckpointValues&) {}
   /// Processes the state after a step. While a run is paused it is called repeatedly at the same step.
   virtual void after_step(const Moment&) {}
+  /// Adds requests of its own to those that all ranks agree on after the next step. Called without communication.
+  virtual void ask(const Moment&, Requests&) const {}
   /// Returns the next time (s) after the current one at which a step must end; infinite: any. Identical on all ranks.
   [[nodiscard]] virtual double next_time() const { return std::numeric_limits<double>::infinity(); }
   /// Adds the data that `resume` needs to a checkpoint, and ensures that all output that they count is on disk.

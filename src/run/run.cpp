@@ -29,6 +29,7 @@
 #include "src/run/observers/progress.hpp"
 #include "src/run/observers/snapshots.hpp"
 #include "src/run/observers/status_file.hpp"
+#include "src/run/observers/stop_conditions.hpp"
 #include "src/run/observers/summary.hpp"
 #include "src/run/preparation.hpp"
 #include "src/run/replay_control.hpp"
@@ -102,7 +103,10 @@ Observers observers_of(solver::Simulation& simulation, const io::RunDirectory& d
   all.push_back(std::make_unique<InputRecord>(directory, ranks));
   all.push_back(std::make_unique<HistoryTable>(setup, history, ranks));
   all.push_back(std::make_unique<GaugeTable>(gauges, ranks));
-  all.push_back(std::make_unique<Snapshots>(setup, directory, simulation.communicator()));
+  auto snapshots = std::make_unique<Snapshots>(setup, directory, simulation.communicator());
+  auto conditions = std::make_unique<StopConditions>(setup, directory, *snapshots, ranks);
+  all.push_back(std::move(snapshots));
+  all.push_back(std::move(conditions));
   all.push_back(std::make_unique<Checkpoints>(directory));
   all.push_back(std::make_unique<StatusFile>(directory, options.program, ranks));
   return all;
@@ -128,6 +132,7 @@ int begin(const RunOptions& options, MPI_Comm communicator) {
   std::optional<ReplayControl> replay;
   if (!options.replay.empty()) replay.emplace(options.replay);  // on every rank: all raise its errors
   cases::Case setup = cases::read_case(options.case_file, options.overrides);
+  require_known_columns(setup);
   require_memory(setup, communicator);
   cases::tabulate_materials(setup, ranks);
   const io::RunDirectory directory =

@@ -35,9 +35,4 @@ struct RunOptions {
 /// leaves its range: the state is saved in the folder failed/ of the run
 int run_case(const RunOptions& options, MPI_Comm communicator);
 
-/// Describes the run of a case for `whipple check`, without making it: bodies, particles, memory, and steps and wall
-/// time from a few measured steps. Collective.
-/// @throws InputError if the case is invalid
-std::string check_case(const RunOptions& options, MPI_Comm communicator);
-
 }  // namespace whipple::run

@@ -28,14 +28,19 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
 
 /// Combines the requests of all ranks, because signals may reach them in different steps and clocks differ.
 Requests agree(MPI_Comm communicator, const Requests& own) {
-  std::array<double, 5> numbers = {static_cast<double>(own.signal), own.out_of_time ? 1.0 : 0.0,
-                                   own.checkpoint ? 1.0 : 0.0, static_cast<double>(own.steering.act),
-                                   own.steering.value};  // at least 0, the value of ranks without requests
+  std::array<double, 6> numbers = {
+      static_cast<double>(own.signal),
+      own.out_of_time ? 1.0 : 0.0,
+      own.checkpoint ? 1.0 : 0.0,
+      static_cast<double>(own.steering.act),
+      own.steering.value,
+      static_cast<double>(own.condition)};  // at least 0, the value of ranks without requests
   parallel::maximum(communicator, numbers);
   return {.signal = static_cast<int>(numbers[0]),
           .out_of_time = numbers[1] > 0.0,
           .checkpoint = numbers[2] > 0.0,
-          .steering = {static_cast<Act>(numbers[3]), numbers[4]}};
+          .steering = {static_cast<Act>(numbers[3]), numbers[4]},
+          .condition = static_cast<int>(numbers[5])};
 }
 
 }  // namespace
@@ -95,6 +100,7 @@ void Runner::at_border() {
   requests_ = agree(simulation_.communicator(), asked());
   for (RunControl* control : controls_) control->writing_begins();
   follow(requests_.steering);
+  if (requests_.condition > 0) schedule_.end = simulation_.state().time;
   for (const auto& observer : observers_) observer->after_step(now());
   if (requests_.checkpoint) last_checkpoint_ = Clock::now();
   if (has_ended()) return;
@@ -105,6 +111,7 @@ void Runner::at_border() {
 Requests Runner::asked() {
   Requests own;
   for (RunControl* control : controls_) control->ask(now(), own);
+  for (const auto& observer : observers_) observer->ask(now(), own);
   const double every = schedule_.checkpoint_every;
   own.checkpoint = own.checkpoint || own.steering.act == Act::checkpoint ||
                    (every > 0.0 && seconds_since(last_checkpoint_) >= every);
@@ -144,6 +151,10 @@ double Runner::next_stop() const {
 bool Runner::has_ended() const { return now().is_last() || requests_.stop(); }
 
 Outcome Runner::outcome() const {
+  if (requests_.condition > 0) {
+    const auto entry = static_cast<std::size_t>(requests_.condition - 1);
+    return {Outcome::Kind::done, 0, "ended because " + simulation_.setup().stops.at(entry).in_words()};
+  }
   if (now().is_last()) return {};
   if (requests_.signal != 0) {
     return {Outcome::Kind::stopped, 128 + requests_.signal,

@@ -22,7 +22,8 @@ class Runner {
   /// Calls the observers in the state of a checkpoint.
   void resume(const io::CheckpointValues& values);
 
-  /// Advances to the end of the schedule, or until a control requests the end.
+  /// Advances to the end of the schedule, until a condition of the case holds, or until a control requests
+  /// the end.
   /// @returns 0; 128 + number of the signal that stopped the run; 124 at the limit of wall time
   /// @throws StateError    if the physics left its range
   /// @throws ResourceError if disk or memory is insufficient

@@ -29,7 +29,8 @@ void write_status(const std::filesystem::path& file, const RunStatus& status) {
                      {"time_left", status.time_left ? Json(*status.time_left) : Json(nullptr)},
                      {"revision", status.revision},
                      {"message", status.message},
-                     {"written", status.written}};
+                     {"written", status.written},
+                     {"ended_by", status.ended_by}};
   // Messages may quote files of any encoding.
   io::write_text_atomically(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
@@ -52,6 +53,7 @@ RunStatus read_status(const std::filesystem::path& run) {
     json.at("revision").get_to(status.revision);
     json.at("message").get_to(status.message);
     json.at("written").get_to(status.written);
+    status.ended_by = json.value("ended_by", "");  // runs of earlier versions have none
   } catch (const Json::exception& error) {
     throw InputError(fmt::format("{}: is no status of a run: {}", file.string(), error.what()));
   }
@@ -72,7 +74,8 @@ nlohmann::json status_json(const RunStatus& status) {
           {"time_left", status.time_left ? number(*status.time_left) : json(nullptr)},
           {"revision", status.revision},
           {"message", status.message},
-          {"written", status.written}};
+          {"written", status.written},
+          {"ended_by", status.ended_by}};
 }
 
 std::vector<std::filesystem::path> find_runs(const std::filesystem::path& folder) {

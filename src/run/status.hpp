@@ -38,6 +38,7 @@ struct RunStatus {
   std::string revision;             ///< of the program
   std::string message;              ///< the last message to the user
   std::string written;              ///< local date and time
+  std::string ended_by;             ///< condition of the case that ended it, in words; empty: none
 };
 
 /// Replaces the whole file.

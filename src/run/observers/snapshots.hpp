@@ -53,6 +53,12 @@ class Snapshots : public RunObserver {
   void remember(io::CheckpointValues& values) override;
   void end(const Moment& moment, Outcome& outcome) override;
 
+  /// Returns the step of the last snapshot of this process, -1 before it, and waits until its files are complete.
+  std::int64_t complete_last() {
+    writer_.wait();
+    return last_step_;
+  }
+
  private:
   void write(const Moment& moment);
 

@@ -49,20 +49,24 @@ void StatusFile::end(const Moment& moment, Outcome& outcome) {
 void StatusFile::write(const Moment& moment, Activity state, const std::string& message) {
   if (!ranks_.is_root()) return;
   const double done = moment.time() - first_time_, left = moment.schedule.end - moment.time();
+  const cases::Case& setup = moment.simulation.setup();
+  const int condition = moment.requests.condition;
   written_ = state;
   written_at_ = Clock::now();
   try {
-    write_status(file_,
-                 {.state = state,
-                  .time = moment.time(),
-                  .step = moment.step(),
-                  .time_step = moment.simulation.state().time_step,
-                  .end = moment.schedule.end,
-                  .wall_time = moment.wall_time,
-                  .time_left = done > 0.0 ? std::optional(moment.wall_time * left / done) : std::nullopt,
-                  .revision = program_,
-                  .message = message,
-                  .written = fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::time(nullptr)))});
+    write_status(
+        file_,
+        {.state = state,
+         .time = moment.time(),
+         .step = moment.step(),
+         .time_step = moment.simulation.state().time_step,
+         .end = moment.schedule.end,
+         .wall_time = moment.wall_time,
+         .time_left = done > 0.0 ? std::optional(moment.wall_time * left / done) : std::nullopt,
+         .revision = program_,
+         .message = message,
+         .written = fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::time(nullptr))),
+         .ended_by = condition > 0 ? setup.stops[static_cast<std::size_t>(condition - 1)].in_words() : ""});
   } catch (const InputError& error) {  // the results are not affected, and the other ranks are not informed
     log::warning("{}", error.what());
   }

@@ -101,6 +101,7 @@ void Summary::end(const Moment& moment, Outcome& outcome) {
       log::info("{} at step {}, t = {:.6g} s; resume with: whipple run --restart {}", outcome.message,
                 moment.step(), moment.time(), directory_.path().string());
     }
+    if (outcome.kind == Outcome::Kind::done && !outcome.message.empty()) log::info("{}", outcome.message);
     tell(moment, expanded);
   });
 }

@@ -53,6 +53,7 @@ struct Point {
   const Vector3 &position, &velocity;  ///< m, m/s
   double sound_speed;                  ///< m/s; for nodes that of the reference state
   bool is_stressed;                    ///< pressure above a millionth of rho c^2; nodes have none
+  double mass;                         ///< kg; of a node on several ranks the contribution of this one
 };
 
 /// Describes a particle, or one of the eight particles that an element may become, as sampled by gauges.

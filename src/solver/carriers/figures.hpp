@@ -66,7 +66,7 @@ template <class Visit>
 void visit_nodes(const fem::Nodes& nodes, std::size_t body, const State& state, const Visit& visit) {
   const double sound_speed = state.setup.materials[body]->reference.sound_speed;
   for (std::size_t a = 0; a < nodes.size(); ++a) {
-    visit({body, nodes.position[a], nodes.velocity[a], sound_speed, false});
+    visit({body, nodes.position[a], nodes.velocity[a], sound_speed, false, nodes.mass[a]});
   }
 }
 

@@ -129,7 +129,7 @@ void ParticleCarrier::for_each_point(const std::function<void(const Point& point
   for (std::size_t p = 0; p < q.size(); ++p) {
     const double c = q.sound_speed[p];
     const bool is_stressed = std::abs(q.pressure[p]) * q.volume[p] > 1e-6 * q.mass[p] * c * c;
-    visit({q.body[p], q.position[p], q.velocity[p], c, is_stressed});
+    visit({q.body[p], q.position[p], q.velocity[p], c, is_stressed, q.mass[p]});
   }
 }
 

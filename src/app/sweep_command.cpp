@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/app/sweep_command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/core/base/error.hpp"
+#include "src/core/base/file_lock.hpp"
+#include "src/core/base/files.hpp"
+#include "src/core/base/log.hpp"
+#include "src/core/base/text.hpp"
+#include "src/core/process/paths.hpp"
+#include "src/sweep/report.hpp"
+
+namespace whipple::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* lock_name = ".lock";
+
+struct SweepArguments {
+  std::string study, output;
+  std::string slurm;
+  int point = -1;
+  bool dry_run = false, retry = false, json = false, no_figures = false;
+};
+
+fs::path folder_of(const SweepArguments& arguments) {
+  return arguments.output.empty() ? fs::path("run") / fs::path(arguments.study).stem()
+                                  : fs::path(arguments.output);
+}
+
+/// Checks that a folder is new, or that of this study, and notes whose it is.
+/// @throws InputError if it is the folder of another study or holds other files
+void claim_folder(const fs::path& folder, const fs::path& study) {
+  const fs::path owner = folder / "study.txt";
+  const std::string text = fs::canonical(study).string() + "\n";
+  if (fs::exists(owner)) {
+    if (read_text(owner) == text) return;
+    throw InputError(fmt::format("{} is the folder of the study {}: give another one with -o",
+                                 folder.string(), read_text(owner)));
+  }
+  const bool is_empty = std::ranges::all_of(
+      fs::directory_iterator(folder),
+      [](const fs::directory_entry& entry) { return entry.path().filename() == lock_name; });
+  if (!is_empty)
+    throw InputError(
+        fmt::format("{} is not empty and no folder of a study: give another one with -o", folder.string()));
+  write_text_atomically(owner, text);
+}
+
+/// Writes the script of a job array: one task per point.
+void write_slurm(const SweepArguments& arguments, const sweep::Plan& plan, const fs::path& folder) {
+  if (plan.study.find)
+    throw InputError(
+        "--slurm: the points of [find] depend on each other: run whipple sweep in one job instead");
+  const fs::path file = folder / "array.sh";
+  const std::string text = fmt::format(
+      "#!/bin/sh\n#SBATCH --array=0-{}\n#SBATCH --cpus-per-task={}\n#SBATCH {}\n"
+      "exec '{}' sweep '{}' -o '{}' --point \"$SLURM_ARRAY_TASK_ID\"\n",
+      plan.points.size() - 1, plan.study.computing.threads, arguments.slurm,
+      process::own_executable().string(), fs::absolute(arguments.study).string(),
+      fs::absolute(folder).string());
+  write_text_atomically(file, text);
+  fmt::print("wrote {}: sbatch {}; then whipple sweep {} -o {} collects the table\n", file.string(),
+             file.string(), arguments.study, folder.string());
+}
+
+void print_plan(const sweep::Plan& plan, const sweep::Computer& computer) {
+  for (std::size_t i = 0; i < plan.points.size(); ++i) {
+    const sweep::Point& point = plan.points[i];
+    std::string values;
+    for (std::size_t v = 0; v < plan.variables.size(); ++v)
+      values += fmt::format(" {}={}", plan.variables[v].name, toml_string(point.texts[v]));
+    fmt::print("{} {} {}{}{}{}\n", i, point.name(), word_of(computer.record(point).state), values,
+               point.cell_size.empty() ? "" : " cell_size=" + point.cell_size,
+               point.offset == 0.0 ? "" : fmt::format(" offset={}", point.offset));
+  }
+  log::info("{} points, {} side by side, up to {} each", plan.points.size(), computer.jobs(),
+            format_bytes(plan.most_memory));
+}
+
+int run_study(const SweepArguments& arguments) {
+  process::Pool pool;  // before any thread
+  const sweep::Plan plan = sweep::make_plan(arguments.study);
+  const fs::path folder = folder_of(arguments);
+  sweep::Computer computer(plan, folder, pool, {.retry = arguments.retry});
+  if (arguments.dry_run) {
+    print_plan(plan, computer);
+    return 0;
+  }
+  require_no_file(folder);
+  make_folder(folder);
+  if (arguments.point >= 0) {  // a task of a job array: others compute other points in the same folder
+    if (arguments.point >= static_cast<int>(plan.points.size()))
+      throw InputError(fmt::format("--point {}: the study has the points 0 to {}", arguments.point,
+                                   plan.points.size() - 1));
+    const sweep::Point& point = plan.points[static_cast<std::size_t>(arguments.point)];
+    const bool complete = computer.compute({&point, 1});
+    return complete ? computer.record(point).exit_code : 128 + pool.stopped_by();
+  }
+  const FileLock lock(folder / lock_name, fmt::format("the folder of the study {}", folder.string()),
+                      FileLock::IfHeld::refuse);
+  claim_folder(folder, arguments.study);
+  if (!arguments.slurm.empty()) {
+    write_slurm(arguments, plan, folder);
+    return 0;
+  }
+  std::vector<sweep::Point> points = plan.points;
+  bool complete = computer.compute(points);
+  if (complete && plan.study.find) complete = sweep::search(plan, computer, points);
+  const sweep::Results results = sweep::collect(plan, computer, points);
+  sweep::write_tables(results, folder);
+  if (arguments.json) fmt::print("{}", sweep::as_json(results));
+  if (!complete) {
+    log::warning("ended by signal {}: the same command goes on", pool.stopped_by());
+    return 128 + pool.stopped_by();
+  }
+  if (!arguments.json) fmt::print("{}", sweep::summary(results));
+  log::info("wrote {}: {} points, {} of them computed now", (folder / "points.csv").string(), points.size(),
+            computer.computed());
+  if (!arguments.no_figures) {
+    try {
+      sweep::draw_figures(folder);
+    } catch (const InputError& error) {  // the tables are complete
+      log::warning("no figures: {}", error.what());
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_sweep_command(CLI::App& app) {
+  auto arguments = std::make_shared<SweepArguments>();
+  CLI::App* command =
+      app.add_subcommand("sweep", "Run a case many times with changed keys; one table of the results");
+  command->add_option("study", arguments->study, "The study (STUDY.toml)")->required();
+  command->add_option("-o,--output", arguments->output, "Folder of the study (default: run/NAME)");
+  command->add_flag("--dry-run", arguments->dry_run, "Check all points and list them, compute nothing");
+  command->add_flag("--retry", arguments->retry, "Compute failed points once more");
+  command->add_flag("--json", arguments->json, "The tables for programs, to standard output");
+  command->add_flag("--no-figures", arguments->no_figures, "Tables only");
+  command
+      ->add_option("--slurm", arguments->slurm,
+                   "Write the script of a Slurm job array with these options, e.g. '--time=1:00:00', and "
+                   "compute nothing")
+      ->type_name("OPTIONS");
+  command->add_option("--point", arguments->point, "Compute this point alone: a task of the job array")
+      ->type_name("NUMBER")
+      ->check(CLI::NonNegativeNumber);
+  command->footer(
+      "Example:\n  whipple sweep study.toml -o run/study\n"
+      "Interrupted, the same command goes on: finished points are found by the digest of their input.\n"
+      "whipple describe study lists the keys. Exit codes: 0 all points are finished (failed ones are "
+      "listed),\n"
+      "  2 wrong input, 128 + signal when stopped");
+  command->callback([arguments] {
+    const int code = run_study(*arguments);
+    if (code != 0) throw CLI::RuntimeError(code);
+  });
+}
+
+}  // namespace whipple::app

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mpi.h>
+
+#include <cstddef>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/case/case.hpp"
+#include "src/run/forecast.hpp"
+#include "src/run/run.hpp"
+
+namespace whipple::run {
+
+/// Holds what the run of a case would be, for `whipple check`.
+struct CaseCheck {
+  struct OfBody {
+    std::string parts;  ///< numbers of its particles, elements, bars
+    double mass = 0.0;  ///< kg, in the domain
+    double shape_mass = 0.0;
+    std::string at_faces;  ///< what it has to do with mirror planes and walls, lines
+  };
+  cases::Case setup;
+  std::vector<OfBody> bodies;
+  std::vector<std::string> warnings;
+  std::size_t particles = 0, blocks = 0;
+  double bytes = 0.0, expected_memory = 0.0;  ///< now; of all particles at most
+  std::string splitting;                      ///< lines
+  int threads = 1;
+  std::optional<Forecast> cost;
+};
+
+/// Examines the run of a case without making it: bodies, particles, memory. Collective.
+/// @param with_forecast  also steps and wall time, from a few measured steps
+/// @throws InputError if the case is invalid
+CaseCheck examine_case(const RunOptions& options, bool with_forecast, MPI_Comm communicator);
+
+/// Returns it as text for people, or for programs (SI).
+std::string check_text(const CaseCheck& found);
+nlohmann::json check_json(const CaseCheck& found);
+
+}  // namespace whipple::run

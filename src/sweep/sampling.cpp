@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/sweep/sampling.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <numeric>
+
+#include "src/core/base/random_bits.hpp"
+
+namespace whipple::sweep {
+namespace {
+
+/// Returns E(E(y | x)^2) from the means of y at equal x.
+double square_by_value(std::span<const double> x, std::span<const double> y) {
+  std::map<double, std::pair<double, double>> of_value;  // sum of y, and their number
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    of_value[x[i]].first += y[i];
+    of_value[x[i]].second += 1.0;
+  }
+  double sum = 0.0;
+  for (const auto& [value, group] : of_value) sum += group.first * group.first / group.second;
+  return sum / static_cast<double>(x.size());
+}
+
+/// Returns E(E(y | x)^2) from products of outputs that follow each other in the order of x.
+double square_by_rank(std::span<const double> x, std::span<const double> y) {
+  std::vector<std::size_t> order(x.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return x[a] < x[b]; });
+  double sum = 0.0;
+  for (std::size_t i = 0; i + 1 < order.size(); ++i) sum += y[order[i]] * y[order[i + 1]];
+  return sum / static_cast<double>(x.size() - 1);
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> random_samples(std::size_t count, std::size_t dimensions,
+                                                std::uint64_t seed) {
+  std::vector<std::vector<double>> points(count, std::vector<double>(dimensions));
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t d = 0; d < dimensions; ++d) points[i][d] = uniform(seed, i * dimensions + d);
+  }
+  return points;
+}
+
+std::vector<std::vector<double>> latin_hypercube(std::size_t count, std::size_t dimensions,
+                                                 std::uint64_t seed) {
+  std::vector<std::vector<double>> points = random_samples(count, dimensions, seed);
+  for (std::size_t d = 0; d < dimensions; ++d) {
+    std::vector<std::size_t> stratum(count);
+    std::iota(stratum.begin(), stratum.end(), std::size_t{0});
+    const std::uint64_t seed_of_order = random_bits(seed + 1, d);
+    for (std::size_t i = count; i > 1; --i)
+      std::swap(stratum[i - 1], stratum[random_bits(seed_of_order, i) % i]);
+    for (std::size_t i = 0; i < count; ++i)
+      points[i][d] = (static_cast<double>(stratum[i]) + points[i][d]) / static_cast<double>(count);
+  }
+  return points;
+}
+
+double first_order_index(std::span<const double> x, std::span<const double> y, Design design) {
+  const auto n = static_cast<double>(x.size());
+  if (x.size() < 3) return std::numeric_limits<double>::quiet_NaN();
+  const double mean = std::accumulate(y.begin(), y.end(), 0.0) / n;
+  std::vector<double> centred(y.begin(), y.end());  // of mean 0: E(E(y | x)^2) is then the variance sought
+  for (double& value : centred) value -= mean;
+  const double variance = std::inner_product(centred.begin(), centred.end(), centred.begin(), 0.0) / n;
+  if (!(variance > 0.0)) return std::numeric_limits<double>::quiet_NaN();
+  return (design == Design::listed ? square_by_value(x, centred) : square_by_rank(x, centred)) / variance;
+}
+
+}  // namespace whipple::sweep
