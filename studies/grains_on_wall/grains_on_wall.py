@@ -309,7 +309,8 @@ def cell_case(load, size, wall, cell):
 def unit_cell(arguments, folder):
     load = Load(*arguments.load)
     print("| sphere, mm | wall, mm | cells, mm | rest, %, m/s | behind it, %, m/s | wall |\n" + 6 * "| --- " + "|")
-    for size, wall, wanted in itertools.product(map(float, arguments.sizes or [0.5, 1.0]), arguments.walls or [1.80, 4.06], arguments.cells or [0.2, 0.1, 0.05]):
+    sizes, walls, cells = arguments.sizes or [0.5, 1.0], arguments.walls or [1.80, 4.06], arguments.cells or [0.2, 0.1, 0.05]
+    for size, wall, wanted in itertools.product(map(float, sizes), walls, cells):
         text, cell = cell_case(load, size, wall, wanted)
         run = folder / f"cell_{size:g}_{wall:g}_{wanted:g}_{load.mass:g}"
         if done(arguments, run, folder / f"{run.name}.toml", text):
