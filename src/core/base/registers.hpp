@@ -135,6 +135,8 @@ using WideLanes [[gnu::vector_size(64)]] = double;
 WHIPPLE_WIDE inline __mmask8 first_bits(std::size_t count) {
   return static_cast<__mmask8>((1U << count) - 1U);
 }
+/// (A list of eight numbers in a template would become eight masked broadcasts: it is expanded before the target is known.)
+WHIPPLE_WIDE inline WideLanes broadcast_wide(double x) { return WideLanes(_mm512_set1_pd(x)); }
 WHIPPLE_WIDE inline WideLanes multiply_add(WideLanes a, WideLanes b, WideLanes c) {
   return WideLanes(_mm512_fmadd_pd(__m512d(a), __m512d(b), __m512d(c)));
 }
@@ -213,7 +215,7 @@ template <class Register>
 WHIPPLE_INLINE inline Register broadcast(double x) {
   if constexpr (width<Register> == 1) return x;
   if constexpr (width<Register> == 4) return Register{x, x, x, x};
-  if constexpr (width<Register> == 8) return Register{x, x, x, x, x, x, x, x};
+  if constexpr (width<Register> == 8) return broadcast_wide(x);
 }
 /// Loads the first `count` numbers, at least one; the other lanes are zero.
 template <class Register>
