@@ -29,14 +29,19 @@ ImpedanceMatch match_impact(const Hugoniot& impactor, const Hugoniot& target, do
     // Search outwards from the half, in steps that stop at the first change of sign.
     const double direction = at_half > 0 ? -1 : 1;
     constexpr int steps = 16;
+    bool found = false;
     double before = half;
-    for (int i = 1; i <= steps; ++i) {
+    for (int i = 1; i <= steps && !found; ++i) {
       const double next = half + direction * half * i / steps;
-      if ((residual(next) > 0) != (at_half > 0)) {
-        u = find_root(residual, before, next, "velocity of the interface");
-        break;
-      }
+      found = (residual(next) > 0) != (at_half > 0);
+      if (found) u = find_root(residual, before, next, "velocity of the interface");
       before = next;
+    }
+    if (!found) {
+      throw StateError(fmt::format(
+          "impact with {:.6g} m/s: no shock of both materials has equal pressures; their pressures "
+          "before it are {:.6g} and {:.6g} Pa",
+          velocity, impactor.initial().pressure, target.initial().pressure));
     }
   }
   const ShockState right = target.at_particle_velocity(u), left = impactor.at_particle_velocity(velocity - u);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <span>
 
 #include "eos/table/strip.hpp"
 #include "src/core/base/error.hpp"
@@ -56,16 +57,13 @@ class Scan {
   const table::Sampler& sampler_;
 };
 
-}  // namespace
+/// Range of densities, as logarithms.
+struct Extent {
+  double begin, end;
+};
 
-ForEach serial() {
-  return [](std::size_t n, const std::function<void(std::size_t)>& body) {
-    for (std::size_t i = 0; i < n; ++i) body(i);
-  };
-}
-
-TableData tabulate(const EquationOfState& eos, const TableRequest& request, const ForEach& for_each,
-                   const Report& report) {
+/// @throws InputError if a table cannot represent the model, or the request contradicts it
+Extent require_feasible(const EquationOfState& eos, const TableRequest& request) {
   const State reference = eos.state(eos.reference_density(), eos.reference_energy());
   if (!std::isfinite(reference.specific_entropy) || !std::isfinite(reference.temperature)) {
     throw InputError(fmt::format("table: model {} carries no {}; a table needs a complete equation of state",
@@ -77,18 +75,8 @@ TableData tabulate(const EquationOfState& eos, const TableRequest& request, cons
         "table: the state of porous material depends on its history, which a table of density and energy "
         "cannot represent");
   }
-  TableData data;
-  data.condensed = eos.condensed() ? 1.0 : 0.0;
-  data.reference_density = eos.reference_density();
-  data.reference_temperature = eos.reference_temperature();
-  data.reference_energy = eos.reference_energy();
-  data.requested_error = request.error;
-  data.origin = std::string(eos.model());
-  data.constants = eos.constants();
-  data.least_temperature = request.least_temperature;
-  data.greatest_temperature = request.greatest_temperature;
   const double thinnest =
-      request.minimum_density > 0 ? request.minimum_density : default_thinness * data.reference_density;
+      request.minimum_density > 0 ? request.minimum_density : default_thinness * eos.reference_density();
   const double densest =
       request.maximum_density > 0 ? request.maximum_density : default_density_share * eos.maximum_density();
   if (!(request.error > 1e-9 && request.error < 0.1))
@@ -104,28 +92,48 @@ TableData tabulate(const EquationOfState& eos, const TableRequest& request, cons
                                  request.least_temperature, request.greatest_temperature,
                                  eos.least_temperature()));
   }
+  return {std::log(thinnest), std::log(densest)};
+}
+
+/// Returns a table without strips: what it tells of the model and the request.
+/// @throws InputError if the coldest state has no heat capacity
+TableData described(const EquationOfState& eos, const TableRequest& request) {
+  TableData data;
+  data.condensed = eos.condensed() ? 1.0 : 0.0;
+  data.reference_density = eos.reference_density();
+  data.reference_temperature = eos.reference_temperature();
+  data.reference_energy = eos.reference_energy();
+  data.requested_error = request.error;
+  data.origin = std::string(eos.model());
+  data.constants = eos.constants();
+  data.least_temperature = request.least_temperature;
+  data.greatest_temperature = request.greatest_temperature;
   const State coldest = eos.state_at_temperature(eos.reference_density(), request.least_temperature);
   data.thermal_energy = coldest.heat_capacity * request.least_temperature;
   if (!(data.thermal_energy > 0))
     throw InputError("table: the heat capacity of the coldest state is not positive");
+  return data;
+}
 
-  const table::Sampler sampler(eos, data.thermal_energy, request, scan_energy);
-  const double begin = std::log(thinnest), end = std::log(densest);
+/// Divides the range of densities where the order of the phases along isochores changes, and at the kinks of the model.
+/// @param least_sound_speed  lowered to the least of the isochores
+std::vector<Segment> segments_of(const EquationOfState& eos, const table::Sampler& sampler,
+                                 const Extent& extent, const ForEach& for_each, double& least_sound_speed) {
   std::vector<table::Isochore> isochores(scan_density + 1);
   const auto x_of = [&](std::size_t i) {
-    return std::min(end, begin + (end - begin) * static_cast<double>(i) / scan_density);
+    return std::min(extent.end,
+                    extent.begin + (extent.end - extent.begin) * static_cast<double>(i) / scan_density);
   };
   for_each(isochores.size(), [&](std::size_t i) { isochores[i] = sampler.isochore(x_of(i)); });
-  data.least_sound_speed = reference.sound_speed;
   for (const table::Isochore& isochore : isochores)
-    data.least_sound_speed = std::min(data.least_sound_speed, isochore.least_sound_speed);
+    least_sound_speed = std::min(least_sound_speed, isochore.least_sound_speed);
 
-  std::vector<Segment> segments = {{begin, begin}};
+  std::vector<Segment> segments = {{extent.begin, extent.begin}};
   const Scan scan(sampler);
   for (std::size_t i = 0; i < scan_density; ++i) {
     scan.split(x_of(i), isochores[i].phases, x_of(i + 1), isochores[i + 1].phases, segments);
   }
-  segments.back().last = end;
+  segments.back().last = extent.end;
   for (const double density : eos.kinks()) {
     const double x = std::log(density);
     const auto at =
@@ -135,8 +143,11 @@ TableData tabulate(const EquationOfState& eos, const TableRequest& request, cons
     at->last = x;
     segments.insert(at + 1, rest);
   }
+  return segments;
+}
 
-  // Halve the strips until each reaches the required error.
+/// Returns the strips to begin with, one for each segment.
+std::vector<table::StripTask> tasks_of(std::span<const Segment> segments, double begin) {
   std::vector<table::StripTask> tasks;
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const Segment& s = segments[i];
@@ -144,31 +155,45 @@ TableData tabulate(const EquationOfState& eos, const TableRequest& request, cons
     const double from = i == 0 ? begin : segments[i - 1].last;
     tasks.push_back({.begin = from, .end = s.last, .first_sample = s.first, .last_sample = s.last});
   }
+  return tasks;
+}
+
+/// Adds what is left of a strip that misses the required error: the strip with one cut more, or its halves.
+void add_rest(table::StripTask task, const table::FittedStrip& result, std::vector<table::StripTask>& next) {
+  if (result.cut) {
+    task.cuts.push_back(*result.cut);
+    next.push_back(std::move(task));
+    return;
+  }
+  const double middle = 0.5 * (task.begin + task.end);
+  task.miss_of_whole = result.miss;
+  table::StripTask lower = task, upper = std::move(task);
+  lower.end = lower.last_sample = upper.begin = upper.first_sample = middle;
+  next.push_back(std::move(lower));
+  next.push_back(std::move(upper));
+}
+
+/// Divides strips until each reaches the required error. Returns them in the order of the density.
+std::vector<table::FittedStrip> fit(const table::Sampler& sampler, std::vector<table::StripTask> tasks,
+                                    const TableData& data, const Extent& extent, const ForEach& for_each,
+                                    const Report& report) {
   std::vector<table::FittedStrip> fitted;
   double done = 0;
   std::mutex lock;
   while (!tasks.empty()) {
     std::vector<table::FittedStrip> results(tasks.size());
     for_each(tasks.size(), [&](std::size_t i) {
-      results[i] = table::fit_strip(sampler, tasks[i], data, request.error);
+      results[i] = table::fit_strip(sampler, tasks[i], data, data.requested_error);
       const std::scoped_lock guard(lock);
-      if (results[i].converged) done += (tasks[i].end - tasks[i].begin) / (end - begin);
+      if (results[i].converged) done += (tasks[i].end - tasks[i].begin) / (extent.end - extent.begin);
       if (report) report(done);
     });
     std::vector<table::StripTask> next;
     for (std::size_t i = 0; i < tasks.size(); ++i) {
       if (results[i].converged) {
         fitted.push_back(std::move(results[i]));
-      } else if (results[i].cut) {
-        next.push_back(tasks[i]);
-        next.back().cuts.push_back(*results[i].cut);
       } else {
-        const double middle = 0.5 * (tasks[i].begin + tasks[i].end);
-        tasks[i].miss_of_whole = results[i].miss;
-        table::StripTask lower = tasks[i], upper = tasks[i];
-        lower.end = lower.last_sample = upper.begin = upper.first_sample = middle;
-        next.push_back(lower);
-        next.push_back(upper);
+        add_rest(std::move(tasks[i]), results[i], next);
       }
     }
     tasks = std::move(next);
@@ -177,8 +202,12 @@ TableData tabulate(const EquationOfState& eos, const TableRequest& request, cons
     }
   }
   std::ranges::sort(fitted, {}, [](const table::FittedStrip& f) { return f.strip.begin; });
-  for (table::FittedStrip& f : fitted) table::append(data, f);
-  // Only the entropy was sampled: it must be consistent with the pressure, as far as the model is.
+  return fitted;
+}
+
+/// Only the entropy was sampled: it must be consistent with the pressure, as far as the model is.
+/// @throws InputError if it is not
+void require_consistent(const TableData& data, const EquationOfState& eos) {
   for (const auto& [phase, found] : verify(Table(data), eos, consistency_states)) {
     if (found.pressure > greatest_contradiction) {
       throw InputError(
@@ -187,6 +216,27 @@ TableData tabulate(const EquationOfState& eos, const TableRequest& request, cons
                       eos.model(), phase, found.pressure));
     }
   }
+}
+
+}  // namespace
+
+ForEach serial() {
+  return [](std::size_t n, const std::function<void(std::size_t)>& body) {
+    for (std::size_t i = 0; i < n; ++i) body(i);
+  };
+}
+
+TableData tabulate(const EquationOfState& eos, const TableRequest& request, const ForEach& for_each,
+                   const Report& report) {
+  const Extent extent = require_feasible(eos, request);
+  TableData data = described(eos, request);
+  const table::Sampler sampler(eos, data.thermal_energy, request, scan_energy);
+  data.least_sound_speed = eos.state(eos.reference_density(), eos.reference_energy()).sound_speed;
+  const std::vector<Segment> segments = segments_of(eos, sampler, extent, for_each, data.least_sound_speed);
+  const std::vector<table::FittedStrip> fitted =
+      fit(sampler, tasks_of(segments, extent.begin), data, extent, for_each, report);
+  for (const table::FittedStrip& f : fitted) table::append(data, f);
+  require_consistent(data, eos);
   return data;
 }
 

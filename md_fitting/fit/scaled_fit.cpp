@@ -112,9 +112,17 @@ WindowFits fit_windows(const Observations& data, const SolidModel& model, const 
   const bool averaged = settings.windows == WindowChoice::averaged;
   WindowFits windows;
   std::vector<std::pair<double, double>> taken;  // first and last particle velocity
+  std::string too_few;                           // of the first window without enough states
   const auto add = [&](const FitSettings& window) {
     const std::vector<HugoniotState> states = SolidProblem(data, window, model, start).window();
-    if (states.size() < least_states_of_window) return;
+    if (states.size() < least_states_of_window) {
+      if (too_few.empty()) {
+        too_few = fmt::format("{} states of particle velocities from {:.6g} to {:.6g} m/s, {} are needed",
+                              states.size(), window.least_particle_velocity, window.most_particle_velocity,
+                              least_states_of_window);
+      }
+      return;
+    }
     const std::pair ends(states.front().particle_velocity, states.back().particle_velocity);
     if (std::ranges::find(taken, ends) != taken.end()) return;
     taken.push_back(ends);
@@ -127,8 +135,9 @@ WindowFits fit_windows(const Observations& data, const SolidModel& model, const 
       windows.left_out.push_back({least, most, count, error.what()});
     }
   };
+  const auto fault = [&] { return windows.left_out.empty() ? too_few : windows.left_out.front().reason; };
   add(settings);
-  if (!averaged && windows.settled.empty()) throw StateError(windows.left_out.front().reason);
+  if (!averaged && windows.settled.empty()) throw StateError(fault());
   for (const auto& [least, most] : others) {
     FitSettings window = settings;
     window.least_particle_velocity = least;
@@ -137,7 +146,7 @@ WindowFits fit_windows(const Observations& data, const SolidModel& model, const 
   }
   if (windows.settled.empty()) {
     throw StateError(fmt::format("the fit settles in none of {} windows of particle velocities: {}",
-                                 windows.left_out.size(), windows.left_out.front().reason));
+                                 windows.left_out.size(), fault()));
   }
   for (WindowFit& window : windows.settled)
     window.weight = averaged ? 1.0 / static_cast<double>(windows.settled.size()) : 0.0;

@@ -271,6 +271,16 @@ void remark_on_grains(const Case& setup, std::vector<std::string>& remarks) {
   }
 }
 
+/// Remarks on a friction of cracks in a case whose bodies do not part at cracks.
+void remark_on_crack_friction(const Case& setup, std::vector<std::string>& remarks) {
+  const bool cracks = std::ranges::any_of(
+      setup.bodies, [](const Body& body) { return body.failure.cracks == CrackMotion::fields; });
+  if (cracks || setup.contact.crack_friction == ContactControl{}.crack_friction) return;
+  remarks.emplace_back(
+      "contact.crack_friction has no effect: no body has failure.cracks = \"fields\", which parts it at "
+      "cracks");
+}
+
 void remark_on_meshes(const Case& setup, std::vector<std::string>& remarks) {
   for (const Body& body : setup.bodies) {
     if (body.discretization.mesh.empty()) continue;
@@ -302,6 +312,7 @@ std::vector<std::string> remarks(const Case& setup) {
   remark_on_detonators(setup, found);
   remark_on_symmetry(setup, found);
   remark_on_grains(setup, found);
+  remark_on_crack_friction(setup, found);
   remark_on_meshes(setup, found);
   return found;
 }

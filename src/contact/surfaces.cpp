@@ -173,11 +173,134 @@ Surfaces::Gap Surfaces::at(std::size_t contact_slot, std::size_t pair, std::size
   return widest;
 }
 
+/// The material that reaches the nodes.
+struct Surfaces::Sources {
+  const Particles& particles;
+  const SurfacePoints& elements;
+  const PlacedPoints placed;      ///< of the elements
+  const NodesThatMatter several;  ///< nodes that several bodies reach
+};
+
+template <class Shape>
+void Surfaces::fit_planes(const Sources& sources, grid::BlockGrid& grid) {
+  lay_out(plane_, grid, broadcast(0.0), one_per_pair);
+  const double per_cell = 1.0 / grid.geometry().cell_size;
+  for (int iteration = 0; iteration < regression::iterations; ++iteration) {
+    lay_out(equations_, grid, broadcast(0.0),
+            [](std::size_t bodies) { return regression::lanes_per_node * one_per_pair(bodies); });
+    const auto add = [&](const Place& place) {
+      // The normal at a node on a mirror plane lies in the plane: only the position along the plane is relevant.
+      const Vector3 cells = per_cell * place.distance.cwiseProduct(place.off_plane);
+      place.for_each_pair([&](std::size_t pair, bool first) {
+        const Lanes plane = plane_.values[place.in(plane_, pair)];
+        regression::add(&equations_.values[place.in(equations_, pair, regression::lanes_per_node)],
+                        {cells[0], cells[1], cells[2], 1.0}, first ? -1.0 : 1.0,
+                        {plane[0], plane[1], plane[2], plane[3]});
+      });
+    };
+    const auto at_point = [&](std::size_t) { return add; };
+    for_each_place<Shape>(sources.particles, grid, sources.several, at_point);
+    for_each_place<Shape>(sources.placed, grid, sources.several, at_point);
+    grid.sum_to_owners(equations_);
+    for_each_owned_node(grid, [&](std::size_t c, std::size_t bodies, std::size_t node) {
+      for_each_pair(bodies, [&](std::size_t, std::size_t, std::size_t pair) {
+        const std::size_t i = pair * nodes_per_block + node;
+        Lanes& plane = plane_.values[plane_.begin[c] + i];
+        const regression::Vector4 change =
+            regression::step(&equations_.values[equations_.begin[c] + regression::lanes_per_node * i],
+                             {plane[0], plane[1], plane[2], plane[3]});
+        plane += Lanes{change[0], change[1], change[2], change[3]};
+      });
+    });
+    grid.borrow_from_owners(plane_);
+  }
+  for (std::size_t i = 0; i < plane_.values.size(); ++i) {
+    const Vector3 normal = unit_or_zero(vector(plane_.values[i]));
+    set_normals(&normal_.values[lanes_of_normals * i], {&normal, 1});
+  }
+}
+
+template <class Shape>
+void Surfaces::sum_gradients(const Sources& sources, grid::BlockGrid& grid) {
+  for_each_place<Shape>(sources.particles, grid, sources.several, [&](std::size_t p) {
+    const double volume = sources.particles.volume[p] + sources.particles.void_volume[p];
+    const double size = grid.geometry().size_in_section(volume, sources.particles.position[p]);
+    return [&, size](const Place& place) {
+      gradient_.values[place.in(gradient_, place.body)] +=
+          lanes(size * place.gradient.cwiseProduct(place.off_plane), size * place.weight);
+    };
+  });
+  const double cell_size = grid.geometry().cell_size;
+  for_each_place<Shape>(sources.placed, grid, sources.several, [&](std::size_t p) {
+    return [&, p](const Place& place) {  // (3.6)
+      const Vector3 area = place.sign.cwiseProduct(sources.elements.area[p]).cwiseProduct(place.off_plane);
+      gradient_.values[place.in(gradient_, place.body)] +=
+          place.weight * lanes(area, sources.elements.size[p] * cell_size);
+    };
+  });
+  grid.sum_to_owners(gradient_);
+}
+
+void Surfaces::choose_normals(Normal kind, grid::BlockGrid& grid, double dt) {
+  const double cell_size = grid.geometry().cell_size;
+  const bool knows_motion = dt > 0.0 && !grid.is_shared();
+  for_each_owned_node(grid, [&](std::size_t c, std::size_t bodies, std::size_t node) {
+    const bool may_part = knows_motion && !near_planes(grid, grid.contact_slots()[c]);
+    const auto at_node = [&](std::size_t body) {
+      return gradient_.values[gradient_.begin[c] + body * nodes_per_block + node];
+    };
+    const auto reached = [&](std::size_t body) { return at_node(body)[3] > 0.0; };
+    // The nodal volume increases as particles approach the node
+    const auto outward = [&](std::size_t body) {
+      const Lanes of_body = at_node(body);
+      const Vector3 gradient = vector(of_body);
+      const bool inside = gradient.norm() * cell_size < least_slope * of_body[3];
+      return inside ? Vector3::Zero().eval() : unit_or_zero(gradient);
+    };
+    for_each_pair(bodies, [&](std::size_t a, std::size_t b, std::size_t pair) {
+      if (!reached(a) || !reached(b)) return;
+      const Vector3 of_a = outward(a), of_b = -outward(b);
+      // On smooth faces all three are equal.
+      const bool one = kind == Normal::collinear || of_a.dot(of_b) > one_direction;
+      const std::array<Vector3, 3> normals = {unit_or_zero(of_a + of_b), of_a, of_b};
+      const std::span tried(normals.data(), one ? 1 : normals.size());
+      if (may_part && parts(grid, grid.contact_slots()[c], node, a, b, tried, dt)) return;
+      set_normals(&normal_.values[normal_.begin[c] + lanes_of_normals * (pair * nodes_per_block + node)],
+                  tried);
+    });
+  });
+  grid.borrow_from_owners(normal_);
+}
+
+template <class Shape>
+void Surfaces::find_extents(const Sources& sources, grid::BlockGrid& grid) {
+  const NodesThatMatter normals = nodes_with_normals(grid, normal_);
+  // Most points are behind the outermost one by more than their thickness.
+  const auto extend = [&](const Place& place, double thickest, auto&& half_thickness_along) {
+    place.for_each_pair([&](std::size_t pair, bool first) {
+      const Lanes* normal = &normal_.values[place.in(normal_, pair, lanes_of_normals)];
+      const Normals n{normal[0], normal[1], normal[2]};
+      const Vector3 outward = first ? place.distance : Vector3(-place.distance);
+      const Lanes along = outward[0] * n.x + outward[1] * n.y + outward[2] * n.z;
+      Lanes& largest = extent_.values[place.in(extent_, pair, lanes_of_extents) + (first ? 0 : 1)];
+      if (!any(along + thickest > largest)) return;
+      const Vector3& s = place.sign;
+      largest = maximum(largest, along + half_thickness_along({s[0] * n.x, s[1] * n.y, s[2] * n.z}));
+    });
+  };
+  for_each_place<Shape>(sources.particles, grid, normals, [&](std::size_t p) {
+    return [&, half = HalfThickness(grid.geometry(), sources.particles, p)](const Place& place) {
+      extend(place, half.largest(), [&](const Normals& n) { return half.along(n); });
+    };
+  });
+  for_each_place<Shape>(sources.placed, grid, normals, [&](std::size_t) {
+    return [&](const Place& place) { extend(place, 0.0, [](const Normals&) { return Lanes{}; }); };
+  });
+}
+
 void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles& particles,
                     const SurfacePoints& elements, grid::BlockGrid& grid, double dt) {
-  const PlacedPoints placed(elements, grid);
-  const bool after_transfer = dt > 0.0;
-  const NodesThatMatter several = nodes_of_several(grid, after_transfer);
+  const Sources sources{particles, elements, PlacedPoints(elements, grid), nodes_of_several(grid, dt > 0.0)};
   lay_out(gradient_, grid, broadcast(0.0), one_per_body);
   lay_out(normal_, grid, broadcast(0.0),
           [](std::size_t bodies) { return lanes_of_normals * one_per_pair(bodies); });
@@ -185,109 +308,12 @@ void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles&
           [](std::size_t bodies) { return lanes_of_extents * one_per_pair(bodies); });
   transfer::with_shape(shape, [&]<class Shape>(Shape) {
     if (kind == Normal::logistic_regression) {
-      lay_out(plane_, grid, broadcast(0.0), one_per_pair);
-      const double per_cell = 1.0 / grid.geometry().cell_size;
-      for (int iteration = 0; iteration < regression::iterations; ++iteration) {
-        lay_out(equations_, grid, broadcast(0.0),
-                [](std::size_t bodies) { return regression::lanes_per_node * one_per_pair(bodies); });
-        const auto add = [&](const Place& place) {
-          // The normal at a node on a mirror plane lies in the plane: only the position along the plane is relevant.
-          const Vector3 cells = per_cell * place.distance.cwiseProduct(place.off_plane);
-          place.for_each_pair([&](std::size_t pair, bool first) {
-            const Lanes plane = plane_.values[place.in(plane_, pair)];
-            regression::add(&equations_.values[place.in(equations_, pair, regression::lanes_per_node)],
-                            {cells[0], cells[1], cells[2], 1.0}, first ? -1.0 : 1.0,
-                            {plane[0], plane[1], plane[2], plane[3]});
-          });
-        };
-        const auto at_point = [&](std::size_t) { return add; };
-        for_each_place<Shape>(particles, grid, several, at_point);
-        for_each_place<Shape>(placed, grid, several, at_point);
-        grid.sum_to_owners(equations_);
-        for_each_owned_node(grid, [&](std::size_t c, std::size_t bodies, std::size_t node) {
-          for_each_pair(bodies, [&](std::size_t, std::size_t, std::size_t pair) {
-            const std::size_t i = pair * nodes_per_block + node;
-            Lanes& plane = plane_.values[plane_.begin[c] + i];
-            const regression::Vector4 change =
-                regression::step(&equations_.values[equations_.begin[c] + regression::lanes_per_node * i],
-                                 {plane[0], plane[1], plane[2], plane[3]});
-            plane += Lanes{change[0], change[1], change[2], change[3]};
-          });
-        });
-        grid.borrow_from_owners(plane_);
-      }
-      for (std::size_t i = 0; i < plane_.values.size(); ++i) {
-        const Vector3 normal = unit_or_zero(vector(plane_.values[i]));
-        set_normals(&normal_.values[lanes_of_normals * i], {&normal, 1});
-      }
+      fit_planes<Shape>(sources, grid);
     } else {
-      for_each_place<Shape>(particles, grid, several, [&](std::size_t p) {
-        const double volume = particles.volume[p] + particles.void_volume[p];
-        const double size = grid.geometry().size_in_section(volume, particles.position[p]);
-        return [&, size](const Place& place) {
-          gradient_.values[place.in(gradient_, place.body)] +=
-              lanes(size * place.gradient.cwiseProduct(place.off_plane), size * place.weight);
-        };
-      });
-      const double cell_size = grid.geometry().cell_size;
-      for_each_place<Shape>(placed, grid, several, [&](std::size_t p) {
-        return [&, p](const Place& place) {  // (3.6)
-          const Vector3 area = place.sign.cwiseProduct(elements.area[p]).cwiseProduct(place.off_plane);
-          gradient_.values[place.in(gradient_, place.body)] +=
-              place.weight * lanes(area, elements.size[p] * cell_size);
-        };
-      });
-      grid.sum_to_owners(gradient_);
-      const bool knows_motion = after_transfer && !grid.is_shared();
-      for_each_owned_node(grid, [&](std::size_t c, std::size_t bodies, std::size_t node) {
-        const bool may_part = knows_motion && !near_planes(grid, grid.contact_slots()[c]);
-        const auto at_node = [&](std::size_t body) {
-          return gradient_.values[gradient_.begin[c] + body * nodes_per_block + node];
-        };
-        const auto reached = [&](std::size_t body) { return at_node(body)[3] > 0.0; };
-        // The nodal volume increases as particles approach the node
-        const auto outward = [&](std::size_t body) {
-          const Lanes of_body = at_node(body);
-          const Vector3 gradient = vector(of_body);
-          const bool inside = gradient.norm() * cell_size < least_slope * of_body[3];
-          return inside ? Vector3::Zero().eval() : unit_or_zero(gradient);
-        };
-        for_each_pair(bodies, [&](std::size_t a, std::size_t b, std::size_t pair) {
-          if (!reached(a) || !reached(b)) return;
-          const Vector3 of_a = outward(a), of_b = -outward(b);
-          // On smooth faces all three are equal.
-          const bool one = kind == Normal::collinear || of_a.dot(of_b) > one_direction;
-          const std::array<Vector3, 3> normals = {unit_or_zero(of_a + of_b), of_a, of_b};
-          const std::span tried(normals.data(), one ? 1 : normals.size());
-          if (may_part && parts(grid, grid.contact_slots()[c], node, a, b, tried, dt)) return;
-          set_normals(&normal_.values[normal_.begin[c] + lanes_of_normals * (pair * nodes_per_block + node)],
-                      tried);
-        });
-      });
-      grid.borrow_from_owners(normal_);
+      sum_gradients<Shape>(sources, grid);
+      choose_normals(kind, grid, dt);
     }
-    const NodesThatMatter normals = nodes_with_normals(grid, normal_);
-    // Most points are behind the outermost one by more than their thickness.
-    const auto extend = [&](const Place& place, double thickest, auto&& half_thickness_along) {
-      place.for_each_pair([&](std::size_t pair, bool first) {
-        const Lanes* normal = &normal_.values[place.in(normal_, pair, lanes_of_normals)];
-        const Normals n{normal[0], normal[1], normal[2]};
-        const Vector3 outward = first ? place.distance : Vector3(-place.distance);
-        const Lanes along = outward[0] * n.x + outward[1] * n.y + outward[2] * n.z;
-        Lanes& largest = extent_.values[place.in(extent_, pair, lanes_of_extents) + (first ? 0 : 1)];
-        if (!any(along + thickest > largest)) return;
-        const Vector3& s = place.sign;
-        largest = maximum(largest, along + half_thickness_along({s[0] * n.x, s[1] * n.y, s[2] * n.z}));
-      });
-    };
-    for_each_place<Shape>(particles, grid, normals, [&](std::size_t p) {
-      return [&, half = HalfThickness(grid.geometry(), particles, p)](const Place& place) {
-        extend(place, half.largest(), [&](const Normals& n) { return half.along(n); });
-      };
-    });
-    for_each_place<Shape>(placed, grid, normals, [&](std::size_t) {
-      return [&](const Place& place) { extend(place, 0.0, [](const Normals&) { return Lanes{}; }); };
-    });
+    find_extents<Shape>(sources, grid);
   });
   grid.maximum_to_owners(extent_);
 }

@@ -49,6 +49,20 @@ class Surfaces {
   [[nodiscard]] Gap at(std::size_t contact_slot, std::size_t pair, std::size_t node) const;
 
  private:
+  struct Sources;
+
+  /// Determines the normals by planes that separate the particles of two bodies.
+  template <class Shape>
+  void fit_planes(const Sources& sources, grid::BlockGrid& grid);
+  /// Sums the volume gradients of the bodies (eq. 3.6).
+  template <class Shape>
+  void sum_gradients(const Sources& sources, grid::BlockGrid& grid);
+  /// Determines the normals of pairs of bodies by their volume gradients (eq. 3.5).
+  void choose_normals(Normal kind, grid::BlockGrid& grid, double dt);
+  /// Determines how far the bodies of a pair extend along its normals.
+  template <class Shape>
+  void find_extents(const Sources& sources, grid::BlockGrid& grid);
+
   // Of each body: gradient of its volume (x, y, z), m^2; sum of V N, m^3
   grid::ContactValues gradient_;
   grid::ContactValues normal_;  // of each pair: x, y, z of the candidate normals, one per lane

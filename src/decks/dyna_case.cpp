@@ -403,36 +403,38 @@ class CaseWriter {
     return given.empty() ? std::string() : "\n" + text.text();
   }
 
-  /// Returns the last velocity assigned to all nodes of a part; velocities of only some of the nodes are reported as
-  /// missing.
+  /// Returns the velocity of a part: of each node, the last one assigned counts. Nodes that differ from the part are
+  /// reported as missing.
   Vector3 velocity_of(Id id, const std::set<Id>& members, const std::vector<Start>& all_starts) {
     Vector3 velocity = Vector3::Zero();
-    std::map<std::array<double, 3>, std::set<Id>> one_by_one;
+    std::map<Id, Vector3> of_node;  // assigned to single nodes after `velocity`
     for (const Start& start : all_starts) {
       const bool all = start.nodes.empty() && start.parts.empty();
       const bool whole = all || start.parts.contains(id) ||
                          (!start.nodes.empty() && std::ranges::includes(start.nodes, members));
       if (whole) {
         velocity = start.velocity;
+        of_node.clear();
         if (velocities_.insert(start.block).second)
           remark(Outcome::exact, *start.block, "velocity of whole parts");
       } else {
-        auto& some = one_by_one[{start.velocity[0], start.velocity[1], start.velocity[2]}];
-        std::ranges::set_intersection(start.nodes, members, std::inserter(some, some.end()));
+        for (const Id node : start.nodes) {
+          if (members.contains(node)) of_node[node] = start.velocity;
+        }
       }
     }
-    for (const auto& [value, nodes] : one_by_one) {
-      if (nodes.empty()) continue;
-      if (nodes.size() == members.size()) {
+    std::map<std::array<double, 3>, std::size_t> nodes_with;
+    for (const auto& [node, v] : of_node) ++nodes_with[{v[0], v[1], v[2]}];
+    for (const auto& [value, nodes] : nodes_with) {
+      if (nodes == members.size()) {
         velocity = Vector3(value[0], value[1], value[2]);
         for (const Start& start : all_starts) {
           if (start.velocity == velocity && velocities_.insert(start.block).second)
             remark(Outcome::converted, *start.block, "velocity of whole parts, node by node");
         }
       } else {
-        import_.remark(
-            Outcome::missing, 0, "*INITIAL_VELOCITY",
-            fmt::format("velocities of {} of the {} nodes of part {}", nodes.size(), members.size(), id));
+        import_.remark(Outcome::missing, 0, "*INITIAL_VELOCITY",
+                       fmt::format("velocities of {} of the {} nodes of part {}", nodes, members.size(), id));
       }
     }
     return velocity;

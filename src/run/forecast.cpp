@@ -90,8 +90,10 @@ double moving_share(const solver::Simulation& s) {
     for (const Box& source : sources) way = std::min(way, here.gap_to(source).norm());
     if (is_active(point)) way = 0.0;
     way = std::max(0.0, way - layers_of_blocks * s.grid().block_shape().edge * setup.domain.cell_size);
-    sums[0] += std::max(0.0, 1.0 - way / (std::max(point.sound_speed, fastest) * setup.time.end));
-    sums[1] += 1.0;
+    // Each point stands for those that were skipped, on this rank.
+    const auto weight = static_cast<double>(every);
+    sums[0] += weight * std::max(0.0, 1.0 - way / (std::max(point.sound_speed, fastest) * setup.time.end));
+    sums[1] += weight;
   });
   parallel::sum(s.communicator(), sums);
   return sums[1] > 0.0 ? sums[0] / sums[1] : 1.0;

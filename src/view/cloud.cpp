@@ -203,15 +203,18 @@ void append_ids(const analysis::Snapshot& snapshot, const std::vector<std::size_
                                    {"increments", true}});
 }
 
-/// Returns the direction of the initial velocity of the fastest body relative to the slowest one; none if all move
-/// alike. Of two bodies that approach each other at equal speed the first is used.
+/// Returns the direction in which one body flies at another at the start: of the two with the largest relative velocity,
+/// that of the faster one, of equally fast ones that of the first; none if all bodies move alike.
 std::optional<Vector3> flight_of(const analysis::Run& run) {
-  if (run.bodies.empty()) return std::nullopt;
-  const auto speed = [](const analysis::BodyInput& body) { return body.velocity.norm(); };
-  const auto [slowest, fastest] = std::ranges::minmax_element(run.bodies, {}, speed);
-  Vector3 flight = fastest->velocity - slowest->velocity;
-  if (speed(*fastest) <= (1.0 + 1e-9) * speed(*slowest))
-    flight = run.bodies.front().velocity - run.bodies.back().velocity;
+  Vector3 flight = Vector3::Zero();
+  for (std::size_t a = 0; a < run.bodies.size(); ++a) {
+    for (std::size_t b = a + 1; b < run.bodies.size(); ++b) {
+      const Vector3 &of_a = run.bodies[a].velocity, &of_b = run.bodies[b].velocity;
+      const Vector3 relative = of_a - of_b;
+      if (!(relative.norm() > (1.0 + 1e-9) * flight.norm())) continue;
+      flight = of_b.norm() > (1.0 + 1e-9) * of_a.norm() ? Vector3(-relative) : relative;
+    }
+  }
   const double size = flight.norm();
   if (!(size > 0.0)) return std::nullopt;
   return Vector3(flight / size);

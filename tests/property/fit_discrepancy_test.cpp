@@ -73,20 +73,28 @@ Noise small_noise() {
   return noise;
 }
 
-/// Fit of the solid alone, which is all that these deviations concern.
-ScaledFit solid_fit(const std::vector<md::PointRecord>& points, const FitSettings& settings) {
-  Observations data = observe(points, settings, {}, "synthetic");
-  data.isochores.resize(2);  // enough for their constants
-  for (Isochore& isochore : data.isochores) isochore.states.resize(3);
+/// The solid alone, which is all that these deviations concern.
+struct SolidAlone {
+  Observations data;
   SolidModel model;
-  model.free = {Place::volume,    Place::intercept,       Place::slope,
-                Place::gruneisen, Place::gruneisen_slope, Place::anharmonic};
-  model.hugoniot = true;
-  SolidConstants start = fixed_solid(data);
-  const double heat_capacity = start.heat_capacity;
-  start = SolidConstants{true_constants()};
-  start.heat_capacity = heat_capacity;
-  return fit_scaled(data, model, settings, start);
+  SolidConstants start;
+
+  SolidAlone(const std::vector<md::PointRecord>& points, const FitSettings& settings)
+      : data(observe(points, settings, {}, "synthetic")) {
+    data.isochores.resize(2);  // enough for their constants
+    for (Isochore& isochore : data.isochores) isochore.states.resize(3);
+    model.free = {Place::volume,    Place::intercept,       Place::slope,
+                  Place::gruneisen, Place::gruneisen_slope, Place::anharmonic};
+    model.hugoniot = true;
+    const double heat_capacity = fixed_solid(data).heat_capacity;
+    start = SolidConstants{true_constants()};
+    start.heat_capacity = heat_capacity;
+  }
+};
+
+ScaledFit solid_fit(const std::vector<md::PointRecord>& points, const FitSettings& settings) {
+  const SolidAlone solid(points, settings);
+  return fit_scaled(solid.data, solid.model, settings, solid.start);
 }
 
 /// rms of (C - true C)/error and of S over realisations of the deviation.
@@ -177,6 +185,19 @@ TEST(FitDiscrepancy, ScaledErrorsMakeChiSquaredItsRedundancy) {
   ASSERT_GT(shocks.inflation, 2.0);
   // V0 is fixed by its own datum: C and S take two of the data.
   EXPECT_NEAR(shocks.chi_squared, shocks.data - 2.0, 0.05);
+}
+
+// A window of particle velocities that no shock has is not fitted, and the message says so.
+TEST(FitWindows, TheOnlyWindowNeedsStates) {
+  FitSettings settings = one_window(ErrorStructure::correlated, true);
+  const SolidAlone solid(SyntheticStore(true_constants(), small_noise(), 1).points, settings);
+  settings.least_particle_velocity = 9e4, settings.most_particle_velocity = 1e5;
+  try {
+    (void)fit_windows(solid.data, solid.model, settings, solid.start);
+    FAIL() << "fitted without states";
+  } catch (const StateError& error) {
+    EXPECT_NE(std::string(error.what()).find("0 states"), std::string::npos) << error.what();
+  }
 }
 
 // The mean over windows and its variance are those of a mixture of the windows' distributions.

@@ -31,6 +31,14 @@ TEST(Remarks, SayNothingOfAnImpactThatTouchesOrFliesFirst) {
   EXPECT_EQ(remarks_of(free_domain + sphere + plate("5 mm")), "");
 }
 
+TEST(Remarks, NameAFrictionOfCracksWhereNothingCracks) {
+  const std::string friction = "[contact]\ncrack_friction = 0.1\n";
+  EXPECT_NE(remarks_of(domain + friction + sphere + plate("-1 mm")).find("crack_friction has no effect"),
+            std::string::npos);
+  EXPECT_EQ(remarks_of(domain + friction + sphere + plate("-1 mm") + "failure = { cracks = \"fields\" }\n"),
+            "");
+}
+
 TEST(Remarks, NameAGapThatIsNarrowerThanACell) {
   const std::string said = remarks_of(domain + sphere + plate("-0.75 mm"));
   EXPECT_NE(said.find("'sphere' and 'plate' is a gap of 0.25 mm, less than a cell of 1 mm"),

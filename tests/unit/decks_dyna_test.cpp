@@ -262,6 +262,25 @@ TEST_F(DynaImport, OfAnIncludedFileIsRemarkedWithItsName) {
   EXPECT_THAT(report, HasSubstr("\n  line 42  *NODE"));
 }
 
+// Of two velocities of a node the last one counts, whether it was assigned to the node or to its part.
+TEST_F(DynaImport, TheLastVelocityOfANodeCounts) {
+  const auto node_by_node = [](const char* velocity) {
+    std::string cards = "*INITIAL_VELOCITY_NODE\n";
+    for (int node = 1; node <= 27; ++node) cards += fmt::format("{}, {}, 0, 0\n", node, velocity);
+    return cards;
+  };
+  const auto speed = [&](const std::string& before, const std::string& after) {
+    const std::string part = "*INITIAL_VELOCITY_GENERATION\n";
+    const std::string deck =
+        replaced(replaced(text_of("base.k"), part, before + part), "*NODE\n", after + "*NODE\n");
+    return read(import_cards(deck)).bodies[0].velocity[0];
+  };
+  EXPECT_DOUBLE_EQ(speed("", ""), 100.0);
+  EXPECT_DOUBLE_EQ(speed(node_by_node("70"), ""), 100.0);
+  EXPECT_DOUBLE_EQ(speed("", node_by_node("70")), 70.0);
+  EXPECT_DOUBLE_EQ(speed("", node_by_node("70") + node_by_node("60")), 60.0);
+}
+
 TEST(DynaFields, ThatNothingReadsAreMissingByName) {
   EXPECT_THAT(missing_of(import_file("jc_rateop.k")),
               HasSubstr("flyer: RATEOP = 3: another law of the strain rate than ln"));

@@ -86,6 +86,21 @@ struct Unpacked {
   }
 };
 
+// Equally fast bodies, two of which move alike, and a body that is slower than those that meet.
+TEST(Cloud, FliesAlongTheLargestRelativeVelocity) {
+  const auto flight = [](const std::vector<Vector3>& velocities) {
+    analysis::Run run;
+    for (const Vector3& velocity : velocities) run.bodies.push_back({.name = "body", .velocity = velocity});
+    return Unpacked(pack_cloud(run, cloud_of(3), {})).header.value("flight", std::vector<double>());
+  };
+  const Vector3 x = Vector3::UnitX();
+  EXPECT_EQ(flight({5e3 * x, Vector3::Zero()}), (std::vector<double>{1.0, 0.0, 0.0}));
+  EXPECT_EQ(flight({Vector3::Zero(), 5e3 * x}), (std::vector<double>{1.0, 0.0, 0.0}));
+  EXPECT_EQ(flight({5e3 * x, -5e3 * x, 5e3 * x}), (std::vector<double>{1.0, 0.0, 0.0}));
+  EXPECT_EQ(flight({-4e3 * x, 5e3 * x, 1e3 * Vector3::UnitY()}), (std::vector<double>{1.0, 0.0, 0.0}));
+  EXPECT_TRUE(flight({x, x, x}).empty());
+}
+
 TEST(PackedCloud, PositionsAndFieldsComeBackWithinHalfAStep) {
   const std::size_t n = 101;
   const analysis::Snapshot snapshot = cloud_of(n);

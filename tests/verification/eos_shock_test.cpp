@@ -117,6 +117,17 @@ TEST(EosImpedance, SymmetricImpactHalvesTheVelocityAndTwoMetalsFollowTheQuadrati
   }
 }
 
+// A target under pressure pushes a slow impactor back: no interface between rest and the velocity of the impactor has one
+// pressure on both sides.
+TEST(EosImpedance, RefusesAnImpactWithoutAMatch) {
+  const MieGruneisenEos metal(aluminium_2024());
+  const double density = 1.05 * metal.reference_density();
+  const Hugoniot compressed(metal, density, metal.reference_energy()), at_rest(metal);
+  ASSERT_GT(compressed.initial().pressure, 3e9);
+  EXPECT_THROW((void)match_impact(at_rest, compressed, 50.0), StateError);
+  EXPECT_GT(match_impact(at_rest, compressed, 2000.0).pressure, compressed.initial().pressure);
+}
+
 TEST(EosImpedance, AShockEntersStifferAndSofterMatter) {
   const GrayEos metal(copper());
   const MieGruneisenEos light(aluminium_2024());
