@@ -140,7 +140,7 @@ void make_points(const Plan& plan, const Computer& computer, std::span<const Poi
     table.columns[own + 3].words.emplace_back(word_of(record.state));
     table.columns[own + 4].numbers.push_back(record.exit_code);
     table.columns[own + 5].numbers.push_back(record.wall_time);
-    table.columns[own + 6].words.push_back(record.message);
+    table.columns[own + 6].words.push_back(record.message.substr(0, record.message.find('\n')));
     if (record.state == State::done) {
       for (const Result& result : read_results(computer.run_folder(point), wanted)) {
         auto column = std::ranges::find(table.columns.begin() + static_cast<std::ptrdiff_t>(first),
