@@ -85,11 +85,11 @@ CaseCheck examine_case(const RunOptions& options, bool with_forecast, MPI_Comm c
   }
   found.warnings = cases::remarks(setup);
   found.particles = simulation.particle_count();  // before splitting adds more
-  found.blocks = simulation.grid().slots();
-  found.bytes = static_cast<double>(simulation.bytes());
   found.splitting = of_splitting(simulation);
   found.threads = parallel::threads();
   if (with_forecast) found.cost = forecast(simulation);
+  found.blocks = simulation.grid().slots();  // active after the first step
+  found.bytes = static_cast<double>(simulation.bytes());
   return found;
 }
 
@@ -143,7 +143,8 @@ std::string check_text(const CaseCheck& found) {
   }
   for (const std::string& remark : setup.contact_fields.remarks) text += remark + "\n";
   for (const std::string& remark : found.warnings) text += "warning: " + remark + "\n";
-  text += fmt::format("particles: {}, active blocks: {}, memory: {} now\n", found.particles, found.blocks,
+  text += fmt::format("particles: {}{}, memory: {} now\n", found.particles,
+                      found.cost ? fmt::format(", active blocks: {}", found.blocks) : "",
                       format_bytes(found.bytes));
   text += found.splitting;
   if (!found.cost) return text;

@@ -55,7 +55,11 @@ void remove_large_files(const fs::path& folder) {
 }  // namespace
 
 Computer::Computer(const Plan& plan, fs::path folder, process::Pool& pool, Options options)
-    : plan_(plan), folder_(std::move(folder)), pool_(pool), options_(options) {
+    : plan_(plan),
+      folder_(std::move(folder)),
+      program_(process::own_executable()),
+      pool_(pool),
+      options_(options) {
   const std::vector<Wanted> wanted = plan.study.wanted();
   measures_ = wanted.empty() || !std::ranges::all_of(wanted, &Wanted::is_column);
   const Computing& study = plan.study.computing;
@@ -128,7 +132,7 @@ bool Computer::start(std::size_t tag, Task& task) {
   if (fs::exists(run) && io::is_running(run)) return false;
   const std::optional<run::RunStatus> status = status_of(run);
   if (task.stage == Stage::run && status && status->state == run::Activity::done) task.stage = Stage::analyse;
-  std::vector<std::string> program = {process::own_executable().string()};
+  std::vector<std::string> program = {program_.string()};
   const std::string threads = std::to_string(plan_.study.computing.threads);
   if (task.stage == Stage::analyse) {
     program.insert(program.end(), {"analyse", run.string(), "--quiet"});

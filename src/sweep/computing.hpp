@@ -69,6 +69,7 @@ class Computer {
 
   const Plan& plan_;
   std::filesystem::path folder_;
+  std::filesystem::path program_;  // this one, as it was called at the start
   process::Pool& pool_;
   Options options_;
   bool measures_ = true;  // some result is a measure of whipple analyse

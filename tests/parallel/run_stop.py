@@ -94,7 +94,7 @@ def perforation():
         require(1e-6 == times[-2] < status["time"], f"ended at {times[-2:]}, one step after the snapshot at 1 us")
         ends.append(status["step"])
     require(ends[0] == ends[1], f"steps on one rank and two: {ends}")
-    text = '[[stop]]\nwhen = "speed_below"\nbody = "ball"\nspeed = "1.5 km/s"\n'
+    text = '[[stop]]\nwhen = "speed_below"\nbody = "ball"\nspeed = "1.8 km/s"\n'
     text += '[[stop]]\nwhen = "settled"\ncolumn = "mass"\nchange = 0.1\nover = "4 us"\n'
     file = case("ball", "small_impact.toml", text, wider)
     ends = [ending(run(file, f"ball{ranks}", "--ranks", str(ranks))[0])[0] for ranks in (1, 2)]
