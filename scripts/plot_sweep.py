@@ -38,7 +38,9 @@ def panel(axes, rows, variable, quantity, limits):
     for row in limits if variable["is_limit"] else []:
         if row["lower"] is not None:
             axes.axvspan(row["lower"], row["upper"], color="0.8", zorder=0)
-    axes.set_xlabel(label(variable["name"], variable["unit"]))
+    axes.set_xlabel(label(variable["name"].rsplit(".material.", 1)[-1], variable["unit"]))
+    if variable["is_number"]:
+        axes.locator_params(axis="x", nbins=4)
     if len(variants) > 1:
         axes.legend(frameon=False)
 

@@ -19,7 +19,7 @@ import time
 from checks import require, wait_for
 
 WHIPPLE, CASE, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2]).resolve(), pathlib.Path(sys.argv[3])
-POINTS = int(sys.argv[4]) if len(sys.argv) > 4 else 9
+POINTS = int(sys.argv[4]) if len(sys.argv) > 4 else 5
 GRAVITY, START = 1e8, 0.125e-3  # m/s^2; m, of the particle that the gauge follows
 
 
