@@ -121,7 +121,7 @@ WORDS_ALLOWED = {
     "md_fitting/fit/gray_fit.cpp": "names of fitted constants",
     "md_fitting/fit/material_writer.cpp": "writes and copies TOML",
     "md_fitting/lammps/potential.cpp": "pair styles of LAMMPS",
-    "md_fitting/protocols/campaign.cpp": "names of results in the store",
+    "md_fitting/protocols/point_text.cpp": "names of results in the store",
     "src/app/materials_table.cpp": "groups of the material library, which are folders",
     "src/fem/gmsh.cpp": "grammar of Gmsh",
     "src/fem/vtk_legacy.cpp": "grammar of VTK",

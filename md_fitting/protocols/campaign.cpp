@@ -18,11 +18,13 @@
 #include "md_fitting/data_set/store_order.hpp"
 #include "md_fitting/protocols/budget.hpp"
 #include "md_fitting/protocols/point_team.hpp"
+#include "md_fitting/protocols/point_text.hpp"
+#include "md_fitting/protocols/shared_numbers.hpp"
 #include "md_fitting/protocols/task_list.hpp"
+#include "md_fitting/protocols/task_status.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/base/progress.hpp"
-#include "src/core/base/units.hpp"
 
 namespace whipple::md {
 namespace {
@@ -34,84 +36,12 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// Holds integers that all ranks can change at any time (one-sided communication), located on rank 0.
-class SharedNumbers {
- public:
-  enum Index : MPI_Aint { next_task, finished, stop, first_task };
-
-  /// @param tasks number of tasks, each with one integer that is set when the task is finished
-  SharedNumbers(MPI_Comm communicator, std::size_t tasks) {
-    int rank = 0;
-    MPI_Comm_rank(communicator, &rank);
-    const MPI_Aint count = first_task + static_cast<MPI_Aint>(tasks);
-    const MPI_Aint bytes = rank == 0 ? count * static_cast<MPI_Aint>(sizeof(long)) : 0;
-    long* memory = nullptr;
-    MPI_Win_allocate(bytes, sizeof(long), MPI_INFO_NULL, communicator, &memory, &window_);
-    MPI_Win_lock_all(0, window_);
-    if (rank == 0) std::fill(memory, memory + count, 0L);
-    MPI_Win_sync(window_);
-    MPI_Barrier(communicator);
-  }
-  SharedNumbers(const SharedNumbers&) = delete;
-  SharedNumbers& operator=(const SharedNumbers&) = delete;
-  ~SharedNumbers() {
-    MPI_Win_unlock_all(window_);
-    MPI_Win_free(&window_);
-  }
-  /// Adds the increment and returns the former value.
-  long add(MPI_Aint index, long increment) {
-    long former = 0;
-    MPI_Fetch_and_op(&increment, &former, MPI_LONG, 0, index, MPI_SUM, window_);
-    MPI_Win_flush(0, window_);
-    return former;
-  }
-  long read(MPI_Aint index) { return add(index, 0); }
-  static MPI_Aint of_task(std::size_t task) { return first_task + static_cast<MPI_Aint>(task); }
-
- private:
-  MPI_Win window_ = MPI_WIN_NULL;
-};
-
 std::optional<PointRecord> find_point(const std::filesystem::path& store, const std::string& key) {
   if (!std::filesystem::exists(store)) return std::nullopt;
   for (PointRecord& point : read_store(store)) {
     if (point.key == key) return std::move(point);
   }
   return std::nullopt;
-}
-
-/// Reads the state of the tasks on rank 0 and broadcasts it: 'd' done, 'c' done but to be continued, 'f'
-/// failed, blank: missing; one letter per task.
-std::string read_status(std::span<const Task> tasks, const std::filesystem::path& store,
-                        MPI_Comm communicator, int rank) {
-  std::string status(tasks.size(), ' ');
-  std::string fault;
-  if (rank == 0) {
-    try {
-      std::map<std::string, PointRecord> found;
-      if (std::filesystem::exists(store)) {
-        for (PointRecord& point : read_store(store)) found[point.key] = std::move(point);
-      }
-      for (std::size_t i = 0; i < tasks.size(); ++i) {
-        const auto known = found.find(tasks[i].key);
-        if (known == found.end()) continue;
-        if (!known->second.done()) {
-          status[i] = 'f';
-        } else {
-          status[i] = wants_more(known->second, tasks[i].precision) ? 'c' : 'd';
-        }
-      }
-    } catch (const InputError& error) {
-      fault = error.what();
-    }
-  }
-  int length = static_cast<int>(fault.size());
-  MPI_Bcast(&length, 1, MPI_INT, 0, communicator);
-  fault.resize(static_cast<std::size_t>(length));
-  MPI_Bcast(fault.data(), length, MPI_CHAR, 0, communicator);
-  if (length > 0) throw InputError(fault);
-  MPI_Bcast(status.data(), static_cast<int>(status.size()), MPI_CHAR, 0, communicator);
-  return status;
 }
 
 PointRecord unfinished(const Task& task) {
@@ -179,64 +109,6 @@ bool wait_for(std::size_t task, SharedNumbers& shared) {
   return false;
 }
 
-struct UsualUnit {
-  const char* si;
-  const char* usual;
-};
-constexpr std::array usual_units = {UsualUnit{"Pa", "GPa"},     UsualUnit{"J/kg", "MJ/kg"},
-                                    UsualUnit{"m", "angstrom"}, UsualUnit{"m^3/kg", "cm^3/g"},
-                                    UsualUnit{"m/s", "km/s"},   UsualUnit{"m^2", "angstrom^2"}};
-
-}  // namespace
-
-std::string format_result(const std::string& quantity, const Estimate& estimate) {
-  std::string unit(unit_of(quantity));
-  double factor = 1.0;
-  for (const UsualUnit& one : usual_units) {
-    if (unit == one.si) {
-      factor = units::convert(1.0, one.si, one.usual);
-      unit = one.usual;
-      break;
-    }
-  }
-  const double value = factor * estimate.value;
-  const double error = factor * estimate.error;
-  const std::string tail = unit.empty() ? "" : " " + unit;
-  // Errors below the digits of the value come from a root search, not from a measurement.
-  if (!(error > 0.5e-6 * std::abs(value))) return fmt::format("{} = {:.7g}{}", quantity, value, tail);
-  // Print two digits of the error, but at most seven of the value: a lattice constant is accurate to any digit.
-  const int digits_of_value =
-      6 - static_cast<int>(std::floor(std::log10(std::fmax(std::abs(value), 1e-300))));
-  const int digits_of_error = 1 - static_cast<int>(std::floor(std::log10(error)));
-  const int decimals = std::clamp(std::min(digits_of_error, digits_of_value), 0, 12);
-  return fmt::format("{} = {:.{}f} +- {:.{}f}{}", quantity, value, decimals, error, decimals, tail);
-}
-
-std::string short_label(const PointRecord& point) {
-  std::string text = point.protocol;
-  const char* joint = " at ";
-  for (const auto& [name, value] : point.conditions) {
-    text += joint + format_result(name, {value, 0.0});
-    joint = ", ";
-  }
-  return text;
-}
-
-std::string summarize(const PointRecord& point) {
-  std::string text = short_label(point);
-  if (!point.done()) return fmt::format("{} FAILED: {}", text, point.message);
-  const char* joint = ": ";
-  for (const auto& [name, estimate] : point.results) {
-    if (name == "solid" || name == "error_correlation") continue;
-    text += joint + format_result(name, estimate);
-    joint = ", ";
-  }
-  if (!point.message.empty()) text += " (" + point.message + ")";
-  return text + fmt::format(" [{:.1f} s]", point.wall_seconds);
-}
-
-namespace {
-
 /// Counts the points of this rank, or of the team that it leads.
 struct Counts {
   int computed = 0, failed = 0, blocked = 0;
@@ -257,8 +129,7 @@ void follow(std::span<const Task> tasks, const std::filesystem::path& store, con
 /// Takes tasks from the common queue of all leaders and computes them with the team.
 class Leader {
  public:
-  /// @param status  of the tasks, as returned by `read_status`
-  Leader(std::span<const Task> tasks, const std::string& status, std::vector<std::size_t> queue,
+  Leader(std::span<const Task> tasks, std::span<const TaskStatus> status, std::vector<std::size_t> queue,
          const std::filesystem::path& store, const PointTeam& team)
       : tasks_(tasks),
         status_(status),
@@ -353,7 +224,7 @@ class Leader {
       return part;
     };
     std::optional<PointRecord> present;
-    if (status_[index] == 'c') present = find_point(store_, task.key);
+    if (status_[index] == TaskStatus::to_continue) present = find_point(store_, task.key);
     PointRecord point = present ? *present : compute(0);
     if (!present && !append_point(store_, point)) {
       log::detail("{} was stored by another process meanwhile", point.label());
@@ -371,7 +242,7 @@ class Leader {
   }
 
   std::span<const Task> tasks_;
-  const std::string& status_;
+  std::span<const TaskStatus> status_;
   std::vector<std::size_t> queue_;
   const std::filesystem::path& store_;
   const PointTeam& team_;
@@ -422,74 +293,86 @@ int count_molten(std::span<const Task> tasks, const std::filesystem::path& store
   return count;
 }
 
-}  // namespace
-
-CampaignSummary run_campaign(std::span<const Task> tasks, const std::filesystem::path& store,
-                             MPI_Comm communicator, bool retry_failed, int ranks_per_point) {
-  const auto begin = Clock::now();
-  int rank = 0;
-  MPI_Comm_rank(communicator, &rank);
-  const PointTeam team(communicator, ranks_per_point);
-  const std::string status = read_status(tasks, store, communicator, rank);
-  CampaignSummary summary;
-  std::vector<std::size_t> queue;
-  for (std::size_t i = 0; i < tasks.size(); ++i) {
-    if (status[i] == 'd') {
-      ++summary.present;
-    } else if (status[i] == 'f' && !retry_failed) {
-      ++summary.left;
-    } else {
-      queue.push_back(i);
-    }
-  }
-  if (queue.empty()) {
-    put_in_order(store, communicator);  // an earlier call may have been killed before it did so
-    summary.molten = count_molten(tasks, store, communicator);
-    return summary;
-  }
-
-  Counts own;
-  std::array<double, 3> times{};
-  std::map<std::string, double> processor_time;
+/// What one rank contributes to the summary.
+struct Share {
+  Counts counts;
   int code = 0;
-  if (team.leads()) {
-    Leader leader(tasks, status, std::move(queue), store, team);
-    try {
-      leader.work();
-    } catch (const std::exception& error) {
-      // The points finished so far are in the database: the error that stopped the work is not a fault of the plan.
-      const bool defect = exit_code(error) == ExitCode::internal;
-      code = static_cast<int>(defect ? ExitCode::internal : ExitCode::state);
-      log::warning("the work stopped before its end: {}", error.what());
-    }
-    own = leader.counts();
-    team.dismiss();
-    MPI_Barrier(communicator);
-    times = {leader.busy(), leader.waiting(), 0.0};
-    processor_time = leader.processor_time();
-  } else {
+  double busy = 0.0, waiting = 0.0, elapsed = 0.0;  ///< s, of the leader of a team
+  std::map<std::string, double> processor_time;     ///< s, of the leader, by protocol
+};
+
+/// Computes the queue with the team of this rank.
+Share compute(std::span<const Task> tasks, std::span<const TaskStatus> status, std::vector<std::size_t> queue,
+              const std::filesystem::path& store, const PointTeam& team) {
+  Share share;
+  if (!team.leads()) {
     follow(tasks, store, team);
-    MPI_Barrier(communicator);
+    return share;
   }
-  put_in_order(store, communicator);
-  if (team.leads()) times[2] = seconds_since(begin);
-  const std::array<int, 3> counts = {own.computed, own.failed, own.blocked};
+  Leader leader(tasks, status, std::move(queue), store, team);
+  try {
+    leader.work();
+  } catch (const std::exception& error) {
+    // The points finished so far are in the database: the error that stopped the work is not a fault of the plan.
+    const bool defect = exit_code(error) == ExitCode::internal;
+    share.code = static_cast<int>(defect ? ExitCode::internal : ExitCode::state);
+    log::warning("the work stopped before its end: {}", error.what());
+  }
+  share.counts = leader.counts();
+  team.dismiss();
+  MPI_Barrier(team.leaders());  // the leader waits until the others have finished
+  share.busy = leader.busy(), share.waiting = leader.waiting();
+  share.processor_time = leader.processor_time();
+  return share;
+}
+
+/// Adds up what the ranks contribute. Collective.
+void sum_over_ranks(Share own, std::span<const Task> tasks, int ranks_per_point, MPI_Comm communicator,
+                    CampaignSummary& summary) {
+  const std::array<int, 3> counts = {own.counts.computed, own.counts.failed, own.counts.blocked};
   std::array<int, 3> total{};
   MPI_Allreduce(counts.data(), total.data(), 3, MPI_INT, MPI_SUM, communicator);
-  MPI_Allreduce(&code, &summary.code, 1, MPI_INT, MPI_MAX, communicator);
-  summary.computed = total[0];
-  summary.failed = total[1];
-  summary.blocked = total[2];
+  MPI_Allreduce(&own.code, &summary.code, 1, MPI_INT, MPI_MAX, communicator);
+  summary.computed = total[0], summary.failed = total[1], summary.blocked = total[2];
+  const std::array<double, 3> times = {own.busy, own.waiting, own.elapsed};
   std::array<double, 3> all{};
   MPI_Allreduce(times.data(), all.data(), 3, MPI_DOUBLE, MPI_SUM, communicator);
   summary.busy = all[0], summary.waiting = all[1], summary.elapsed = all[2];
   for (const Task& task : tasks) summary.processor_time[task.protocol] = 0.0;
   for (auto& [protocol, seconds] : summary.processor_time) {
     // The ranks of a team compute, or wait in a busy loop, as long as their leader.
-    const double own_seconds = ranks_per_point * processor_time[protocol];
+    const double own_seconds = ranks_per_point * own.processor_time[protocol];
     MPI_Allreduce(&own_seconds, &seconds, 1, MPI_DOUBLE, MPI_SUM, communicator);
   }
-  std::erase_if(summary.processor_time, [](const auto& share) { return share.second == 0.0; });
+  std::erase_if(summary.processor_time, [](const auto& each) { return each.second == 0.0; });
+}
+
+}  // namespace
+
+CampaignSummary run_campaign(std::span<const Task> tasks, const std::filesystem::path& store,
+                             MPI_Comm communicator, bool retry_failed, int ranks_per_point) {
+  const auto begin = Clock::now();
+  const PointTeam team(communicator, ranks_per_point);
+  const std::vector<TaskStatus> status = read_status(tasks, store, communicator);
+  CampaignSummary summary;
+  std::vector<std::size_t> queue;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    if (status[i] == TaskStatus::done) {
+      ++summary.present;
+    } else if (status[i] == TaskStatus::failed && !retry_failed) {
+      ++summary.left;
+    } else {
+      queue.push_back(i);
+    }
+  }
+  if (!queue.empty()) {
+    Share own = compute(tasks, status, std::move(queue), store, team);
+    put_in_order(store, communicator);
+    if (team.leads()) own.elapsed = seconds_since(begin);
+    sum_over_ranks(std::move(own), tasks, ranks_per_point, communicator, summary);
+  } else {
+    put_in_order(store, communicator);  // an earlier call may have been killed before it did so
+  }
   summary.molten = count_molten(tasks, store, communicator);
   return summary;
 }

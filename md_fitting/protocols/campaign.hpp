@@ -39,13 +39,4 @@ struct CampaignSummary {
 CampaignSummary run_campaign(std::span<const Task> tasks, const std::filesystem::path& store,
                              MPI_Comm communicator, bool retry_failed, int ranks_per_point = 1);
 
-/// Formats a result for the user, e.g. "pressure = 45.312 +- 0.011 GPa": usual units, two digits of the error.
-std::string format_result(const std::string& quantity, const Estimate& estimate);
-
-/// Returns a label such as "isotherm at specific_volume = 0.1119 cm^3/g, temperature = 293 K".
-std::string short_label(const PointRecord& point);
-
-/// Summarises a point and its results in one line.
-std::string summarize(const PointRecord& point);
-
 }  // namespace whipple::md

@@ -14,6 +14,7 @@
 
 #include "md_fitting/protocols/campaign.hpp"
 #include "md_fitting/protocols/coexistence.hpp"
+#include "md_fitting/protocols/point_text.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/hash.hpp"
 #include "src/core/base/log.hpp"
