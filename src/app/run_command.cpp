@@ -101,7 +101,7 @@ run::RunOptions run_options(const Arguments& arguments) {
 
 /// Runs the same command on MPI ranks of this machine.
 int run_on_ranks(const Arguments& arguments) {
-  std::vector<std::string> program = {"whipple", "run"};
+  std::vector<std::string> program = {process::own_executable().filename().string(), "run"};
   if (!arguments.case_file.empty()) program.push_back(arguments.case_file);
   const auto pass = [&](const char* option, const std::string& value) {
     if (!value.empty()) program.insert(program.end(), {option, value});

@@ -213,6 +213,13 @@ def steered():
     require(code == 2 and "already" in message, f"an end before the present time is accepted: {code}, {message}")
 
 
+def a_rank_without_particles():
+    """All matter on one rank: the other one takes part in every sum, that of the summary included."""
+    block = pathlib.Path(__file__).resolve().parents[1] / "data/thrown_block.toml"
+    code, message = finish(start(block, "--output", FOLDER / "one_block", "--ranks", "2"))
+    require(code == 0, f"a rank without particles: {code}, {message}")
+
+
 def molecular_dynamics():
     launcher = subprocess.Popen([WHIPPLE, "md", PLAN, "-o", FOLDER / "store.md.h5", "--ranks", "2", "--quiet"],
                                 stderr=subprocess.PIPE, text=True)
@@ -237,6 +244,7 @@ def main():
     small_disk()
     little_memory()
     steered()
+    a_rank_without_particles()
     molecular_dynamics()
     shutil.rmtree(FOLDER)
 
