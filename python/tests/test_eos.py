@@ -338,7 +338,7 @@ class Manual(unittest.TestCase):
         text = (SOURCE / "docs/manual/python.md").read_text(encoding="utf-8")
         names = {}
         with contextlib.redirect_stdout(io.StringIO()) as printed:
-            exec(re.search(r"```python\n(.*?)```", text, re.DOTALL).group(1), names)
+            exec(re.search(r"## Five minutes\n.*?```python\n(.*?)```", text, re.DOTALL).group(1), names)
         self.assertIn("solid", printed.getvalue())
         self.assertEqual(names["grid"].shape, (1000, 1000))
 

@@ -18,14 +18,14 @@ namespace {
 // Only stretches without a slot of the border may be worked on before what other ranks send is there.
 TEST(SweepRanks, DivideInteriorAndBorderByTheirSlots) {
   using namespace verification;
-  const cases::Case setup =
-      cases::read_case_text(Method{}.time_toml(1e-6) + Method{}.toml() +
-                                "[domain]\nlower = [0, 0, 0]\nupper = [0.05, 0.05, 0.05]\ncell_size = "
-                                "0.001\n[[body]]\nname = \"block\"\n"
-                                "material = \"" +
-                                aluminium("aluminium_of_sweeps", "0.3 GPa") + "\"\nshape = { " +
-                                box(Vector3::Constant(5e-3), Vector3(45e-3, 20e-3, 15e-3)) + " }\n",
-                            "sweep.toml");
+  const cases::Case setup = cases::read_case_text(
+      Method{}.time_toml(1e-6) + Method{}.toml() +
+          "[domain]\nlower = [0, 0, 0]\nupper = [0.05, 0.05, 0.05]\ncell_size = "
+          "0.001\n[[body]]\nname = \"block\"\n"
+          "material = \"" +
+          aluminium("aluminium_of_sweeps", "0.3 GPa") + "\"\nvelocity = [100, 0, 0]\nshape = { " +
+          box(Vector3::Constant(5e-3), Vector3(45e-3, 20e-3, 15e-3)) + " }\n",
+      "sweep.toml");
   Simulation together(setup, MPI_COMM_WORLD);
   together.advance(1e-6);
   const grid::BlockGrid& grid = together.grid();
