@@ -146,7 +146,7 @@ WindowFits fit_windows(const Observations& data, const SolidModel& model, const 
   }
   if (windows.settled.empty()) {
     throw StateError(fmt::format("the fit settles in none of {} windows of particle velocities: {}",
-                                 windows.left_out.size(), fault()));
+                                 1 + others.size(), fault()));
   }
   for (WindowFit& window : windows.settled)
     window.weight = averaged ? 1.0 / static_cast<double>(windows.settled.size()) : 0.0;

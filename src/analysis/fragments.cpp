@@ -289,6 +289,8 @@ Weibull weibull_distribution(std::span<const std::pair<double, double>> mass_and
     return moment / power - 1.0 / b - logarithms / count;
   };
   double lower = 0.05, upper = 50.0;  // increases with b
+  if (!(excess(lower) < 0.0 && excess(upper) > 0.0))
+    return {nan, nan, nan};  // equal masses have no greatest likelihood
   for (int iteration = 0; iteration < 60; ++iteration) {
     const double b = 0.5 * (lower + upper);
     (excess(b) < 0.0 ? lower : upper) = b;

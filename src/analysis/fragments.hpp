@@ -61,8 +61,8 @@ Fragments find_fragments(const Snapshot& snapshot, std::span<const BodyInput> bo
 /// belongs to no fragment.
 Quantities piece_measures(const Fragments& fragments, std::span<const BodyInput> bodies);
 
-/// Computes the sizes that 16, 50 and 84 % of the failed mass of each body lie below, by the field `fragment_size` that
-/// its points keep (docs/theory/cracks.md, eq. 8). Nothing if the field was not written.
+/// Computes the sizes that 16, 50 and 84 % of the mass of each body that has a size lie below, by the field
+/// `fragment_size` that its points keep (docs/theory/cracks.md, eq. 8). Nothing if the field was not written.
 Quantities fragment_size_measures(const Snapshot& snapshot, std::span<const BodyInput> bodies);
 
 /// Tabulates pieces of each body by distance alone, of failed and intact particles, for linking lengths of 1.25, 1.5

@@ -130,6 +130,8 @@ TEST(Fragments, WeibullDistributionOfItsOwnQuantiles) {
     EXPECT_NEAR(found.scale, scale, 0.01 * scale);
   }
   EXPECT_TRUE(std::isnan(weibull_distribution(Masses{{1.0, 1.0}, {2.0, 1.0}}).exponent));
+  EXPECT_TRUE(
+      std::isnan(weibull_distribution(Masses{{2.0, 1.0}, {2.0, 1.0}, {2.0, 1.0}}).exponent));  // of one mass
 }
 
 TEST(Fragments, ImagesAreNoFurtherObservationsOfAWeibullDistribution) {
