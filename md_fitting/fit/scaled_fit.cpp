@@ -144,9 +144,10 @@ WindowFits fit_windows(const Observations& data, const SolidModel& model, const 
     window.most_particle_velocity = most;
     add(window);
   }
+  if (taken.empty()) throw StateError(too_few);
   if (windows.settled.empty()) {
     throw StateError(fmt::format("the fit settles in none of {} windows of particle velocities: {}",
-                                 1 + others.size(), fault()));
+                                 taken.size(), fault()));
   }
   for (WindowFit& window : windows.settled)
     window.weight = averaged ? 1.0 / static_cast<double>(windows.settled.size()) : 0.0;

@@ -32,6 +32,8 @@ struct SweepArguments {
   bool dry_run = false, retry = false, json = false, no_figures = false;
 };
 
+constexpr int ended_from_outside = 3;  // exit code
+
 fs::path folder_of(const SweepArguments& arguments) {
   return arguments.output.empty() ? fs::path("run") / fs::path(arguments.study).stem()
                                   : fs::path(arguments.output);
@@ -45,7 +47,7 @@ void claim_folder(const fs::path& folder, const fs::path& study) {
   if (fs::exists(owner)) {
     if (read_text(owner) == text) return;
     throw InputError(fmt::format("{} is the folder of the study {}: give another one with -o",
-                                 folder.string(), read_text(owner)));
+                                 folder.string(), read_text(owner).substr(0, read_text(owner).find('\n'))));
   }
   const bool is_empty = std::ranges::all_of(
       fs::directory_iterator(folder),
@@ -56,18 +58,26 @@ void claim_folder(const fs::path& folder, const fs::path& study) {
   write_text_atomically(owner, text);
 }
 
+/// Returns a text as one word of a shell.
+std::string quoted(const std::string& text) {
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
+
 /// Writes the script of a job array: one task per point.
 void write_slurm(const SweepArguments& arguments, const sweep::Plan& plan, const fs::path& folder) {
   if (plan.study.find)
     throw InputError(
         "--slurm: the points of [find] depend on each other: run whipple sweep in one job instead");
+  if (arguments.slurm.find('\n') != std::string::npos) throw InputError("--slurm: options are one line");
   const fs::path file = folder / "array.sh";
   const std::string text = fmt::format(
       "#!/bin/sh\n#SBATCH --array=0-{}\n#SBATCH --cpus-per-task={}\n#SBATCH {}\n"
-      "exec '{}' sweep '{}' -o '{}' --point \"$SLURM_ARRAY_TASK_ID\"\n",
+      "exec {} sweep {} -o {} --point \"$SLURM_ARRAY_TASK_ID\"\n",
       plan.points.size() - 1, plan.study.computing.threads, arguments.slurm,
-      process::own_executable().string(), fs::absolute(arguments.study).string(),
-      fs::absolute(folder).string());
+      quoted(process::own_executable().string()), quoted(fs::absolute(arguments.study).string()),
+      quoted(fs::absolute(folder).string()));
   write_text_atomically(file, text);
   fmt::print("wrote {}: sbatch {}; then whipple sweep {} -o {} collects the table\n", file.string(),
              file.string(), arguments.study, folder.string());
@@ -104,7 +114,9 @@ int run_study(const SweepArguments& arguments) {
                                    plan.points.size() - 1));
     const sweep::Point& point = plan.points[static_cast<std::size_t>(arguments.point)];
     const bool complete = computer.compute({&point, 1});
-    return complete ? computer.record(point).exit_code : 128 + pool.stopped_by();
+    if (!complete) return 128 + pool.stopped_by();
+    const sweep::Record record = computer.record(point);
+    return record.state == sweep::State::missing ? ended_from_outside : record.exit_code;
   }
   const FileLock lock(folder / lock_name, fmt::format("the folder of the study {}", folder.string()),
                       FileLock::IfHeld::refuse);
@@ -133,7 +145,12 @@ int run_study(const SweepArguments& arguments) {
       log::warning("no figures: {}", error.what());
     }
   }
-  return 0;
+  const auto is_missing = [&](const sweep::Point& point) {
+    return computer.record(point).state == sweep::State::missing;
+  };
+  const auto missing = std::ranges::count_if(points, is_missing);
+  if (missing > 0) log::warning("{} points were ended from outside: the same command goes on", missing);
+  return missing > 0 ? ended_from_outside : 0;
 }
 
 }  // namespace
@@ -161,7 +178,7 @@ void add_sweep_command(CLI::App& app) {
       "Interrupted, the same command goes on: finished points are found by the digest of their input.\n"
       "whipple describe study lists the keys. Exit codes: 0 all points are finished (failed ones are "
       "listed),\n"
-      "  2 wrong input, 128 + signal when stopped");
+      "  2 wrong input, 3 a point was ended from outside, 128 + signal when stopped");
   command->callback([arguments] {
     const int code = run_study(*arguments);
     if (code != 0) throw CLI::RuntimeError(code);

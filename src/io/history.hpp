@@ -28,7 +28,8 @@ class History {
   /// @param row  any row of the run that continues, for its columns
   /// @throws InputError if the file has no column "step", other columns than the row, or a damaged row; it is then as
   /// it was
-  static History restart(std::filesystem::path path, std::int64_t last_step, std::span<const HistoryValue> row);
+  static History restart(std::filesystem::path path, std::int64_t last_step,
+                         std::span<const HistoryValue> row);
 
   /// Returns the number of rows in the file.
   [[nodiscard]] std::int64_t rows() const { return rows_; }

@@ -6,11 +6,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
+#include <charconv>
 #include <cmath>
 #include <optional>
 #include <set>
 #include <string_view>
+#include <system_error>
 
 #include "src/analysis/measures.hpp"
 #include "src/case/build/placement.hpp"
@@ -38,9 +39,13 @@ constexpr std::string_view folder_mark = "MATERIALS/";  // replaced by the folde
 /// Returns the body that a key begins with, "body.0.material".
 /// @throws InputError if it names none of the case
 std::size_t body_of(const cases::Case& setup, const std::string& key) {
+  constexpr std::string_view start = "body.";
   std::size_t body = setup.bodies.size();
-  if (key.starts_with("body.") && key.size() > 5 && std::isdigit(static_cast<unsigned char>(key[5])) != 0)
-    body = std::stoul(key.substr(5));
+  if (key.starts_with(start)) {
+    const char* const last = key.data() + key.size();
+    const auto [end, error] = std::from_chars(key.data() + start.size(), last, body);
+    if (error != std::errc{} || end == last || *end != '.') body = setup.bodies.size();
+  }
   if (body < setup.bodies.size()) return body;
   throw InputError(fmt::format("'{}': the case has the bodies 0 to {}", key, setup.bodies.size() - 1));
 }

@@ -23,14 +23,19 @@ double square_by_value(std::span<const double> x, std::span<const double> y) {
   return sum / static_cast<double>(x.size());
 }
 
-/// Returns E(E(y | x)^2) from products of outputs that follow each other in the order of x.
+/// Returns E(E(y | x)^2) from products of outputs that follow each other in the order of x. Outputs of one x, which
+/// differ by listed variables, count by their mean.
 double square_by_rank(std::span<const double> x, std::span<const double> y) {
-  std::vector<std::size_t> order(x.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return x[a] < x[b]; });
-  double sum = 0.0;
-  for (std::size_t i = 0; i + 1 < order.size(); ++i) sum += y[order[i]] * y[order[i + 1]];
-  return sum / static_cast<double>(x.size() - 1);
+  std::map<double, std::pair<double, double>> of_value;  // sum of y, and their number
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    of_value[x[i]].first += y[i];
+    of_value[x[i]].second += 1.0;
+  }
+  std::vector<double> means;
+  for (const auto& [value, group] : of_value) means.push_back(group.first / group.second);
+  if (means.size() < 2) return std::numeric_limits<double>::quiet_NaN();
+  return std::inner_product(means.begin(), means.end() - 1, means.begin() + 1, 0.0) /
+         static_cast<double>(means.size() - 1);
 }
 
 }  // namespace

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "src/core/base/error.hpp"
 #include "src/core/base/units.hpp"
@@ -175,10 +177,23 @@ ParameterTable<Bands> Bands::parameters() {
           .optional()};
 }
 
-void Bands::check(const Study& /*study*/, const Faults& faults) const {
+void Bands::check(const Study& study, const Faults& faults) const {
   for (const std::string& size : cell_sizes) {
-    if (!Number::of(size)) faults.add("cell_sizes", fmt::format("\"{}\" is no length", size));
+    const std::optional<Number> number = Number::of(size);
+    try {
+      if (number) static_cast<void>(units::convert(number->value, number->unit, "m"));
+    } catch (const InputError& error) {
+      faults.add("cell_sizes", fmt::format("\"{}\": {}", size, error.what()));
+    }
+    if (!number) faults.add("cell_sizes", fmt::format("\"{}\" is no length", size));
   }
+  const std::vector<std::string> keys = study.keys();
+  for (const std::string& key : keys) {
+    if (!offsets.empty() && key.starts_with("domain."))
+      faults.add("offsets", fmt::format("'offsets' move the domain, which '{}' changes", key));
+  }
+  if (!cell_sizes.empty() && std::ranges::count(keys, "domain.cell_size") > 0)
+    faults.add("cell_sizes", "'domain.cell_size' varies as well");
 }
 
 ParameterTable<Computing> Computing::parameters() {
@@ -199,6 +214,16 @@ ParameterTable<Study> Study::parameters() {
           text("case", &Study::case_file, "the case, in the folder of the study or with a path")};
 }
 
+void Computing::check(const Study& /*study*/, const Faults& faults) const {
+  constexpr std::array<std::string_view, 3> others = {"--output", "--json", "--help"};
+  for (const std::string& option : analyse) {
+    const std::string name = option.substr(0, option.find('='));
+    const bool is_short = name.starts_with('-') && !name.starts_with("--");
+    if (is_short || std::ranges::count(others, name) > 0)
+      faults.add("analyse", fmt::format("'{}' is no option that measures", option));
+  }
+}
+
 std::span<const Section> Study::sections() {
   static const std::vector<Section> all = {
       input::section<&Study::varied, Study>("vary"),
@@ -211,8 +236,28 @@ std::span<const Section> Study::sections() {
   return all;
 }
 
+std::vector<std::string> Study::keys() const {
+  std::vector<std::string> all = find ? find->keys() : std::vector<std::string>();
+  for (const Vary& vary : varied) {
+    const std::vector<std::string> own = vary.keys();
+    all.insert(all.end(), own.begin(), own.end());
+  }
+  return all;
+}
+
 void Study::check(const Study& /*study*/, const Faults& faults) const {
   if (varied.empty() && !find) faults.add("", "nothing varies: expected [[vary]] or [find]");
+  for (auto one = quantities.begin(); one != quantities.end(); ++one) {
+    if (std::ranges::count(quantities.begin(), one, one->title(), &Wanted::title) > 0)
+      faults.add("quantity", fmt::format("the quantity '{}' is wanted twice", one->title()));
+  }
+  const std::vector<std::string> all = keys();
+  for (const Vary& vary : varied) {
+    for (const std::string& other : all) {
+      if (!vary.covariance && other.starts_with(vary.key + "."))
+        faults.add("vary", fmt::format("'{}' lies in '{}', which varies as a whole", other, vary.key));
+    }
+  }
 }
 
 std::filesystem::path Study::case_path() const { return file.parent_path() / case_file; }

@@ -113,6 +113,7 @@ struct Computing {
   Keep keep = Keep::all;
   std::vector<std::string> analyse;  ///< options of `whipple analyse`
   static ParameterTable<Computing> parameters();
+  void check(const Study& study, const Faults& faults) const;
 };
 
 /// Holds the contents of a study file.
@@ -133,6 +134,8 @@ struct Study {
   void check(const Study& study, const Faults& faults) const;
 
   [[nodiscard]] std::filesystem::path case_path() const;
+  /// Returns all keys of the case that change from point to point.
+  [[nodiscard]] std::vector<std::string> keys() const;
   /// Returns all wanted results, that of the limit included.
   [[nodiscard]] std::vector<Wanted> wanted() const;
 };

@@ -1,18 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Searches, samples and indices of studies, without runs.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <numbers>
 #include <random>
+#include <string>
 
+#include "src/core/base/error.hpp"
 #include "src/sweep/bisection.hpp"
 #include "src/sweep/sampling.hpp"
+#include "src/sweep/study.hpp"
+#include "tests/unit/temporary_folder.hpp"
 
 namespace whipple::sweep {
 namespace {
+
+using testing::HasSubstr;
 
 /// Searches between 0 and 1 as a study does.
 std::vector<Judged> searched(const std::function<Verdict(double)>& verdict, double tolerance, int scan = 2) {
@@ -153,6 +162,46 @@ TEST(Sampling, IndicesOfListsAreThoseOfGroupMeans) {
   EXPECT_NEAR(first_order_index(a, y, Design::listed), of_a / (of_a + of_b), 1e-12);
   EXPECT_NEAR(first_order_index(b, y, Design::listed), of_b / (of_a + of_b), 1e-12);
   EXPECT_TRUE(std::isnan(first_order_index(a, std::vector<double>(y.size(), 4.0), Design::listed)));
+}
+
+// Every sample occurs once per value of the list: neighbours in the order of a sampled variable are then one sample.
+TEST(Sampling, ASampledVariableWithoutInfluenceHasNoneBesideAList) {
+  std::vector<double> list, sampled, y;
+  for (int sample = 0; sample < 8; ++sample) {
+    for (const double speed : {1.0, 2.0}) {
+      list.push_back(speed);
+      sampled.push_back(0.1 * sample);
+      y.push_back(3.0 * speed);
+    }
+  }
+  EXPECT_NEAR(first_order_index(list, y, Design::listed), 1.0, 1e-12);
+  EXPECT_NEAR(first_order_index(sampled, y, Design::sampled), 0.0, 1e-12);
+}
+
+TEST(Studies, RefuseWhatWouldOverwriteOrSpoilItself) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "study.toml";
+  const auto fault = [&](const std::string& text) -> std::string {
+    std::ofstream(file) << "case = \"case.toml\"\n" << text;
+    try {
+      (void)read_study(file);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  const std::string speed = "[[vary]]\nkey = \"body.0.velocity.2\"\nvalues = [\"1 km/s\"]\n";
+  EXPECT_EQ(fault(speed), "accepted");
+  EXPECT_THAT(fault(speed + "[[quantity]]\nname = \"a.b\"\n[[quantity]]\nname = \"a.b\"\n"),
+              HasSubstr("wanted twice"));
+  EXPECT_THAT(fault("[[vary]]\nkey = \"body.0.material\"\nvalues = [\"copper\"]\n[[vary]]\nkey = "
+                    "\"body.0.material.eos.gruneisen\"\nvalues = [\"2\"]\n"),
+              HasSubstr("which varies as a whole"));
+  EXPECT_THAT(fault("[[vary]]\nkey = \"domain.upper.0\"\nvalues = [\"8 mm\"]\n[bands]\noffsets = [0.5]\n"),
+              HasSubstr("'offsets' move the domain"));
+  EXPECT_THAT(fault(speed + "[bands]\ncell_sizes = [\"0.5 kg\"]\n"), HasSubstr("0.5 kg"));
+  EXPECT_THAT(fault(speed + "[run]\nanalyse = [\"-o\", \"elsewhere\"]\n"),
+              HasSubstr("no option that measures"));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "src/core/base/error.hpp"
+#include "src/core/base/hash.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/base/text.hpp"
 #include "src/core/parallel/mpi.hpp"
@@ -54,8 +55,7 @@ StopConditions::StopConditions(const cases::Case& setup, const io::RunDirectory&
 
 void StopConditions::resume(const Moment& /*moment*/, const io::CheckpointValues& values) {
   // A checkpoint of a run that had no conditions, or other ones, tells nothing about these.
-  if (!values.integers.contains("stop.found") ||
-      values.integer("stop.count") != static_cast<std::int64_t>(seen_.size()))
+  if (!values.integers.contains("stop.conditions") || values.integer("stop.conditions") != conditions())
     return;
   found_ = static_cast<int>(values.integer("stop.found"));
   before_ = now_ = values.real("stop.wall_time");
@@ -67,9 +67,16 @@ void StopConditions::resume(const Moment& /*moment*/, const io::CheckpointValues
   }
 }
 
+std::int64_t StopConditions::conditions() const {
+  std::string words;
+  for (const cases::Stop& stop : setup_.stops)
+    words += fmt::format("{} after {} s\n", stop.in_words(), stop.after);
+  return seed_from(sha256(words));
+}
+
 void StopConditions::remember(io::CheckpointValues& values) {
   if (seen_.empty()) return;
-  values.integers["stop.count"] = static_cast<std::int64_t>(seen_.size());
+  values.integers["stop.conditions"] = conditions();
   values.integers["stop.found"] = found_;
   // All ranks write the same values: the clock of the first one counts.
   values.reals["stop.wall_time"] = std::stod(ranks_.broadcast(fmt::format("{}", now_)));

@@ -54,6 +54,9 @@ class StopConditions : public RunObserver {
   [[nodiscard]] static Motion motion_of(const solver::Simulation& simulation, std::size_t body);
   [[nodiscard]] std::size_t body_of(const cases::Stop& stop) const;
 
+  /// Returns a number that tells conditions from others, for checkpoints.
+  [[nodiscard]] std::int64_t conditions() const;
+
   const cases::Case& setup_;
   std::filesystem::path folder_;
   Snapshots& snapshots_;
