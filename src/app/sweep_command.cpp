@@ -45,9 +45,10 @@ void claim_folder(const fs::path& folder, const fs::path& study) {
   const fs::path owner = folder / "study.txt";
   const std::string text = fs::canonical(study).string() + "\n";
   if (fs::exists(owner)) {
-    if (read_text(owner) == text) return;
+    const std::string other = read_text(owner);
+    if (other == text) return;
     throw InputError(fmt::format("{} is the folder of the study {}: give another one with -o",
-                                 folder.string(), read_text(owner).substr(0, read_text(owner).find('\n'))));
+                                 folder.string(), other.substr(0, other.find('\n'))));
   }
   const bool is_empty = std::ranges::all_of(
       fs::directory_iterator(folder),

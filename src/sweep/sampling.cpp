@@ -11,28 +11,33 @@
 namespace whipple::sweep {
 namespace {
 
+/// Holds the outputs at one x.
+struct Group {
+  double sum = 0.0, number = 0.0;
+};
+
+/// Returns the outputs by x, ascending.
+std::map<double, Group> groups(std::span<const double> x, std::span<const double> y) {
+  std::map<double, Group> of_value;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    of_value[x[i]].sum += y[i];
+    of_value[x[i]].number += 1.0;
+  }
+  return of_value;
+}
+
 /// Returns E(E(y | x)^2) from the means of y at equal x.
 double square_by_value(std::span<const double> x, std::span<const double> y) {
-  std::map<double, std::pair<double, double>> of_value;  // sum of y, and their number
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    of_value[x[i]].first += y[i];
-    of_value[x[i]].second += 1.0;
-  }
   double sum = 0.0;
-  for (const auto& [value, group] : of_value) sum += group.first * group.first / group.second;
+  for (const auto& [value, group] : groups(x, y)) sum += group.sum * group.sum / group.number;
   return sum / static_cast<double>(x.size());
 }
 
 /// Returns E(E(y | x)^2) from products of outputs that follow each other in the order of x. Outputs of one x, which
 /// differ by listed variables, count by their mean.
 double square_by_rank(std::span<const double> x, std::span<const double> y) {
-  std::map<double, std::pair<double, double>> of_value;  // sum of y, and their number
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    of_value[x[i]].first += y[i];
-    of_value[x[i]].second += 1.0;
-  }
   std::vector<double> means;
-  for (const auto& [value, group] : of_value) means.push_back(group.first / group.second);
+  for (const auto& [value, group] : groups(x, y)) means.push_back(group.sum / group.number);
   if (means.size() < 2) return std::numeric_limits<double>::quiet_NaN();
   return std::inner_product(means.begin(), means.end() - 1, means.begin() + 1, 0.0) /
          static_cast<double>(means.size() - 1);
