@@ -97,8 +97,8 @@ inline BrittleReturn brittle_return(double trial, double stiffness, const Brittl
 ///   surface(point) -> BrittleSurface              strength and failure strain at point.pressure, point.rate
 ///   least_pressure(point) -> double               Pa, <= 0, at point.damage
 ///   crushed_strain(point) -> double               strain that crushed pores add to the damage
-/// and optionally bulking (fraction of the lost shear energy that becomes pressure) or hardening(trial, stiffness,
-/// surface, point) -> BrittleReturn (strain hardening before any damage).
+/// and optionally keeps_strength (soils: no strain damages them), bulking (fraction of the lost shear energy that becomes
+/// pressure) or hardening(trial, stiffness, surface, point) -> BrittleReturn (strain hardening before any damage).
 template <class Law>
 class BrittleModel final : public Strength, public Brittle {
  public:
@@ -164,10 +164,10 @@ class BrittleModel final : public Strength, public Brittle {
       const BrittleReturn r = step(state.trial[i], stiffness, y, point);
       increment = r.increment;
       point.damage = r.damage;
-      // The stress of broken material is exactly that of its surface: without strength it has no stress at all.
-      const bool broken = increment > 0.0 && r.damage == 1.0;
-      state.equivalent[i] =
-          broken ? std::min(state.trial[i], y.strength(1.0)) : state.trial[i] - stiffness * increment;
+      // The stress of broken material and of soil is exactly that of its surface: without strength it has none at all.
+      const bool on_surface = increment > 0.0 && (r.damage == 1.0 || keeps_strength());
+      state.equivalent[i] = on_surface ? std::min(state.trial[i], y.strength(r.damage))
+                                       : state.trial[i] - stiffness * increment;
       if (increment > 0.0) state.bulking_pressure[i] = bulking_pressure(state, i, point, before, y);
     }
     state.plastic_increment[i] = increment;
@@ -175,10 +175,15 @@ class BrittleModel final : public Strength, public Brittle {
     state.damage[i] = point.damage;
     state.least_pressure[i] = law_.least_pressure(point);
   }
+  static constexpr bool keeps_strength() {
+    return requires { Law::keeps_strength; };
+  }
   BrittleReturn step(double trial, double stiffness, const BrittleSurface& y,
                      const BrittlePoint& point) const {
     if constexpr (requires { law_.hardening(trial, stiffness, y, point); }) {
       return law_.hardening(trial, stiffness, y, point);
+    } else if constexpr (keeps_strength()) {
+      return {std::max(0.0, trial - y.strength(point.damage)) / stiffness, point.damage};
     } else {
       return brittle_return(trial, stiffness, y, point.damage);
     }

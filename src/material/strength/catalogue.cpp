@@ -3,7 +3,9 @@
 
 #include <memory>
 
+#include "src/material/strength/drucker_prager.hpp"
 #include "src/material/strength/elastic.hpp"
+#include "src/material/strength/granular_flow.hpp"
 #include "src/material/strength/holmquist_johnson_cook.hpp"
 #include "src/material/strength/johnson_cook.hpp"
 #include "src/material/strength/johnson_holmquist_2.hpp"
@@ -48,6 +50,8 @@ const Catalogue<ModelEntry>& catalogue() {
                                              entry<HolmquistJohnsonCook, HolmquistJohnsonCookModel>(),
                                              entry<RiedelHiermaierThoma, RiedelHiermaierThomaModel>(),
                                              entry<JohnsonHolmquist2, JohnsonHolmquist2Model>(),
+                                             entry<DruckerPrager, DruckerPragerModel>(),
+                                             entry<GranularFlow, GranularFlowModel>(),
                                          });
   return all;
 }
