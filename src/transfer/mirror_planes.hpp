@@ -10,12 +10,12 @@
 namespace whipple::transfer {
 
 /// Nodes that an exchange between ranks divides: those that await results of other ranks
-/// (grid::BlockGrid::is_awaited), the others, or all.
-enum class Nodes : std::uint8_t { awaited, others, all };
+/// (grid::BlockGrid::is_awaited), and the others.
+enum class Nodes : std::uint8_t { awaited, others };
 
 /// Returns whether a node is among them; the same for a node and its mirror node.
 inline bool is_among(const grid::BlockGrid& grid, std::uint32_t node, Nodes nodes) {
-  return nodes == Nodes::all || grid.is_awaited(node) == (nodes == Nodes::awaited);
+  return grid.is_awaited(node) == (nodes == Nodes::awaited);
 }
 
 /// Mirror planes and walls where material is one with its image (docs/theory/mpm.md, 3): what particles brought beyond a
