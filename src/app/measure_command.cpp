@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "src/analysis/requests.hpp"
-#include "src/core/base/error.hpp"
+#include "src/core/base/json.hpp"
 
 namespace whipple::app {
 namespace {
@@ -56,7 +56,7 @@ void add_measure_command(CLI::App& app) {
       entry["meaning"] = quantity.meaning;
       if (!quantity.reason.empty()) entry["reason"] = quantity.reason;
     }
-    fmt::print("{}\n", all.dump(1));
+    fmt::print("{}\n", json_text(all, 1));
   });
 }
 

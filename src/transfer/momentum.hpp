@@ -17,7 +17,7 @@ constexpr double no_mass = 1e-300;  ///< kg; below it momentum / mass may overfl
 /// Rate at which a step relaxes the affine fields of the particles towards the grid velocity
 /// (docs/theory/mpm.md, 4).
 struct Relaxation {
-  /// beta = 1 - exp(-kappa c dt / dx) with the node's sound speed c; the same answer for every time step.
+  /// beta = 1 - exp(-kappa c dt / dx) with the node's sound speed c; the result is the same for every time step.
   double kappa = 0.2;
   /// beta itself, per step, instead: 0 is FLIP, 1 is APIC. Negative: use kappa.
   double fixed = -1.0;
