@@ -123,7 +123,7 @@ std::optional<Failure> first_failure(const Section& section) {
 }  // namespace
 
 double peak_stress(const Request& request) {
-  return forces_of(request).greatest() / (std::numbers::pi * *request.place * *request.place);
+  return forces_of(request).greatest() / (std::numbers::pi * request.place * request.place);
 }
 
 double neck_strain(const Request& request) {
@@ -173,7 +173,7 @@ double failure_triaxiality(const Request& request) {
 double shear_strength(const Request& request) {
   const RunTable gauges(request.folder / "gauges.csv");
   path_of(gauges, request.names[0]);
-  return forces_of(request).greatest() / (2.0 * std::numbers::pi * *request.place * *request.travel);
+  return forces_of(request).greatest() / (2.0 * std::numbers::pi * request.place * request.travel);
 }
 
 double shear_stroke(const Request& request) {
@@ -182,7 +182,7 @@ double shear_stroke(const Request& request) {
   const Forces push = forces_of(request);
   const double cut = time_of_half(push.time, push.force);
   if (punch.empty() || !std::isfinite(cut)) return nan;
-  return (value_at(cut, gauges["time"], punch) - punch.front()) / *request.travel;
+  return (value_at(cut, gauges["time"], punch) - punch.front()) / request.travel;
 }
 
 }  // namespace whipple::analysis

@@ -171,9 +171,9 @@ double integral(const std::vector<double>& time, const Value& value) {
 
 double wall_speed(const Request& request) {
   constexpr double window = 0.6e-3;  // m on either side: a polygon through particles is rough
-  const auto [times, radii] = path_of_wall(gauges_of(request), request.names[0], *request.place);
+  const auto [times, radii] = path_of_wall(gauges_of(request), request.names[0], request.place);
   if (radii.empty()) return nan;
-  const double wanted = radii.front() + *request.travel;
+  const double wanted = radii.front() + request.travel;
   return 2.0 * window /
          (on_polygon(wanted + window, radii, times) - on_polygon(wanted - window, radii, times));
 }
@@ -210,8 +210,8 @@ double run_distance(const Request& request) {
   const auto found = std::find_if(least, speeds.end(), [middle](double speed) { return speed >= middle; });
   if (found == speeds.end()) return nan;
   const auto i = static_cast<std::size_t>(found - speeds.begin());
-  if (found == least) return places[i] - *request.place;
-  return on_polygon(middle, {speeds[i - 1], speeds[i]}, {places[i - 1], places[i]}) - *request.place;
+  if (found == least) return places[i] - request.place;
+  return on_polygon(middle, {speeds[i - 1], speeds[i]}, {places[i - 1], places[i]}) - request.place;
 }
 
 double peak(const Request& request) { return greatest_of(of_gauge(request).value); }

@@ -97,18 +97,18 @@ double profile_error(const Request& request) {
 
 double jet_speed(const Request& request) {
   const std::optional<Particles> found = particles_of(request, whenever);
-  return found ? tip_speed(*found, *request.fraction) : nan;
+  return found ? tip_speed(*found, request.fraction) : nan;
 }
 
 double jet_gap(const Request& request) {
   const Run run = read_run(request.folder);
   const std::optional<Particles> found = particles_of(run, request.names[0], whenever);
   if (!found || found->mass.empty()) return nan;
-  const double tip = tip_speed(*found, *request.fraction);
+  const double tip = tip_speed(*found, request.fraction);
   const std::vector<std::size_t> order =
       descending(found->mass.size(), [&](std::size_t p) { return found->x[p]; });
   std::set<double> cells;
-  for (std::size_t i = place_of_fraction(*found, order, *request.fraction); i < order.size(); ++i) {
+  for (std::size_t i = place_of_fraction(*found, order, request.fraction); i < order.size(); ++i) {
     if (found->velocity[order[i]].x() >= 0.25 * tip)
       cells.insert(std::floor(found->x[order[i]] / run.cell_size));
   }
@@ -118,7 +118,7 @@ double jet_gap(const Request& request) {
 
 double jet_fraction(const Request& request) {
   const Run run = read_run(request.folder);
-  const std::optional<Particles> before = particles_of(run, request.names[0], *request.time),
+  const std::optional<Particles> before = particles_of(run, request.names[0], request.time),
                                  after = particles_of(run, request.names[0], whenever);
   if (!before || !after) return nan;
   const auto body = std::ranges::find(run.bodies, request.names[0], &BodyInput::name);
@@ -129,7 +129,7 @@ double jet_fraction(const Request& request) {
   const auto masses = [&](const Particles& particles) {
     Masses sum;
     for (std::size_t p = 0; p < particles.mass.size(); ++p) {
-      if (particles.velocity[p].x() > *request.speed) sum.jet += particles.mass[p];
+      if (particles.velocity[p].x() > request.speed) sum.jet += particles.mass[p];
       if (std::abs(particles.velocity[p].y()) < 0.5 * towards) sum.turned += particles.mass[p];
     }
     return sum;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,12 +16,20 @@ namespace whipple::analysis {
 struct Request {
   std::filesystem::path folder;      ///< of the run
   std::vector<std::string> names{};  ///< gauges, groups of tracers, bodies, quantities
-  std::optional<double> place{};     ///< m
-  std::optional<double> travel{};    ///< m
-  std::optional<double> speed{};     ///< m/s
-  std::optional<double> fraction{};  ///< 1
-  std::optional<double> time{};      ///< s
+  double place = nan;                ///< m
+  double travel = nan;               ///< m
+  double speed = nan;                ///< m/s
+  double fraction = nan;             ///< 1
+  double time = nan;                 ///< s
   std::filesystem::path table{};     ///< of an exact solution, or of a measured history
+};
+///< gauges, groups of tracers, bodies, quantities
+std::optional<double> place{};     ///< m
+std::optional<double> travel{};    ///< m
+std::optional<double> speed{};     ///< m/s
+std::optional<double> fraction{};  ///< 1
+std::optional<double> time{};      ///< s
+std::filesystem::path table{};     ///< of an exact solution, or of a measured history
 };
 
 /// Describes a measure on request.
