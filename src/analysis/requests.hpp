@@ -12,7 +12,7 @@
 /// Measures of a run that are taken on request, since they need names of gauges or bodies and parameters.
 namespace whipple::analysis {
 
-/// What a request names and gives; SI units.
+/// Names and parameters of a request; SI units.
 struct Request {
   std::filesystem::path folder;      ///< of the run
   std::vector<std::string> names{};  ///< gauges, groups of tracers, bodies, quantities
@@ -22,14 +22,6 @@ struct Request {
   double fraction = nan;             ///< 1
   double time = nan;                 ///< s
   std::filesystem::path table{};     ///< of an exact solution, or of a measured history
-};
-///< gauges, groups of tracers, bodies, quantities
-std::optional<double> place{};     ///< m
-std::optional<double> travel{};    ///< m
-std::optional<double> speed{};     ///< m/s
-std::optional<double> fraction{};  ///< 1
-std::optional<double> time{};      ///< s
-std::filesystem::path table{};     ///< of an exact solution, or of a measured history
 };
 
 /// Describes a measure on request.
