@@ -14,6 +14,7 @@
 
 #include "src/analysis/requests.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/base/tensor.hpp"
 #include "src/core/hdf5/hdf5.hpp"
 #include "tests/unit/temporary_folder.hpp"
 
