@@ -28,6 +28,7 @@
 #include "src/app/import_command.hpp"
 #include "src/app/materials_command.hpp"
 #include "src/app/md_command.hpp"
+#include "src/app/measure_command.hpp"
 #include "src/app/monitor_command.hpp"
 #include "src/app/report_command.hpp"
 #include "src/app/run_command.hpp"
@@ -80,6 +81,7 @@ int whipple_main(int argc, char** argv) {
   add_fit_command(app);
   add_compare_command(app);
   add_analyse_command(app);
+  add_measure_command(app);
   add_report_command(app);
   add_view_command(app);
   add_monitor_command(app);
