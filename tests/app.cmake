@@ -1,6 +1,7 @@
 # Tests of the command line and of the scripts.
 whipple_test(process_test SOURCES unit/process_run.cpp DEPENDS whipple_process LABELS fast)
 whipple_test(sweep_test SOURCES unit/sweep_test.cpp DEPENDS whipple_sweep LABELS fast)
+whipple_test(shields_test SOURCES unit/shields_equations_test.cpp unit/shields_cases_test.cpp DEPENDS whipple_shields whipple_case GTest::gmock LABELS fast)
 whipple_test(bench_test SOURCES unit/bench_reference_kernel_test.cpp DEPENDS whipple_bench LABELS fast)
 whipple_test(app_command_line_test SOURCES unit/app_command_line.cpp DEPENDS GTest::gmock nlohmann_json::nlohmann_json LABELS fast)
 whipple_test(app_planar_impact_test SOURCES unit/app_planar_impact_test.cpp unit/monitor_table_test.cpp DEPENDS whipple_app nlohmann_json::nlohmann_json LABELS fast)
