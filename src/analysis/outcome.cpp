@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <ranges>
 
 #include "src/analysis/measures.hpp"
 #include "src/core/base/error.hpp"
@@ -60,6 +61,7 @@ Judge::Judge(const Run& run, const Snapshot& first, const Frame& flight, const W
     volume += volumes[i];
   }
   const double diameter = diameter_of(run, first, flight);
+  window_ = rule::window * diameter;
   plug_ = mass / volume * wall.extent().length() * 0.25 * std::numbers::pi * diameter * diameter;
   verdict_.reason = "no snapshot was judged";
 }
@@ -77,19 +79,26 @@ double Judge::momentum_under_way(const Snapshot& snapshot) const {
   return sum;
 }
 
-/// Returns the root mean square of the axial speed of the remaining wall about its mean.
-double Judge::scatter_of_speed(const Snapshot& snapshot, const Wall::Remains& left) const {
-  double mass = 0.0, momentum = 0.0, square = 0.0;
+/// Returns the mean plastic strain of the remaining wall.
+double Judge::mean_strain(const Snapshot& snapshot, const Wall::Remains& left) {
+  const std::vector<double>& strain = *snapshot.scalar("plastic_strain");
+  double mass = 0.0, sum = 0.0;
   for (std::size_t i = 0; i < snapshot.size(); ++i) {
     if (left.wall[i] == 0) continue;
-    const double speed = wall_.frame().axial(snapshot.velocity[i]);
     mass += snapshot.mass[i];
-    momentum += snapshot.mass[i] * speed;
-    square += snapshot.mass[i] * speed * speed;
+    sum += snapshot.mass[i] * strain[i];
   }
-  if (!(mass > 0.0)) return 0.0;
-  const double mean = momentum / mass;
-  return std::sqrt(std::max(square / mass - mean * mean, 0.0));
+  return mass > 0.0 ? sum / mass : 0.0;
+}
+
+/// Returns whether the mean plastic strain has hardly grown over the window. A free wall keeps vibrating elastically, so
+/// that no speed tells when it has stopped.
+bool Judge::has_stopped(double time, double strain) {
+  strains_.emplace_back(time, strain);
+  const auto before = std::ranges::find_if(strains_ | std::views::reverse, [&](const auto& entry) {
+    return entry.first <= time - window_ * (1.0 - 1e-9);
+  });
+  return before != std::ranges::rend(strains_) && strain - before->second <= rule::growth * strain;
 }
 
 Judge::ComeOff Judge::come_off(const Snapshot& snapshot, const Wall::Remains& left) const {
@@ -162,15 +171,17 @@ void Judge::add(const Snapshot& snapshot, const Wall::Remains& left) {
     decide(Outcome::detached_spall, snapshot.time, tell_spall());
     return;
   }
-  const double scatter = scatter_of_speed(snapshot, left);
-  largest_scatter_ = std::max(largest_scatter_, scatter);
+  if (snapshot.scalar("plastic_strain") == nullptr) {
+    verdict_.reason = "the snapshots lack the field plastic_strain";
+    return;
+  }
   const double coming = momentum_under_way(snapshot) / momentum_;
   if (!(coming <= rule::under_way)) {
     verdict_.reason = fmt::format("{:.2g} of the projectile's momentum is still on its way", coming);
     return;
   }
-  if (!(scatter < rule::at_rest * largest_scatter_)) {
-    verdict_.reason = fmt::format("the wall still moves: {:.3g} m/s of {:.3g} m/s", scatter, largest_scatter_);
+  if (!has_stopped(snapshot.time, mean_strain(snapshot, left))) {
+    verdict_.reason = "the wall still deforms";
     return;
   }
   const Shape bent = shape(snapshot, left);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "src/analysis/wall.hpp"
@@ -30,7 +31,8 @@ constexpr double spall_share = 0.01;     ///< of the wall's plug of the projecti
 constexpr double spall_speed = 10.0;     ///< m/s, by which it leaves the wall
 constexpr double gap = 2.0;              ///< cells, least width of a gap
 constexpr double under_way = 0.01;       ///< of the projectile's momentum, that may still be on its way
-constexpr double at_rest = 0.05;         ///< of the largest scatter of the wall's axial speed, below which it has stopped
+constexpr double growth = 0.05;          ///< of the wall's mean plastic strain in the window, below which it has stopped
+constexpr double window = 5e-3;          ///< s/m, of that time over the diameter of the projectile
 constexpr double bulged = 0.1;           ///< of the thickness, least displacement of the rear face
 }  // namespace rule
 
@@ -75,7 +77,8 @@ class Judge {
   };
 
   [[nodiscard]] double momentum_under_way(const Snapshot& snapshot) const;
-  [[nodiscard]] double scatter_of_speed(const Snapshot& snapshot, const Wall::Remains& left) const;
+  [[nodiscard]] static double mean_strain(const Snapshot& snapshot, const Wall::Remains& left);
+  [[nodiscard]] bool has_stopped(double time, double strain);
   [[nodiscard]] ComeOff come_off(const Snapshot& snapshot, const Wall::Remains& left) const;
   [[nodiscard]] Shape shape(const Snapshot& snapshot, const Wall::Remains& left) const;
   void decide(Outcome outcome, double time, std::string reason) { verdict_ = {outcome, time, std::move(reason)}; }
@@ -86,7 +89,8 @@ class Judge {
   double debris_speed_ = 0.0;  // m/s
   double momentum_ = 0.0;      // kg m/s, of the projectile along the wall's axis
   double plug_ = 0.0;          // kg, of the wall under the projectile
-  double largest_scatter_ = 0.0;
+  double window_ = 0.0;        // s
+  std::vector<std::pair<double, double>> strains_;  // times (s) and mean plastic strains since the debris has come
   Verdict verdict_;
 };
 

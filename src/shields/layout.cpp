@@ -132,7 +132,7 @@ Layout layout_of(const Impact& impact, const CaseOptions& options) {
 std::string not_resolved(const Layout& layout) {
   std::string text;
   for (const Plate& plate : layout.plates) {
-    if (!plate.resolved) text += fmt::format("{}{} ({:.2g} cells)", text.empty() ? "" : ", ", plate.name, plate.cells);
+    if (!plate.resolved) text += fmt::format("{}{} ({:.3g} cells)", text.empty() ? "" : ", ", plate.name, plate.cells);
   }
   return text;
 }

@@ -123,7 +123,7 @@ TEST(Layout, CellsComeFromSphereSheetsAndCap) {
   EXPECT_THAT(layout.chosen_by, HasSubstr("cap of 32"));
   EXPECT_FALSE(layout.plates[0].resolved);
   EXPECT_TRUE(layout.plates[1].resolved);
-  EXPECT_THAT(not_resolved(layout), HasSubstr("bumper (1 cells)"));
+  EXPECT_THAT(not_resolved(layout), HasSubstr("bumper (1.01 cells)"));
   layout = layout_of(impact, {.cell_size = 0.05e-3});
   EXPECT_TRUE(layout.plates[0].resolved);
   EXPECT_EQ(not_resolved(layout), "");
