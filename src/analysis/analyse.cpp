@@ -49,10 +49,10 @@ struct Start {
   std::vector<Extent> extents;        ///< of each body, along the axis
   std::optional<std::size_t> target;  ///< the first body that the projectile hits
   double projectile_mass = 0.0, projectile_radius = 0.0, particle_mass = 0.0;
-  std::vector<std::optional<Wall>> walls;  ///< of the bodies that may be perforated
+  std::vector<std::optional<Wall>> walls;    ///< of the bodies that may be perforated
   std::vector<std::optional<Judge>> judges;  ///< of these
-  bool planar = false;                     ///< planar impact: there are no craters or holes
-  std::vector<std::uint64_t> near_axis;    ///< particles starting within a quarter of the projectile radius
+  bool planar = false;                       ///< planar impact: there are no craters or holes
+  std::vector<std::uint64_t> near_axis;      ///< particles starting within a quarter of the projectile radius
 };
 
 /// Returns whether all bodies fill the cross-section of the domain, as in a planar impact.

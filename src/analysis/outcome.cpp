@@ -21,7 +21,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Returns the smallest extent of the projectile by its shape, otherwise that of its particles along the flight.
 double diameter_of(const Run& run, const Snapshot& first, const Frame& flight) {
   const BodyInput& body = run.bodies[flight.projectile];
-  return std::isfinite(body.size) ? body.size : axial_extent(first, flight, flight.projectile, body.spacing).length();
+  return std::isfinite(body.size) ? body.size
+                                  : axial_extent(first, flight, flight.projectile, body.spacing).length();
 }
 
 /// Holds sums over the particles of the remaining wall in each cell over its face.
@@ -191,7 +192,8 @@ void Judge::add(const Snapshot& snapshot, const Wall::Remains& left) {
     decide(Outcome::attached_spall, snapshot.time,
            fmt::format("it has opened inside over {:.3g} mm^2", 1e6 * bent.open_area));
   } else if (bent.bulge > std::max(rule::bulged * thickness, cell_)) {
-    decide(Outcome::bulge, snapshot.time, fmt::format("its rear face stands out by {:.3g} mm", 1e3 * bent.bulge));
+    decide(Outcome::bulge, snapshot.time,
+           fmt::format("its rear face stands out by {:.3g} mm", 1e3 * bent.bulge));
   } else {
     decide(Outcome::whole, snapshot.time, fmt::format("it has stopped, {:.3g} mm out", 1e3 * bent.bulge));
   }
@@ -204,7 +206,8 @@ Quantities Judge::measures() const {
 }
 
 Verdict judge(const Run& run, const std::string& body) {
-  if (run.snapshots.empty()) throw InputError(fmt::format("{}: error: has no snapshots", run.folder.string()));
+  if (run.snapshots.empty())
+    throw InputError(fmt::format("{}: error: has no snapshots", run.folder.string()));
   const auto found = std::ranges::find(run.bodies, body, &BodyInput::name);
   if (found == run.bodies.end()) {
     std::string names;

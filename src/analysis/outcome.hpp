@@ -27,13 +27,15 @@ constexpr std::array<Word<Outcome>, 6> words(Outcome) {
 
 /// Holds the constants of the rule.
 namespace rule {
-constexpr double spall_share = 0.01;     ///< of the wall's plug of the projectile's diameter: least mass that has come off
-constexpr double spall_speed = 10.0;     ///< m/s, by which it leaves the wall
-constexpr double gap = 2.0;              ///< cells, least width of a gap
-constexpr double under_way = 0.01;       ///< of the projectile's momentum, that may still be on its way
-constexpr double growth = 0.05;          ///< of the wall's mean plastic strain in the window, below which it has stopped
-constexpr double window = 5e-3;          ///< s/m, of that time over the diameter of the projectile
-constexpr double bulged = 0.1;           ///< of the thickness, least displacement of the rear face
+constexpr double spall_share =
+    0.01;  ///< of the wall's plug of the projectile's diameter: least mass that has come off
+constexpr double spall_speed = 10.0;  ///< m/s, by which it leaves the wall
+constexpr double gap = 2.0;           ///< cells, least width of a gap
+constexpr double under_way = 0.01;    ///< of the projectile's momentum, that may still be on its way
+constexpr double growth =
+    0.05;  ///< of the wall's mean plastic strain in the window, below which it has stopped
+constexpr double window = 5e-3;  ///< s/m, of that time over the diameter of the projectile
+constexpr double bulged = 0.1;   ///< of the thickness, least displacement of the rear face
 }  // namespace rule
 
 /// Holds what became of a wall, when that was decided (s), and why.
@@ -81,7 +83,9 @@ class Judge {
   [[nodiscard]] bool has_stopped(double time, double strain);
   [[nodiscard]] ComeOff come_off(const Snapshot& snapshot, const Wall::Remains& left) const;
   [[nodiscard]] Shape shape(const Snapshot& snapshot, const Wall::Remains& left) const;
-  void decide(Outcome outcome, double time, std::string reason) { verdict_ = {outcome, time, std::move(reason)}; }
+  void decide(Outcome outcome, double time, std::string reason) {
+    verdict_ = {outcome, time, std::move(reason)};
+  }
 
   const Wall& wall_;
   std::string body_;
@@ -90,7 +94,8 @@ class Judge {
   double momentum_ = 0.0;      // kg m/s, of the projectile along the wall's axis
   double plug_ = 0.0;          // kg, of the wall under the projectile
   double window_ = 0.0;        // s
-  std::vector<std::pair<double, double>> strains_;  // times (s) and mean plastic strains since the debris has come
+  std::vector<std::pair<double, double>>
+      strains_;  // times (s) and mean plastic strains since the debris has come
   Verdict verdict_;
 };
 

@@ -27,7 +27,7 @@ class Wall {
 
   /// Describes the remaining wall: the material that closes it, or, if perforated, the pieces attached to its rim.
   struct Remains {
-    std::string undecided;            ///< why nothing can be decided; empty: it can
+    std::string undecided;  ///< why nothing can be decided; empty: it can
     bool closed = false;
     std::vector<std::uint8_t> wall;   ///< 1: the particle belongs to it
     Vector3 shift = Vector3::Zero();  ///< displacement of the wall across the axis, m

@@ -55,7 +55,7 @@ void wait_passively(char** arguments) {
 /// Returns whether a subcommand uses threads.
 bool has_threads(std::string_view command) {
   constexpr std::array<std::string_view, 7> commands = {"run",  "check", "analyse", "report",
-                                                       "view", "bench", "shield"};
+                                                        "view", "bench", "shield"};
   return std::ranges::find(commands, command) != commands.end();
 }
 

@@ -64,7 +64,8 @@ std::vector<shields::Shot> read_input(const ShieldArguments& arguments) {
   for (const std::string& name : arguments.shots) {
     const auto found = std::ranges::find(names, name);
     if (found == names.end())
-      throw InputError(fmt::format("{} has no shot \"{}\"{}", file.string(), name, did_you_mean(name, names)));
+      throw InputError(
+          fmt::format("{} has no shot \"{}\"{}", file.string(), name, did_you_mean(name, names)));
     if (std::ranges::count(names, name) > 1)
       throw InputError(fmt::format("{} has several shots \"{}\"", file.string(), name));
     chosen.push_back(all[static_cast<std::size_t>(found - names.begin())]);
@@ -73,7 +74,8 @@ std::vector<shields::Shot> read_input(const ShieldArguments& arguments) {
 }
 
 shields::CaseOptions case_options(const ShieldArguments& arguments) {
-  shields::CaseOptions options{.model = arguments.model, .cell_size = {}, .most_across = arguments.most_across};
+  shields::CaseOptions options{
+      .model = arguments.model, .cell_size = {}, .most_across = arguments.most_across};
   if (!arguments.cell_size.empty())
     options.cell_size = option_quantity("--cell-size", arguments.cell_size, "m", range::positive());
   return options;
@@ -95,7 +97,8 @@ Json equations_as_json(const shields::Impact& impact) {
   for (const auto& word : words(shields::Equation{})) {
     const std::string reason = shields::reason_against(word.value, impact);
     Json& entry = all[std::string(word.text)];
-    entry["critical_diameter"] = reason.empty() ? Json(shields::critical_diameter(word.value, impact)) : Json(nullptr);
+    entry["critical_diameter"] =
+        reason.empty() ? Json(shields::critical_diameter(word.value, impact)) : Json(nullptr);
     if (!reason.empty()) entry["reason"] = reason;
   }
   return all;
@@ -107,10 +110,14 @@ Json case_as_json(const Planned& planned) {
   Json sheets = Json::array();
   for (const shields::Plate& plate : layout.plates)
     sheets.push_back({{"name", plate.name}, {"cells", plate.cells}, {"resolved", plate.resolved}});
-  return {{"model", word_of(layout.model)},      {"cell_size", layout.cell_size},
-          {"chosen_by", layout.chosen_by},       {"cells_across_sphere", layout.cells_across},
-          {"sheets", sheets},                    {"resolved", shields::not_resolved(layout).empty()},
-          {"particles", std::round(layout.particles)}, {"end", layout.end},
+  return {{"model", word_of(layout.model)},
+          {"cell_size", layout.cell_size},
+          {"chosen_by", layout.chosen_by},
+          {"cells_across_sphere", layout.cells_across},
+          {"sheets", sheets},
+          {"resolved", shields::not_resolved(layout).empty()},
+          {"particles", std::round(layout.particles)},
+          {"end", layout.end},
           {"materials", shields::remarks_on_materials(planned.shot.impact)}};
 }
 
@@ -118,9 +125,8 @@ Json as_json(const Planned& planned) {
   const shields::Impact& impact = planned.shot.impact;
   Json bumpers = Json::array();
   for (const shields::Bumper& bumper : impact.shield.bumpers)
-    bumpers.push_back({{"alloy", bumper.sheet.alloy},
-                       {"thickness", bumper.sheet.thickness},
-                       {"spacing", bumper.spacing}});
+    bumpers.push_back(
+        {{"alloy", bumper.sheet.alloy}, {"thickness", bumper.sheet.thickness}, {"spacing", bumper.spacing}});
   return {{"name", impact.name},
           {"source", planned.shot.source},
           {"result", planned.shot.result ? Json(word_of(*planned.shot.result)) : Json(nullptr)},
@@ -139,8 +145,9 @@ Json as_json(const Planned& planned) {
 void print_plan(const std::vector<Planned>& all) {
   for (const Planned& planned : all) {
     const shields::Impact& impact = planned.shot.impact;
-    fmt::print("{}{:.4g} mm {} sphere, {:.4g} km/s, {:.3g} degrees{}\n", impact.name + (impact.name.empty() ? "" : ": "),
-               1e3 * impact.projectile.diameter, impact.projectile.alloy, 1e-3 * impact.projectile.velocity,
+    fmt::print("{}{:.4g} mm {} sphere, {:.4g} km/s, {:.3g} degrees{}\n",
+               impact.name + (impact.name.empty() ? "" : ": "), 1e3 * impact.projectile.diameter,
+               impact.projectile.alloy, 1e-3 * impact.projectile.velocity,
                impact.projectile.angle * 180.0 / std::numbers::pi,
                planned.shot.result ? fmt::format(", measured {}", word_of(*planned.shot.result)) : "");
     std::vector<std::vector<std::string>> rows;
@@ -148,7 +155,8 @@ void print_plan(const std::vector<Planned>& all) {
       if (!shields::reason_against(word.value, impact).empty()) continue;
       const double d = shields::critical_diameter(word.value, impact);
       rows.push_back({"  " + std::string(word.text), fmt::format("{:.4g} mm", 1e3 * d),
-                      impact.projectile.diameter > d ? "P" : "NP", std::string(shields::source_of(word.value))});
+                      impact.projectile.diameter > d ? "P" : "NP",
+                      std::string(shields::source_of(word.value))});
     }
     fmt::print("{}", text_table(rows, "lrll"));
     if (!planned.refused.empty()) {
@@ -157,7 +165,8 @@ void print_plan(const std::vector<Planned>& all) {
     }
     const shields::Layout& layout = planned.layout;
     std::vector<std::string> cells;
-    for (const shields::Plate& plate : layout.plates) cells.push_back(fmt::format("{} {:.3g}", plate.name, plate.cells));
+    for (const shields::Plate& plate : layout.plates)
+      cells.push_back(fmt::format("{} {:.3g}", plate.name, plate.cells));
     fmt::print("  case: {}, cells of {:.4g} mm ({}): sphere {:.3g}, {}; about {:.0f} particles\n",
                word_of(layout.model), 1e3 * layout.cell_size, layout.chosen_by, layout.cells_across,
                fmt::join(cells, ", "), layout.particles);
@@ -169,7 +178,8 @@ void print_plan(const std::vector<Planned>& all) {
 
 /// Writes a file of a folder that did not exist before.
 void write_new(const fs::path& folder, const char* name, const std::string& text) {
-  if (fs::exists(folder)) throw InputError(fmt::format("{} exists: give another folder with -o", folder.string()));
+  if (fs::exists(folder))
+    throw InputError(fmt::format("{} exists: give another folder with -o", folder.string()));
   make_folder(folder);
   write_text_atomically(folder / name, text);
 }
@@ -178,9 +188,11 @@ void write_new(const fs::path& folder, const char* name, const std::string& text
 std::string folder_name(const shields::Shot& shot) {
   std::string name = shot.source.empty() ? shot.impact.name : shot.source + "_" + shot.impact.name;
   const auto keep = [](char c) {
-    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' || c == '_' || c == '.';
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' ||
+           c == '_' || c == '.';
   };
-  std::ranges::replace_if(name, [&](char c) { return !keep(c); }, '_');
+  std::ranges::replace_if(
+      name, [&](char c) { return !keep(c); }, '_');
   return name;
 }
 
@@ -191,7 +203,8 @@ void write_cases(const std::vector<Planned>& all, const fs::path& output, bool d
     if (!planned.refused.empty()) faults.push_back({.text = planned.refused});
     names.push_back(folder_name(planned.shot));
     if (all.size() > 1 && (names.back().empty() || std::ranges::count(names, names.back()) > 1))
-      faults.push_back({.text = fmt::format("several shots \"{}\": a folder needs a name of its own", names.back())});
+      faults.push_back(
+          {.text = fmt::format("several shots \"{}\": a folder needs a name of its own", names.back())});
   }
   if (!faults.empty()) throw InputError(std::move(faults));
   for (std::size_t k = 0; k < all.size(); ++k) {
@@ -225,8 +238,8 @@ void write_limit(const ShieldArguments& arguments, const shields::Shot& shot) {
   const fs::path folder = arguments.output;
   const std::string text = shields::case_text(impact, layout);
   const std::string study = shields::study_text(impact, layout, speeds, between);
-  fmt::print("spheres of {:.4g} to {:.4g} mm, cells of {:.4g} and {:.4g} mm\n", 1e3 * between[0], 1e3 * between[1],
-             1e3 * layout.cell_size, 1e3 * layout.cell_size / 1.4);
+  fmt::print("spheres of {:.4g} to {:.4g} mm, cells of {:.4g} and {:.4g} mm\n", 1e3 * between[0],
+             1e3 * between[1], 1e3 * layout.cell_size, 1e3 * layout.cell_size / 1.4);
   if (!arguments.dry_run) {
     write_new(folder, "case.toml", text);
     write_text_atomically(folder / "study.toml", study);
@@ -248,8 +261,8 @@ void print_outcome(const ShieldArguments& arguments) {
     fmt::print("{}\n", result.dump(1));
     return;
   }
-  fmt::print("{}: {}{}: {}\n", arguments.body, word, decided ? fmt::format(" at {:.4g} us", 1e6 * verdict.time) : "",
-             verdict.reason);
+  fmt::print("{}: {}{}: {}\n", arguments.body, word,
+             decided ? fmt::format(" at {:.4g} us", 1e6 * verdict.time) : "", verdict.reason);
 }
 
 void run_shield(const ShieldArguments& arguments) {
@@ -283,19 +296,28 @@ void add_shield_command(CLI::App& app) {
   auto arguments = std::make_shared<ShieldArguments>();
   CLI::App* command = app.add_subcommand(
       "shield", "Shields: critical diameters by equations, cases of shots, outcome of a run");
-  command->add_option("input", arguments->input, "A shield (SHIELD.toml), a table of shots (SHOTS.csv), or a run")
+  command
+      ->add_option("input", arguments->input,
+                   "A shield (SHIELD.toml), a table of shots (SHOTS.csv), or a run")
       ->required();
   command->add_option("-o,--output", arguments->output, "Folder of the case, or of one case for each shot");
-  command->add_option("--shot", arguments->shots, "This row of the table alone: SHOT, or SOURCE/SHOT where the table names sources (repeatable)")->allow_extra_args(false);
-  add_word_option(*command, "--model", arguments->model,
-                  "section: through the axis, normal impact (default) | space: a quarter, or half if oblique");
-  command->add_option("--cell-size", arguments->cell_size, "Edge of the cells (default: by sphere and sheets)")
+  command
+      ->add_option(
+          "--shot", arguments->shots,
+          "This row of the table alone: SHOT, or SOURCE/SHOT where the table names sources (repeatable)")
+      ->allow_extra_args(false);
+  add_word_option(
+      *command, "--model", arguments->model,
+      "section: through the axis, normal impact (default) | space: a quarter, or half if oblique");
+  command
+      ->add_option("--cell-size", arguments->cell_size, "Edge of the cells (default: by sphere and sheets)")
       ->type_name("LENGTH");
   command->add_option("--most-across", arguments->most_across, "Most cells across the sphere by that rule")
       ->check(CLI::Range(4.0, 1000.0))
       ->capture_default_str();
-  command->add_option("--limit", arguments->speeds,
-                      "Write the study of the critical diameter at this speed instead (repeatable)")
+  command
+      ->add_option("--limit", arguments->speeds,
+                   "Write the study of the critical diameter at this speed instead (repeatable)")
       ->type_name("SPEED")
       ->allow_extra_args(false);
   command->add_flag("--outcome", arguments->outcome, "What became of the wall of a run, when and why");

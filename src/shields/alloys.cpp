@@ -79,8 +79,8 @@ std::string_view material_of(std::string_view name) {
   for (const Alloy& other : table) {
     if (!other.material.empty()) accepted += fmt::format("\n  {}: {}", other.name, other.material);
   }
-  throw InputError(
-      fmt::format("the library has no material for the alloy \"{}\"; alloys with a material:{}", name, accepted));
+  throw InputError(fmt::format("the library has no material for the alloy \"{}\"; alloys with a material:{}",
+                               name, accepted));
 }
 
 }  // namespace whipple::shields

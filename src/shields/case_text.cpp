@@ -29,22 +29,26 @@ std::string heading_of(const Impact& impact) {
                           1e3 * bumper.spacing);
   sheets += fmt::format("{:.4g} mm {}", 1e3 * impact.shield.wall.thickness, impact.shield.wall.alloy);
   const double angle = sphere.angle * 180.0 / std::numbers::pi;
-  return fmt::format("{}{}{:.4g} mm {} sphere at {:.4g} km/s{} on {}", impact.name, impact.name.empty() ? "" : ": ",
-                     1e3 * sphere.diameter, sphere.alloy, 1e-3 * sphere.velocity,
-                     angle > 0.0 ? fmt::format(", {:.3g} degrees", angle) : "", sheets);
+  return fmt::format("{}{}{:.4g} mm {} sphere at {:.4g} km/s{} on {}", impact.name,
+                     impact.name.empty() ? "" : ": ", 1e3 * sphere.diameter, sphere.alloy,
+                     1e-3 * sphere.velocity, angle > 0.0 ? fmt::format(", {:.3g} degrees", angle) : "",
+                     sheets);
 }
 
 std::string body_text(const std::string& name, std::string_view material, const std::string& shape,
                       const std::string& rest = "") {
-  return fmt::format("\n[[body]]\nname = \"{}\"\nmaterial = \"{}\"\n{}shape = {{ {} }}\n", name, material, rest, shape);
+  return fmt::format("\n[[body]]\nname = \"{}\"\nmaterial = \"{}\"\n{}shape = {{ {} }}\n", name, material,
+                     rest, shape);
 }
 
 std::string plate_shape(const Plate& plate, bool oblique) {
   if (oblique)
-    return fmt::format("box = {{ lower = {}, upper = {} }}", point({plate.along[0], -plate.radius, plate.front}),
+    return fmt::format("box = {{ lower = {}, upper = {} }}",
+                       point({plate.along[0], -plate.radius, plate.front}),
                        point({plate.along[1], plate.radius, plate.front + plate.thickness}));
   return fmt::format("cylinder = {{ center = {}, axis = \"z\", radius = {}, height = {} }}",
-                     point({0.0, 0.0, plate.front + 0.5 * plate.thickness}), mm(plate.radius), mm(plate.thickness));
+                     point({0.0, 0.0, plate.front + 0.5 * plate.thickness}), mm(plate.radius),
+                     mm(plate.thickness));
 }
 
 std::string domain_text(const Layout& layout, bool oblique) {
@@ -53,7 +57,8 @@ std::string domain_text(const Layout& layout, bool oblique) {
   text += fmt::format("lower = {}\nupper = {}\ncell_size = {}\n", point(layout.lower), point(layout.upper),
                       mm(layout.cell_size));
   if (layout.model == Model::space)
-    text += fmt::format("boundary = {{ {}y_lower = \"symmetry\" }}\n", oblique ? "" : "x_lower = \"symmetry\", ");
+    text +=
+        fmt::format("boundary = {{ {}y_lower = \"symmetry\" }}\n", oblique ? "" : "x_lower = \"symmetry\", ");
   return text;
 }
 
@@ -75,8 +80,8 @@ std::string case_text(const Impact& impact, const Layout& layout) {
   text += domain_text(layout, oblique);
   text += fmt::format("\n[time]\nend = {}\n", us(layout.end));
   text += body_text("sphere", material_of(sphere.alloy),
-                    fmt::format("sphere = {{ center = {}, radius = {} }}", point({0.0, 0.0, -0.5 * sphere.diameter}),
-                                mm(0.5 * sphere.diameter)),
+                    fmt::format("sphere = {{ center = {}, radius = {} }}",
+                                point({0.0, 0.0, -0.5 * sphere.diameter}), mm(0.5 * sphere.diameter)),
                     fmt::format("velocity = [\"{:.8g} m/s\", \"0 m/s\", \"{:.8g} m/s\"]\n", v_x, v_z));
   for (std::size_t k = 0; k < layout.plates.size(); ++k) {
     const Plate& plate = layout.plates[k];
@@ -84,7 +89,8 @@ std::string case_text(const Impact& impact, const Layout& layout) {
   }
   text += "\n[[stop]]\nwhen = \"decided\"  # docs/manual/shields.md, \"Outcome\"\nbody = \"wall\"\n";
   text += fmt::format(
-      "\n[output]\nsnapshot_every = {}\nfields = [\"density\", \"temperature\", \"plastic_strain\", \"failed\"]\n",
+      "\n[output]\nsnapshot_every = {}\nfields = [\"density\", \"temperature\", \"plastic_strain\", "
+      "\"failed\"]\n",
       us(layout.snapshot_every));
   return text;
 }

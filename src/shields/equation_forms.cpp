@@ -11,7 +11,9 @@ namespace whipple::shields::forms {
 namespace {
 
 /// Returns the cosine of the angle; more oblique impacts count as 65 degrees (NASA/TM-2009-214785).
-double capped_cosine(const Input& in) { return std::cos(std::min(in.angle, 65.0) * std::numbers::pi / 180.0); }
+double capped_cosine(const Input& in) {
+  return std::cos(std::min(in.angle, 65.0) * std::numbers::pi / 180.0);
+}
 
 double cosine(const Input& in) { return std::cos(in.angle * std::numbers::pi / 180.0); }
 
@@ -108,9 +110,8 @@ Input input_of(const Impact& impact) {
 double single_wall(const Input& in, double k) {
   constexpr double sound_speed = 5.1;
   const double ratio = in.rho_p / in.rho_w;
-  const double crater =
-      5.24 * std::pow(in.hardness, -0.25) * std::pow(ratio, ratio < 1.5 ? 0.5 : 2.0 / 3.0) *
-      std::pow(in.v * cosine(in) / sound_speed, 2.0 / 3.0);
+  const double crater = 5.24 * std::pow(in.hardness, -0.25) * std::pow(ratio, ratio < 1.5 ? 0.5 : 2.0 / 3.0) *
+                        std::pow(in.v * cosine(in) / sound_speed, 2.0 / 3.0);
   return std::pow(in.t_w / (k * crater), 18.0 / 19.0);
 }
 
@@ -145,8 +146,8 @@ double srl_2008(const Input& in) {
   const double delta = steep ? 4.0 / 3.0 : 5.0 / 4.0, epsilon = steep ? 8.0 / 3.0 : 5.0 / 2.0;
   const auto low = [=](const Input& at) {
     const double resistance = (std::sqrt(at.t_w) + at.t_b2) / 1.4 * std::sqrt(at.sigma / 40.0) + at.t_b;
-    return std::pow(
-        resistance / (0.6 * std::pow(c, delta) * std::sqrt(at.rho_p) * std::pow(at.v, 2.0 / 3.0)), 18.0 / 19.0);
+    return std::pow(resistance / (0.6 * std::pow(c, delta) * std::sqrt(at.rho_p) * std::pow(at.v, 2.0 / 3.0)),
+                    18.0 / 19.0);
   };
   const auto high = [=](const Input& at) {
     const double spread = std::cbrt(at.spacing) * std::pow(at.t_b2 + 1.5 * at.t_w, 2.0 / 3.0) +
@@ -179,11 +180,13 @@ double foam_2009(const Input& in) {
   const auto low = [=](const Input& at) {
     const double resistance =
         at.t_b + at.t_w * std::sqrt(at.sigma / 40.0) + std::pow(at.spacing, 1.1) * at.rho_foam / at.rho_w;
-    return 1.83 * resistance / std::pow(std::sqrt(at.rho_p) * std::pow(at.v, 2.0 / 3.0) * oblique, 18.0 / 19.0);
+    return 1.83 * resistance /
+           std::pow(std::sqrt(at.rho_p) * std::pow(at.v, 2.0 / 3.0) * oblique, 18.0 / 19.0);
   };
   const auto high = [=](const Input& at) {
     const double wall = at.t_w + 0.5 * at.rho_foam * at.spacing / at.rho_w;
-    return 2.152 * std::pow(wall, 2.0 / 3.0) * 0.89 * std::pow(at.spacing, 0.45) * std::cbrt(at.sigma / 70.0) /
+    return 2.152 * std::pow(wall, 2.0 / 3.0) * 0.89 * std::pow(at.spacing, 0.45) *
+           std::cbrt(at.sigma / 70.0) /
            (std::cbrt(at.rho_p) * std::pow(at.rho_b, 1.0 / 9.0) * std::pow(at.v, 0.4) * oblique);
   };
   return joined(in, 2.25 / std::cbrt(c), 4.0 / std::cbrt(c), low, high);

@@ -9,18 +9,18 @@ namespace whipple::shields::forms {
 
 /// Holds an impact in these units.
 struct Input {
-  double v = 0.0;                      ///< speed, km/s
-  double angle = 0.0;                  ///< degree
-  double rho_p = 0.0;                  ///< of the projectile, g/cm^3
-  double t_b = 0.0, rho_b = 0.0;       ///< of the first bumper
-  double spacing = 0.0;                ///< from the first bumper to the next sheet, cm
-  double t_b2 = 0.0, rho_b2 = 0.0;     ///< of the second bumper
-  double spacing_2 = 0.0;              ///< from there to the wall, cm
-  double t_w = 0.0, rho_w = 0.0;       ///< of the wall
-  double sigma = 0.0;                  ///< yield stress of the wall, ksi
-  double hardness = 0.0;               ///< of the wall, Brinell
-  double ad_stuffing = 0.0;            ///< areal density of fabric, g/cm^2
-  double rho_foam = 0.0;               ///< g/cm^3
+  double v = 0.0;                   ///< speed, km/s
+  double angle = 0.0;               ///< degree
+  double rho_p = 0.0;               ///< of the projectile, g/cm^3
+  double t_b = 0.0, rho_b = 0.0;    ///< of the first bumper
+  double spacing = 0.0;             ///< from the first bumper to the next sheet, cm
+  double t_b2 = 0.0, rho_b2 = 0.0;  ///< of the second bumper
+  double spacing_2 = 0.0;           ///< from there to the wall, cm
+  double t_w = 0.0, rho_w = 0.0;    ///< of the wall
+  double sigma = 0.0;               ///< yield stress of the wall, ksi
+  double hardness = 0.0;            ///< of the wall, Brinell
+  double ad_stuffing = 0.0;         ///< areal density of fabric, g/cm^2
+  double rho_foam = 0.0;            ///< g/cm^3
 
   /// Returns the impact with its speed replaced.
   [[nodiscard]] Input at(double speed) const {

@@ -39,15 +39,18 @@ std::string_view source_of(Equation equation) {
     case Equation::nno_2001:
       return "Whipple shield: Christiansen and Kerr (2001); one bumper, angles above 65 degrees count as 65";
     case Equation::jsc_2011:
-      return "Whipple shield with thin bumpers: Ryan and Christiansen (2011); one bumper, angles above 65 degrees "
+      return "Whipple shield with thin bumpers: Ryan and Christiansen (2011); one bumper, angles above 65 "
+             "degrees "
              "count as 65";
     case Equation::srl_2008:
-      return "three sheets: Schaefer, Ryan, Lambert and Putzar (2008); two bumpers, angles above 65 degrees count "
+      return "three sheets: Schaefer, Ryan, Lambert and Putzar (2008); two bumpers, angles above 65 degrees "
+             "count "
              "as 65";
     case Equation::stuffed_2001:
       return "stuffed Whipple shield: Christiansen and Kerr (2001); one bumper and fabric";
     case Equation::foam_2009:
-      return "foam panel: Ryan, Ordonez, Christiansen and Lear (2009); two sheets, 12 to 52 mm of foam between them";
+      return "foam panel: Ryan, Ordonez, Christiansen and Lear (2009); two sheets, 12 to 52 mm of foam "
+             "between them";
   }
   throw InternalError("no such equation");
 }
@@ -61,7 +64,8 @@ std::string reason_against(Equation equation, const Impact& impact) {
   const bool stuffed = shield.stuffing.areal_density > 0.0, foam = shield.foam.density > 0.0;
   if (stuffed != (equation == Equation::stuffed_2001))
     return stuffed ? "the shield is stuffed" : "the shield has no stuffing";
-  if (foam != (equation == Equation::foam_2009)) return foam ? "the shield has foam" : "the shield has no foam";
+  if (foam != (equation == Equation::foam_2009))
+    return foam ? "the shield has foam" : "the shield has no foam";
   if (foam) {
     const double thickness = shield.bumpers[0].spacing;
     if (thickness < foam_thinnest || thickness > foam_thickest)
@@ -108,9 +112,10 @@ Design whipple_design(const Impact& impact) {
   const forms::Input in = forms::input_of(impact);
   const double v_n = in.v * std::cos(impact.projectile.angle), d = 100.0 * impact.projectile.diameter;
   if (v_n < 7.0)
-    throw InputError(fmt::format(
-        "the design of a Whipple shield does not apply: it is for 7 km/s along the normal and more, this is {:.4g}",
-        v_n));
+    throw InputError(
+        fmt::format("the design of a Whipple shield does not apply: it is for 7 km/s along the normal and "
+                    "more, this is {:.4g}",
+                    v_n));
   const double mass = std::numbers::pi / 6.0 * d * d * d * in.rho_p;
   const double share = in.spacing / d < 30.0 ? 0.25 : 0.20;
   const double wall = 0.16 * std::sqrt(d) * std::pow(in.rho_p * in.rho_b, 1.0 / 6.0) * std::cbrt(mass) * v_n /

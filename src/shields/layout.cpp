@@ -33,8 +33,8 @@ void choose_cells(const Impact& impact, const CaseOptions& options, Layout& layo
   for (const Bumper& bumper : impact.shield.bumpers) need(bumper.sheet.thickness, cells_per_bumper, "bumper");
   need(impact.shield.wall.thickness, cells_per_wall, "wall");
   if (layout.cell_size < d / options.most_across) {
-    layout.chosen_by = fmt::format("cap of {} cells across the sphere instead of {}", options.most_across,
-                                   layout.chosen_by);
+    layout.chosen_by =
+        fmt::format("cap of {} cells across the sphere instead of {}", options.most_across, layout.chosen_by);
     layout.cell_size = d / options.most_across;
   }
 }
@@ -77,16 +77,17 @@ void place_domain(const Impact& impact, Layout& layout) {
   const auto to_cells = [h](double x) { return std::ceil(x / h - 1e-9) * h; };
   layout.lower = {oblique ? -to_cells(margin - lower) : 0.0, 0.0, -to_cells(4.0 * d)};
   const double behind = std::max(5.0 * wall.thickness, 4.0 * d);
-  layout.upper = {to_cells(upper + margin), to_cells(side + margin), to_cells(wall.front + wall.thickness + behind)};
+  layout.upper = {to_cells(upper + margin), to_cells(side + margin),
+                  to_cells(wall.front + wall.thickness + behind)};
 }
 
 /// Chooses the times: debris at a quarter of the impact speed has arrived, and the wall has then had the time in which
-/// 66 m/s cover a diameter of the sphere; a snapshot in each time in which 3 km/s do.
+/// 66 m/s cover a diameter of the sphere; a snapshot in each time in which 1.5 km/s do.
 void choose_times(const Impact& impact, Layout& layout) {
   const double d = impact.projectile.diameter;
   const double normal_speed = impact.projectile.velocity * std::cos(impact.projectile.angle);
   layout.end = layout.plates.back().front / (0.25 * normal_speed) + d / 66.0;
-  layout.snapshot_every = d / 3000.0;
+  layout.snapshot_every = d / 1500.0;
 }
 
 void count_particles(const Impact& impact, Layout& layout) {
@@ -113,8 +114,9 @@ void count_particles(const Impact& impact, Layout& layout) {
 
 Layout layout_of(const Impact& impact, const CaseOptions& options) {
   if (options.model == Model::section && impact.projectile.angle > 0.0)
-    throw InputError(fmt::format("{}: a section is for normal impact, the angle is {:.4g} degrees: use --model space",
-                                 impact.name, impact.projectile.angle * 180.0 / std::numbers::pi));
+    throw InputError(
+        fmt::format("{}: a section is for normal impact, the angle is {:.4g} degrees: use --model space",
+                    impact.name, impact.projectile.angle * 180.0 / std::numbers::pi));
   if (impact.shield.stuffing.areal_density > 0.0 || impact.shield.foam.density > 0.0)
     throw InputError(fmt::format("{}: no case is made of {}, which only the equations know", impact.name,
                                  impact.shield.foam.density > 0.0 ? "foam" : "stuffing"));
@@ -132,7 +134,8 @@ Layout layout_of(const Impact& impact, const CaseOptions& options) {
 std::string not_resolved(const Layout& layout) {
   std::string text;
   for (const Plate& plate : layout.plates) {
-    if (!plate.resolved) text += fmt::format("{}{} ({:.3g} cells)", text.empty() ? "" : ", ", plate.name, plate.cells);
+    if (!plate.resolved)
+      text += fmt::format("{}{} ({:.3g} cells)", text.empty() ? "" : ", ", plate.name, plate.cells);
   }
   return text;
 }

@@ -35,7 +35,8 @@ void check_alloy(const std::string& alloy, const input::Faults& faults) {
 ParameterTable<Sheet> Sheet::parameters() {
   return {text("alloy", &Sheet::alloy, "designation of the aluminium alloy, \"6061-T6\""),
           real("thickness", &Sheet::thickness, "m", range::positive(), "of the sheet"),
-          real("density", &Sheet::density, "kg/m^3", range::positive(), "for the equations").optional("of the alloy"),
+          real("density", &Sheet::density, "kg/m^3", range::positive(), "for the equations")
+              .optional("of the alloy"),
           real("yield", &Sheet::yield, "Pa", range::positive(), "yield stress, for the equations")
               .optional("of the alloy"),
           real("hardness", &Sheet::hardness, "", range::positive(), "Brinell hardness, for the equations")
@@ -45,10 +46,9 @@ ParameterTable<Sheet> Sheet::parameters() {
 void Sheet::check(const Impact& /*impact*/, const input::Faults& faults) const { check_alloy(alloy, faults); }
 
 ParameterTable<Bumper> Bumper::parameters() {
-  return with_part(
-      ParameterTable<Bumper>{real("spacing", &Bumper::spacing, "m", range::positive(),
-                                  "from its rear face to the front face of the next sheet")},
-      &Bumper::sheet, Sheet::parameters());
+  return with_part(ParameterTable<Bumper>{real("spacing", &Bumper::spacing, "m", range::positive(),
+                                               "from its rear face to the front face of the next sheet")},
+                   &Bumper::sheet, Sheet::parameters());
 }
 
 void Bumper::check(const Impact& impact, const input::Faults& faults) const { sheet.check(impact, faults); }
@@ -66,16 +66,19 @@ ParameterTable<Foam> Foam::parameters() {
 }
 
 ParameterTable<Projectile> Projectile::parameters() {
-  return {text("alloy", &Projectile::alloy, "designation of the aluminium alloy of the sphere, \"2017-T4\""),
-          real("diameter", &Projectile::diameter, "m", range::positive(), "of the sphere"),
-          real("velocity", &Projectile::velocity, "m/s", range::positive(), "of the sphere"),
-          real("angle", &Projectile::angle, "rad", below_right_angle, "between flight and normal of the shield")
-              .optional(),
-          real("density", &Projectile::density, "kg/m^3", range::positive(), "for the equations")
-              .optional("of the alloy")};
+  return {
+      text("alloy", &Projectile::alloy, "designation of the aluminium alloy of the sphere, \"2017-T4\""),
+      real("diameter", &Projectile::diameter, "m", range::positive(), "of the sphere"),
+      real("velocity", &Projectile::velocity, "m/s", range::positive(), "of the sphere"),
+      real("angle", &Projectile::angle, "rad", below_right_angle, "between flight and normal of the shield")
+          .optional(),
+      real("density", &Projectile::density, "kg/m^3", range::positive(), "for the equations")
+          .optional("of the alloy")};
 }
 
-void Projectile::check(const Impact& /*impact*/, const input::Faults& faults) const { check_alloy(alloy, faults); }
+void Projectile::check(const Impact& /*impact*/, const input::Faults& faults) const {
+  check_alloy(alloy, faults);
+}
 
 std::span<const input::Section<Shield, Impact>> Shield::sections() {
   using input::section;
@@ -126,7 +129,8 @@ Impact read_impact(const std::filesystem::path& file) {
 }
 
 std::string describe_impact() {
-  return "Shield file (TOML): a shield and the sphere that strikes it (docs/manual/shields.md). Quantities are texts "
+  return "Shield file (TOML): a shield and the sphere that strikes it (docs/manual/shields.md). Quantities "
+         "are texts "
          "with a unit, \"3.175 mm\".\n\n" +
          input::describe_content<Impact>("");
 }
@@ -134,7 +138,8 @@ std::string describe_impact() {
 std::string impact_schema() {
   input::Schema table;
   input::add_content<Impact>(table);
-  return input::schema_text(table, "Shield of whipple", "Shield file of whipple shield: a shield and the sphere that strikes it.");
+  return input::schema_text(table, "Shield of whipple",
+                            "Shield file of whipple shield: a shield and the sphere that strikes it.");
 }
 
 }  // namespace whipple::shields

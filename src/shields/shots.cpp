@@ -37,7 +37,8 @@ Bumper& bumper_of(Shot& shot) { return shot.impact.shield.bumpers.front(); }
 
 Result result_of(const std::string& word) {
   if (const std::optional<Result> result = value_of<Result>(word)) return *result;
-  throw InputError(fmt::format("result is \"{}\" (accepted: P: perforated or detached spall, NP: neither)", word));
+  throw InputError(
+      fmt::format("result is \"{}\" (accepted: P: perforated or detached spall, NP: neither)", word));
 }
 
 /// Checks an alloy and returns it.
@@ -50,27 +51,64 @@ const std::vector<Known>& known_columns() {
   static const std::vector<Known> all = {
       {"shot", "", optional, {}, {}, [](Shot& s, const std::string& t) { s.impact.name = t; }},
       {"source", "", optional, {}, {}, [](Shot& s, const std::string& t) { s.source = t; }},
-      {"sphere", "", required, {}, {},
+      {"sphere",
+       "",
+       required,
+       {},
+       {},
        [](Shot& s, const std::string& t) { s.impact.projectile.alloy = known_alloy(t); }},
-      {"sphere density", "kg/m^3", optional, positive,
-       [](Shot& s, double x) { s.impact.projectile.density = x; }, {}},
+      {"sphere density",
+       "kg/m^3",
+       optional,
+       positive,
+       [](Shot& s, double x) { s.impact.projectile.density = x; },
+       {}},
       {"diameter", "m", required, positive, [](Shot& s, double x) { s.impact.projectile.diameter = x; }, {}},
       {"angle", "rad", optional, angles, [](Shot& s, double x) { s.impact.projectile.angle = x; }, {}},
-      {"velocity", "m/s", required, positive, [](Shot& s, double x) { s.impact.projectile.velocity = x; }, {}},
-      {"bumper", "", required, {}, {},
+      {"velocity",
+       "m/s",
+       required,
+       positive,
+       [](Shot& s, double x) { s.impact.projectile.velocity = x; },
+       {}},
+      {"bumper",
+       "",
+       required,
+       {},
+       {},
        [](Shot& s, const std::string& t) { bumper_of(s).sheet.alloy = known_alloy(t); }},
-      {"bumper density", "kg/m^3", optional, positive,
-       [](Shot& s, double x) { bumper_of(s).sheet.density = x; }, {}},
-      {"bumper thickness", "m", required, positive,
-       [](Shot& s, double x) { bumper_of(s).sheet.thickness = x; }, {}},
+      {"bumper density",
+       "kg/m^3",
+       optional,
+       positive,
+       [](Shot& s, double x) { bumper_of(s).sheet.density = x; },
+       {}},
+      {"bumper thickness",
+       "m",
+       required,
+       positive,
+       [](Shot& s, double x) { bumper_of(s).sheet.thickness = x; },
+       {}},
       {"spacing", "m", required, positive, [](Shot& s, double x) { bumper_of(s).spacing = x; }, {}},
-      {"wall", "", required, {}, {},
+      {"wall",
+       "",
+       required,
+       {},
+       {},
        [](Shot& s, const std::string& t) { s.impact.shield.wall.alloy = known_alloy(t); }},
-      {"wall density", "kg/m^3", optional, positive,
-       [](Shot& s, double x) { s.impact.shield.wall.density = x; }, {}},
+      {"wall density",
+       "kg/m^3",
+       optional,
+       positive,
+       [](Shot& s, double x) { s.impact.shield.wall.density = x; },
+       {}},
       {"wall yield", "Pa", optional, positive, [](Shot& s, double x) { s.impact.shield.wall.yield = x; }, {}},
-      {"wall thickness", "m", required, positive,
-       [](Shot& s, double x) { s.impact.shield.wall.thickness = x; }, {}},
+      {"wall thickness",
+       "m",
+       required,
+       positive,
+       [](Shot& s, double x) { s.impact.shield.wall.thickness = x; },
+       {}},
       {"result", "", optional, {}, {}, [](Shot& s, const std::string& t) { s.result = result_of(t); }},
   };
   return all;
@@ -94,10 +132,11 @@ Column column_of(const std::string& heading) {
     throw InputError(fmt::format("unknown column \"{}\"{} (accepted: {})", heading, did_you_mean(name, names),
                                  columns_of_shots()));
   }
-  if (found->unit.empty() != (bracket == std::string::npos) || (!found->unit.empty() && heading.back() != ']'))
-    throw InputError(found->unit.empty()
-                         ? fmt::format("column \"{}\" is a text without a unit", heading)
-                         : fmt::format("column \"{}\" needs a unit, as in \"{} [{}]\"", heading, name, found->unit));
+  if (found->unit.empty() != (bracket == std::string::npos) ||
+      (!found->unit.empty() && heading.back() != ']'))
+    throw InputError(found->unit.empty() ? fmt::format("column \"{}\" is a text without a unit", heading)
+                                         : fmt::format("column \"{}\" needs a unit, as in \"{} [{}]\"",
+                                                       heading, name, found->unit));
   if (found->unit.empty()) return {&*found, {}};
   const std::string unit = heading.substr(bracket + 2, heading.size() - bracket - 3);
   return {&*found, units::conversion(unit, found->unit)};
@@ -110,13 +149,15 @@ double number_of(const std::string& cell, const Column& column) {
     throw InputError(fmt::format("{} is \"{}\", expected a number", column.known->name, cell));
   value = column.conversion.factor * value + column.conversion.offset;
   if (!column.known->range.contains(value))
-    throw InputError(fmt::format("{} is {}, expected {}", column.known->name, cell, column.known->range.text()));
+    throw InputError(
+        fmt::format("{} is {}, expected {}", column.known->name, cell, column.known->range.text()));
   return value;
 }
 
 /// Runs `read` and adds what it reports to the faults of a line.
 template <class Read>
-void collect(std::vector<InputFault>& faults, const std::filesystem::path& file, unsigned line, const Read& read) {
+void collect(std::vector<InputFault>& faults, const std::filesystem::path& file, unsigned line,
+             const Read& read) {
   try {
     read();
   } catch (const InputError& error) {
@@ -137,10 +178,11 @@ std::vector<Column> read_heading(const std::vector<std::string>& cells, std::vec
   }
   for (const Known& known : known_columns()) {
     if (known.need == Need::optional || std::ranges::count(columns, &known, &Column::known) > 0) continue;
-    faults.push_back({.file = file.string(),
-                      .line = line,
-                      .column = 1,
-                      .text = fmt::format("column \"{}\" is missing (accepted: {})", known.name, columns_of_shots())});
+    faults.push_back(
+        {.file = file.string(),
+         .line = line,
+         .column = 1,
+         .text = fmt::format("column \"{}\" is missing (accepted: {})", known.name, columns_of_shots())});
   }
   return columns;
 }
@@ -196,7 +238,8 @@ std::vector<Shot> read_shots(const std::filesystem::path& file) {
     shots.push_back(std::move(shot));
   }
   if (columns.empty())
-    throw InputError(fmt::format("{}: error: no heading (accepted columns: {})", file.string(), columns_of_shots()));
+    throw InputError(
+        fmt::format("{}: error: no heading (accepted columns: {})", file.string(), columns_of_shots()));
   if (!faults.empty()) throw InputError(std::move(faults));
   return shots;
 }

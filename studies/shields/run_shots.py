@@ -7,7 +7,8 @@ Usage: python3 -m studies.shields.run_shots SOURCE/SHOT... [--near COUNT] [--mod
 
 Makes the case of each shot (whipple shield), runs it until its outcome is decided, and adds a row to outcomes.csv with
 outcome, time, reason, cells, cost and revision. --near adds the cheapest shots within a third of the limit of NNO that have
-no row, are resolved and are not calibrating. Finished shots are not computed again; an interrupted run is resumed.
+no row, are resolved and are not calibrating. Finished shots are not computed again; an interrupted run is resumed. Snapshots
+are deleted once a shot is judged, except those of unsafe misses (measured P, the wall holds).
 """
 import argparse
 import csv
@@ -44,6 +45,9 @@ def compute(whipple, options, threads, name, entry, folder):
     start = ["--restart", run] if (run / "status.json").exists() else [folder / "case.toml", "-o", run]
     commands.call([whipple, "run", *start, "--threads", threads, "--quiet"])
     verdict = json.loads(commands.call([whipple, "shield", run, "--outcome", "--json", "--quiet"]).stdout)
+    if entry["result"] == "NP" or verdict["defeated"]:
+        for file in run.glob("*.particles.*"):
+            file.unlink()
     status = json.loads((run / "status.json").read_text(encoding="utf-8"))
     case = entry["case"]
     return {"shot": name, "outcome": verdict["outcome"],

@@ -26,8 +26,9 @@ struct Struck {
     Maker maker(spacing);
     const auto everywhere = [](const Vector3&) { return true; };
     const Vector3 middle(15e-3, 10e-3, -8e-3);
-    maker.fill({12e-3, 7e-3, -11e-3}, {18e-3, 13e-3, -5e-3},
-               [&](const Vector3& p) { return (p - middle).norm() < 0.5 * diameter; }, {0, 0, 5000}, 0);
+    maker.fill(
+        {12e-3, 7e-3, -11e-3}, {18e-3, 13e-3, -5e-3},
+        [&](const Vector3& p) { return (p - middle).norm() < 0.5 * diameter; }, {0, 0, 5000}, 0);
     maker.fill({0, 0, 0}, {30e-3, 20e-3, thickness}, everywhere, Vector3::Zero(), 1);
     start = maker.snapshot;
     start.scalars.erase("phase");
@@ -84,7 +85,8 @@ TEST(Outcome, IsUndecidedUntilTheDebrisHasComeAndTheWallHasStopped) {
   EXPECT_THAT(verdict.reason, HasSubstr("the wall still deforms"));
   verdict = verdict_of(struck, {struck.start, struck.loaded(), struck.loaded(35e-6, 0.0106)});
   EXPECT_EQ(verdict.outcome, Outcome::undecided);  // it has grown by 6 %
-  verdict = verdict_of(struck, {struck.start, struck.loaded(), struck.loaded(35e-6, 0.0106), struck.loaded(65e-6, 0.011)});
+  verdict = verdict_of(
+      struck, {struck.start, struck.loaded(), struck.loaded(35e-6, 0.0106), struck.loaded(65e-6, 0.011)});
   EXPECT_EQ(verdict.outcome, Outcome::whole);
   EXPECT_EQ(verdict.time, 65e-6);
   EXPECT_FALSE(verdict.is_defeat());
@@ -98,7 +100,8 @@ TEST(Outcome, HoleIsDecidedAtOnceAndStays) {
   const Snapshot open = struck.wall(3e-6, [&](Snapshot& now, std::size_t i) {
     if (struck.distance(i) < 4e-3) now.scalars["failed"][i] = 1.0;
   });
-  const Verdict verdict = verdict_of(struck, {struck.start, open, struck.loaded(20e-6), struck.loaded(60e-6)});
+  const Verdict verdict =
+      verdict_of(struck, {struck.start, open, struck.loaded(20e-6), struck.loaded(60e-6)});
   EXPECT_EQ(verdict.outcome, Outcome::perforated);
   EXPECT_EQ(verdict.time, 3e-6);
   EXPECT_TRUE(verdict.is_defeat());
@@ -117,7 +120,8 @@ Snapshot spalled(const Struck& struck, double time, double radius, double distan
 TEST(Outcome, DetachedSpallNeedsMassSpeedAndDistance) {
   const Struck struck;
   const auto outcome = [&](double radius, double distance, double speed) {
-    return verdict_of(struck, {struck.start, struck.loaded(), spalled(struck, 40e-6, radius, distance, speed)});
+    return verdict_of(struck,
+                      {struck.start, struck.loaded(), spalled(struck, 40e-6, radius, distance, speed)});
   };
   // A layer a thickness away is decided at once, also while it flies.
   const Verdict away = outcome(4e-3, 5e-3, 80.0);
@@ -142,7 +146,9 @@ TEST(Outcome, GapInsideIsAttachedSpallAndDisplacedRearIsABulge) {
       now.position[i].z() += height * std::pow(std::cos(0.5 * std::numbers::pi * r), 2);
     });
   };
-  const auto outcome = [&](const Snapshot& last) { return verdict_of(struck, {struck.start, struck.loaded(), last}); };
+  const auto outcome = [&](const Snapshot& last) {
+    return verdict_of(struck, {struck.start, struck.loaded(), last});
+  };
   const Verdict attached = outcome(arched(3e-3, true));
   EXPECT_EQ(attached.outcome, Outcome::attached_spall) << attached.reason;
   EXPECT_FALSE(attached.is_defeat());

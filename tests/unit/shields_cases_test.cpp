@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tables of shots and shield files, and the cases made of them.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <fmt/format.h>
 
 #include <cmath>
 #include <filesystem>
@@ -26,11 +25,13 @@ namespace {
 using testing::HasSubstr;
 
 constexpr const char* heading =
-    "shot,sphere,diameter [mm],angle [degree],velocity [km/s],bumper,bumper thickness [mm],spacing [mm],wall,wall "
+    "shot,sphere,diameter [mm],angle [degree],velocity [km/s],bumper,bumper thickness [mm],spacing "
+    "[mm],wall,wall "
     "thickness [mm],result\n";
 constexpr const char* ryan = "R31,2017-T4,3.175,0,3.1,6061-T6,0.7874,50.8,6061-T6,4.064,P\n";
 
-std::filesystem::path written(const TemporaryFolder& folder, const std::string& name, const std::string& text) {
+std::filesystem::path written(const TemporaryFolder& folder, const std::string& name,
+                              const std::string& text) {
   const std::filesystem::path file = folder.path() / name;
   std::ofstream(file) << text;
   return file;
@@ -54,8 +55,10 @@ Impact ryan_impact(double angle = 0.0) {
 
 TEST(Shots, AreReadInTheirUnits) {
   const TemporaryFolder folder;
-  const auto shots = read_shots(written(
-      folder, "shots.csv", std::string("# a remark\n") + heading + ryan + "R60,AA2017-T4,3.175,45,6,6061-T6,0.7874,50.8,7075-T6,4.064,NP\n"));
+  const auto shots =
+      read_shots(written(folder, "shots.csv",
+                         std::string("# a remark\n") + heading + ryan +
+                             "R60,AA2017-T4,3.175,45,6,6061-T6,0.7874,50.8,7075-T6,4.064,NP\n"));
   ASSERT_EQ(shots.size(), 2U);
   EXPECT_EQ(shots[0].impact.name, "R31");
   EXPECT_EQ(shots[0].result, Result::failed);
@@ -73,7 +76,8 @@ TEST(Shots, FaultsNameLineAndAcceptedValues) {
     const auto file = written(folder, "bad.csv", text);
     return fault_of([&] { static_cast<void>(read_shots(file)); });
   };
-  const std::string unknown = fault(std::string(heading) + "R31,2017-T9,3.175,0,3.1,6061-T6,0.7874,50.8,6061-T6,4.064,P\n");
+  const std::string unknown =
+      fault(std::string(heading) + "R31,2017-T9,3.175,0,3.1,6061-T6,0.7874,50.8,6061-T6,4.064,P\n");
   EXPECT_THAT(unknown, HasSubstr("bad.csv:2:1"));
   EXPECT_THAT(unknown, HasSubstr("unknown alloy \"2017-T9\", did you mean \"2017-T4\"?"));
   EXPECT_THAT(unknown, HasSubstr("7075-T6"));
@@ -83,16 +87,19 @@ TEST(Shots, FaultsNameLineAndAcceptedValues) {
   EXPECT_THAT(fault("dimeter [mm]\n"), HasSubstr("did you mean \"diameter\"?"));
   EXPECT_THAT(fault(std::string(heading) + "R31,2017-T4,3.175,95,3.1,6061-T6,0.7874,50.8,6061-T6,4.064,P\n"),
               HasSubstr("angle is 95"));
-  EXPECT_THAT(fault(std::string(heading) + "R31,2017-T4,3.175,0,3.1,6061-T6,0.7874,50.8,6061-T6,4.064,maybe\n"),
-              HasSubstr("result is \"maybe\""));
+  EXPECT_THAT(
+      fault(std::string(heading) + "R31,2017-T4,3.175,0,3.1,6061-T6,0.7874,50.8,6061-T6,4.064,maybe\n"),
+      HasSubstr("result is \"maybe\""));
   EXPECT_THAT(fault(std::string(heading) + "R31,2017-T4\n"), HasSubstr("2 cells, the heading has 11"));
 }
 
 TEST(ShieldFile, IsReadWithAllItsSheets) {
   const TemporaryFolder folder;
   const std::string text =
-      "name = \"two bumpers\"\n[projectile]\nalloy = \"2017-T4\"\ndiameter = \"4 mm\"\nvelocity = \"6.5 km/s\"\n"
-      "angle = \"30 degree\"\n[[shield.bumper]]\nalloy = \"6061-T6\"\nthickness = \"1 mm\"\nspacing = \"5 cm\"\n"
+      "name = \"two bumpers\"\n[projectile]\nalloy = \"2017-T4\"\ndiameter = \"4 mm\"\nvelocity = \"6.5 "
+      "km/s\"\n"
+      "angle = \"30 degree\"\n[[shield.bumper]]\nalloy = \"6061-T6\"\nthickness = \"1 mm\"\nspacing = \"5 "
+      "cm\"\n"
       "[[shield.bumper]]\nalloy = \"2024-T3\"\nthickness = \"0.5 mm\"\nspacing = \"4 cm\"\n[shield.wall]\n"
       "alloy = \"2219-T87\"\nthickness = \"3 mm\"\nyield = \"60 ksi\"\n";
   const Impact impact = read_impact(written(folder, "shield.toml", text));
@@ -101,7 +108,8 @@ TEST(ShieldFile, IsReadWithAllItsSheets) {
   EXPECT_DOUBLE_EQ(impact.shield.bumpers[1].sheet.density, 2770.0);
   EXPECT_NEAR(impact.shield.wall.yield, 60 * 6894757.293, 1.0);
   const std::string bad = fault_of([&] {
-    static_cast<void>(read_impact(written(folder, "bad.toml", "[projectile]\nalloy = \"6061-T66\"\ndiameter = \"4\"\n")));
+    static_cast<void>(
+        read_impact(written(folder, "bad.toml", "[projectile]\nalloy = \"6061-T66\"\ndiameter = \"4\"\n")));
   });
   EXPECT_THAT(bad, HasSubstr("bad.toml:2"));
   EXPECT_THAT(bad, HasSubstr("unknown alloy"));
@@ -146,7 +154,8 @@ TEST(Layout, WallCoversTheConeAndTheDomainTheWall) {
       EXPECT_EQ(layout.lower[0], 0.0);
     }
   }
-  EXPECT_THAT(fault_of([] { static_cast<void>(layout_of(ryan_impact(0.5), {})); }), HasSubstr("--model space"));
+  EXPECT_THAT(fault_of([] { static_cast<void>(layout_of(ryan_impact(0.5), {})); }),
+              HasSubstr("--model space"));
 }
 
 /// Reads the text as `whipple run` does.
@@ -164,7 +173,8 @@ TEST(CaseText, IsAValidCaseOfEachModel) {
   ASSERT_EQ(section.stops.size(), 1U);
   EXPECT_EQ(section.stops[0].when, cases::StopWhen::decided);
 
-  const cases::Case quarter = read_text_of_case(case_text(normal, layout_of(normal, {.model = Model::space})));
+  const cases::Case quarter =
+      read_text_of_case(case_text(normal, layout_of(normal, {.model = Model::space})));
   EXPECT_NEAR(quarter.bodies[0].velocity.z(), 3100.0, 1e-6);
   EXPECT_EQ(quarter.bodies[0].velocity.x(), 0.0);
 
@@ -192,7 +202,9 @@ TEST(Alloys, HaveMaterialsOfTheLibrary) {
   for (const Alloy& alloy : alloys()) {
     if (alloy.material.empty()) continue;
     impact.shield.wall.alloy = alloy.name;
-    EXPECT_EQ(fault_of([&] { static_cast<void>(read_text_of_case(case_text(impact, layout_of(impact, {})))); }), "no fault")
+    EXPECT_EQ(
+        fault_of([&] { static_cast<void>(read_text_of_case(case_text(impact, layout_of(impact, {})))); }),
+        "no fault")
         << alloy.name;
   }
 }

@@ -24,13 +24,15 @@ constexpr double degree = std::numbers::pi / 180.0;
 constexpr double ksi = 6894757.293168;
 
 Sheet sheet(double thickness) {
-  return {.alloy = "6061-T6", .thickness = thickness, .density = 2700.0, .yield = 40.0 * ksi, .hardness = 95.0};
+  return {
+      .alloy = "6061-T6", .thickness = thickness, .density = 2700.0, .yield = 40.0 * ksi, .hardness = 95.0};
 }
 
 /// Returns the shield of the worked numbers, with a number of bumpers.
 Impact impact(double velocity, double angle, std::size_t bumpers) {
   Impact made;
-  made.projectile = {.alloy = "2017-T4", .diameter = 3e-3, .velocity = velocity, .angle = angle, .density = 2800.0};
+  made.projectile = {
+      .alloy = "2017-T4", .diameter = 3e-3, .velocity = velocity, .angle = angle, .density = 2800.0};
   for (std::size_t k = 0; k < bumpers; ++k) made.shield.bumpers.push_back({sheet(1.2e-3), 0.10});
   made.shield.wall = sheet(bumpers == 0 ? 4.4e-3 : 3.2e-3);
   return made;
@@ -52,10 +54,12 @@ std::vector<std::vector<double>> worked_rows() {
 TEST(BallisticLimit, WorkedNumbers) {
   const auto rows = worked_rows();
   ASSERT_EQ(rows.size(), 33U);
-  const std::vector<std::pair<Equation, std::size_t>> columns = {
-      {Equation::nno_1993, 1},           {Equation::nno_2001, 1},
-      {Equation::jsc_2011, 1},           {Equation::single_perforation, 0},
-      {Equation::single_detached_spall, 0}, {Equation::single_incipient_spall, 0}};
+  const std::vector<std::pair<Equation, std::size_t>> columns = {{Equation::nno_1993, 1},
+                                                                 {Equation::nno_2001, 1},
+                                                                 {Equation::jsc_2011, 1},
+                                                                 {Equation::single_perforation, 0},
+                                                                 {Equation::single_detached_spall, 0},
+                                                                 {Equation::single_incipient_spall, 0}};
   for (const auto& row : rows) {
     ASSERT_EQ(row.size(), 8U);
     for (std::size_t k = 0; k < columns.size(); ++k) {
@@ -71,7 +75,8 @@ TEST(BallisticLimit, IsContinuousInSpeed) {
   for (const double angle : {0.0, 30.0, 60.0}) {
     for (const auto& word : words(Equation{})) {
       Impact at = impact(1e3, angle * degree, word.value == Equation::srl_2008 ? 2 : 1);
-      if (reason_against(word.value, at).find("bumper") != std::string::npos) at = impact(1e3, angle * degree, 0);
+      if (reason_against(word.value, at).find("bumper") != std::string::npos)
+        at = impact(1e3, angle * degree, 0);
       if (word.value == Equation::stuffed_2001) at.shield.stuffing.areal_density = 4.0;
       if (word.value == Equation::foam_2009) {
         at.shield.foam.density = 190.0;
@@ -107,7 +112,7 @@ TEST(BallisticLimit, FoamPanels) {
   panel.shield.bumpers[0] = {sheet(0.254e-3), 25.4e-3};
   panel.shield.wall = sheet(0.254e-3);
   panel.shield.foam.density = 189.0;
-  const std::vector<std::array<double, 2>> known = {{2.25, 1.66}, {3.0, 1.84}, {4.0, 2.08},
+  const std::vector<std::array<double, 2>> known = {{2.25, 1.66}, {3.0, 1.84},  {4.0, 2.08},
                                                     {5.0, 1.90},  {6.63, 1.70}, {7.4, 1.62}};
   for (const auto& [v, mm] : known) {
     panel.projectile.velocity = 1e3 * v;
@@ -125,7 +130,8 @@ TEST(BallisticLimit, StuffedShield) {
   Impact stuffed = impact(2000.0, 0.0, 1);
   stuffed.shield.stuffing.areal_density = 4.0;
   // A = 0.324 + 0.4 = 0.724; 0.32 + 0.37 A = 0.58788; 2.35 * 0.58788 / (1.673320 * 1.587401).
-  EXPECT_NEAR(100.0 * critical_diameter(Equation::stuffed_2001, stuffed), 2.35 * 0.58788 / (1.673320 * 1.587401), 1e-5);
+  EXPECT_NEAR(100.0 * critical_diameter(Equation::stuffed_2001, stuffed),
+              2.35 * 0.58788 / (1.673320 * 1.587401), 1e-5);
   stuffed.projectile.velocity = 8000.0;
   // The fabric is 0.4/1.588 = 25 % of the shield: K = 0.6. 0.6 * 0.864^(1/3) * 10^(2/3) / (2.8 * 8)^(1/3).
   const double high = 0.6 * std::cbrt(0.864) * std::pow(10.0, 2.0 / 3.0) / std::cbrt(22.4);

@@ -107,9 +107,8 @@ void StopConditions::look(const Moment& moment) {
         found_ = static_cast<int>(s) + 1;
     }
   }
-  const bool asks_for_walls = std::ranges::any_of(setup_.stops, [&](const cases::Stop& stop) {
-    return is_of_wall(stop) && moment.time() >= stop.after;
-  });
+  const bool asks_for_walls = std::ranges::any_of(
+      setup_.stops, [&](const cases::Stop& stop) { return is_of_wall(stop) && moment.time() >= stop.after; });
   if (!asks_for_walls) return;
   const std::int64_t last = snapshots_.complete_last();
   if (last == judged_ || last < 0) return;
@@ -173,8 +172,7 @@ void StopConditions::begin_walls() {
     if (!is_of_wall(setup_.stops[s])) continue;
     walls_[s].emplace(*run_, first, frame, body_of(setup_.stops[s]));
     const std::string reason = walls_[s]->look(first).undecided;
-    if (!reason.empty())
-      log::warning("whether {} cannot be decided: {}", setup_.stops[s].in_words(), reason);
+    if (!reason.empty()) log::warning("whether {} cannot be decided: {}", setup_.stops[s].in_words(), reason);
     if (setup_.stops[s].when == cases::StopWhen::decided) judges_[s].emplace(*run_, first, frame, *walls_[s]);
   }
 }

@@ -68,7 +68,7 @@ class StopConditions : public RunObserver {
   std::vector<std::optional<analysis::Wall>> walls_;
   std::vector<std::optional<analysis::Judge>> judges_;  // of conditions on outcomes
   std::size_t fed_ = 0;                                 // number of snapshots that the judges have seen
-  std::int64_t judged_ = -1;         // step of the last snapshot that was judged
+  std::int64_t judged_ = -1;                            // step of the last snapshot that was judged
   double before_ = 0.0, now_ = 0.0;  // s of wall time, before the last restart and up to now
   int found_ = 0;                    // number of the condition that holds, from 1
 };
