@@ -49,7 +49,7 @@ foreach(ranks 1 2 4 8)
   endif()
   add_test(NAME test_solver_ranks.${ranks}
            COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} $<TARGET_FILE:test_solver_ranks>)
-  set_tests_properties(test_solver_ranks.${ranks} PROPERTIES LABELS ${label} TIMEOUT 900 COST 30
+  set_tests_properties(test_solver_ranks.${ranks} PROPERTIES LABELS ${label} TIMEOUT 900 RUN_SERIAL ON
     ENVIRONMENT "${mpi_environment}")
 endforeach()
 add_executable(test_crack_ranks parallel/solver_crack_ranks.cpp)
@@ -58,7 +58,7 @@ whipple_test_flags(test_crack_ranks)
 foreach(ranks 2 4)
   add_test(NAME test_crack_ranks.${ranks}
            COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} $<TARGET_FILE:test_crack_ranks>)
-  set_tests_properties(test_crack_ranks.${ranks} PROPERTIES LABELS fast TIMEOUT 300 COST 5
+  set_tests_properties(test_crack_ranks.${ranks} PROPERTIES LABELS fast TIMEOUT 300 RUN_SERIAL ON
     ENVIRONMENT "${mpi_environment}")
 endforeach()
 if(WHIPPLE_PYTHON)

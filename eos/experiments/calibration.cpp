@@ -3,12 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "src/core/base/error.hpp"
+#include "src/core/base/linear_algebra.hpp"
 
 namespace whipple::eos::experiments {
 namespace {
@@ -39,7 +40,7 @@ double scatter_about_quadratic(const std::vector<double>& x, const std::vector<d
     basis.row(i) << 1.0, u, u * u;
   }
   const Eigen::Map<const Eigen::VectorXd> values(y.data(), static_cast<Eigen::Index>(y.size()));
-  const Eigen::VectorXd rest = values - basis * basis.colPivHouseholderQr().solve(values);
+  const Eigen::VectorXd rest = values - basis * least_squares_solution(basis, values);
   return rest.norm() / std::sqrt(static_cast<double>(x.size() - coefficients));
 }
 

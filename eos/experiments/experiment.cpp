@@ -11,11 +11,11 @@
 #include <cmath>
 #include <fstream>
 #include <numeric>
-#include <regex>
 #include <string_view>
 
 #include "eos/experiments/measured_table.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/base/pattern.hpp"
 
 namespace whipple::eos::experiments {
 namespace {
@@ -25,10 +25,10 @@ constexpr double rest_pressure = 2e5;       // Pa; 1 bar, also if rounded, count
 
 /// Returns whether the file name or a comment contains a word.
 bool says(const MeasuredTable& table, const char* pattern) {
-  const std::regex word(pattern, std::regex::icase);
-  if (std::regex_search(table.file().stem().string(), word)) return true;
+  const Pattern word(pattern, Pattern::Case::ignored);
+  if (word.is_in(table.file().stem().string())) return true;
   return std::ranges::any_of(table.comments(),
-                             [&](const std::string& comment) { return std::regex_search(comment, word); });
+                             [&](const std::string& comment) { return word.is_in(comment); });
 }
 
 bool has_volumes(const MeasuredTable& table) {
@@ -48,15 +48,13 @@ std::string measured_material(const MeasuredTable& table) {
 }
 
 double isotherm_temperature(const MeasuredTable& table) {
-  static const std::regex in_name("(^|_)([0-9]+)K(_|$)");
-  static const std::regex in_comment("(^|[ (,])([0-9]+(\\.[0-9]+)?) K([ ,.;)]|$)");
-  static const std::regex room("room[- ]temperature", std::regex::icase);
-  std::smatch match;
-  const std::string stem = table.file().stem().string();
-  if (std::regex_search(stem, match, in_name)) return std::stod(match[2]);
+  static const Pattern in_name("(^|_)([0-9]+)K(_|$)");
+  static const Pattern in_comment("(^|[ (,])([0-9]+(\\.[0-9]+)?) K([ ,.;)]|$)");
+  static const Pattern room("room[- ]temperature", Pattern::Case::ignored);
+  if (const auto found = in_name.find(table.file().stem().string())) return std::stod(found->at(2));
   for (const std::string& comment : table.comments()) {
-    if (std::regex_search(comment, match, in_comment)) return std::stod(match[2]);
-    if (std::regex_search(comment, room)) return room_temperature;
+    if (const auto found = in_comment.find(comment)) return std::stod(found->at(2));
+    if (room.is_in(comment)) return room_temperature;
   }
   throw InputError(
       fmt::format("{}: the temperature of the isotherm is neither in the file name (\"_298K\") nor in a "
@@ -146,10 +144,9 @@ Volumes isothermal_volumes(const MeasuredTable& table, const std::vector<double>
 double reference_temperature(const MeasuredTable& table, Experiment& experiment, const Volumes& volumes,
                              const std::vector<double>& pressure, const std::vector<double>& temperatures) {
   if (volumes.reference) return temperatures[*volumes.reference];
-  static const std::regex stated("V_?0 at ([0-9]+(\\.[0-9]+)?) ?K", std::regex::icase);
-  std::smatch match;
+  static const Pattern stated("V_?0 at ([0-9]+(\\.[0-9]+)?) ?K", Pattern::Case::ignored);
   for (const std::string& comment : table.comments()) {
-    if (std::regex_search(comment, match, stated)) return std::stod(match[1]);
+    if (const auto found = stated.find(comment)) return std::stod(found->at(1));
   }
   for (std::size_t i = 0; i < pressure.size(); ++i) {
     if (std::abs(pressure[i]) <= rest_pressure && std::abs(volumes.values[i] - 1.0) < 1e-6)
@@ -255,16 +252,15 @@ void set_points(Experiment& experiment, const MeasuredTable& table, const Measur
 /// Returns whether P and T without a volume are those of a Hugoniot rather than a melting line. The first mention
 /// counts, in the name, the headings, the comments.
 bool is_shock_temperature(const MeasuredTable& table) {
-  static const std::regex word("(hugoniot|shock temperature)|melt|solidus|liquidus", std::regex::icase);
+  static const Pattern word("(hugoniot|shock temperature)|melt|solidus|liquidus", Pattern::Case::ignored);
+  static const Pattern melting_heading("(^|, )Tm($|[^a-z])", Pattern::Case::ignored);
   const std::string heading = table.headings();
-  static const std::regex melting_heading("(^|, )Tm($|[^a-z])", std::regex::icase);
-  std::smatch match;
-  const std::string stem = table.file().stem().string();
-  if (std::regex_search(stem, match, word)) return match[1].matched;
-  if (std::regex_search(heading, match, word)) return match[1].matched;
-  if (std::regex_search(heading, melting_heading)) return false;
+  // Group 1 is that of shocks.
+  if (const auto found = word.find(table.file().stem().string())) return !found->at(1).empty();
+  if (const auto found = word.find(heading)) return !found->at(1).empty();
+  if (melting_heading.is_in(heading)) return false;
   for (const std::string& comment : table.comments()) {
-    if (std::regex_search(comment, match, word)) return match[1].matched;
+    if (const auto found = word.find(comment)) return !found->at(1).empty();
   }
   throw InputError(
       fmt::format("{}: pressures and temperatures of what? Write \"melting line\" or \"Hugoniot\" into a "
@@ -305,11 +301,11 @@ struct StatedRange {
   bool of_pressure;
 };
 StatedRange stated_range(const std::string& text, double c) {
-  static const std::regex velocities("Up ([0-9.]+)-([0-9.]+)"), pressures("([0-9.]+)-([0-9.]+) GPa");
-  std::smatch match;
-  if (std::regex_search(text, match, velocities))
-    return {std::stod(match[1]), std::stod(match[2]), 1e3, false};
-  if (std::regex_search(text, match, pressures)) return {std::stod(match[1]), std::stod(match[2]), 1e9, true};
+  static const Pattern velocities("Up ([0-9.]+)-([0-9.]+)"), pressures("([0-9.]+)-([0-9.]+) GPa");
+  if (const auto found = velocities.find(text))
+    return {std::stod(found->at(1)), std::stod(found->at(2)), 1e3, false};
+  if (const auto found = pressures.find(text))
+    return {std::stod(found->at(1)), std::stod(found->at(2)), 1e9, true};
   return {0.0, 0.5 * c, 1.0, false};
 }
 

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <regex>
 #include <sstream>
 #include <vector>
 
@@ -15,6 +14,7 @@
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
 #include "src/core/base/log.hpp"
+#include "src/core/base/pattern.hpp"
 
 namespace whipple::eos {
 namespace {
@@ -174,16 +174,16 @@ class Reader {
   /// Reads a header in the layout of ANEOS tables: " INDEX MATID = 7 NWDS = 9", then the words of an index of the
   /// material, then " RECORD TYPE = 201 NWDS = 5" before each table.
   std::optional<Header> labelled_header() {
-    static const std::regex index_line(R"(\s*INDEX\s+MATID\s*=\s*(\d{1,6})\s+NWDS\s*=\s*(\d{1,8})\s*)"),
+    static const Pattern index_line(R"(\s*INDEX\s+MATID\s*=\s*(\d{1,6})\s+NWDS\s*=\s*(\d{1,8})\s*)"),
         record_line(R"(\s*RECORD\s+TYPE\s*=\s*(\d{1,6})\s+NWDS\s*=\s*(\d{1,8})\s*)");
-    std::smatch match;
-    if (std::regex_match(text_, match, index_line)) {
-      index_ = std::stoi(match[1]);
-      for_each_line_of_numbers({*index_, index_table, std::stoul(match[2])}, [](std::size_t) {});
+    if (const auto found = index_line.match(text_)) {
+      index_ = std::stoi(found->at(1));
+      for_each_line_of_numbers({*index_, index_table, std::stoul(found->at(2))}, [](std::size_t) {});
       if (!next()) refuse(line_, fmt::format("the file ends behind the index of material {}", *index_));
     }
-    if (!index_ || !std::regex_match(text_, match, record_line)) return std::nullopt;
-    return Header{*index_, std::stoi(match[1]), std::stoul(match[2])};
+    const auto record = record_line.match(text_);
+    if (!index_ || !record) return std::nullopt;
+    return Header{*index_, std::stoi(record->at(1)), std::stoul(record->at(2))};
   }
 
   bool next() {

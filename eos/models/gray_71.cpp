@@ -26,9 +26,8 @@ ParameterTable<GrayConstants> Gray71::parameters() {
       "hugoniot_quadratic",   "hugoniot_cubic",     "melting", "vapour",
       "critical_temperature", "boiling_temperature"};
   ParameterTable<GrayConstants> table = gray_parameters();
-  std::erase_if(table, [](const auto& parameter) {
-    return std::ranges::find(absent, parameter.info.name) != absent.end();
-  });
+  table.remove_if(
+      [](const ParameterInfo& info) { return std::ranges::find(absent, info.name) != absent.end(); });
   return table;
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "md_fitting/fit/cross_validation.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "src/core/base/linear_algebra.hpp"
 
 namespace whipple::fit {
 
@@ -15,8 +16,7 @@ std::vector<LeaveOneOut> leave_one_out(std::span<const Datum> data, const LeastS
                                        Index constants) {
   const MatrixXd& J = solution.jacobian;
   const Index n = J.rows();
-  const MatrixXd inverse_factor =
-      solution.sigma_factor.triangularView<Eigen::Lower>().solve(MatrixXd::Identity(n, n));
+  const MatrixXd inverse_factor = solution.sigma_factor.whitened(MatrixXd::Identity(n, n));
   const MatrixXd& covariance = solution.covariance;
   const MatrixXd projection = MatrixXd::Identity(n, n) - J * covariance * J.transpose();
   const MatrixXd Q = inverse_factor.transpose() * projection * inverse_factor;
@@ -34,10 +34,10 @@ std::vector<LeaveOneOut> leave_one_out(std::span<const Datum> data, const LeastS
     // Scaled by the single-datum weight: the rows of a datum may be a pressure and an energy.
     const VectorXd unit =
         inverse_sigma.diagonal().segment(datum.begin, datum.rows).cwiseSqrt().cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(unit.asDiagonal() * block * unit.asDiagonal());
-    if (!(eigen.eigenvalues()[0] > 1e-9)) continue;  // the other data do not determine it
+    const SymmetricEigen eigen = symmetric_eigen(unit.asDiagonal() * block * unit.asDiagonal());
+    if (!(eigen.values[0] > 1e-9)) continue;  // the other data do not determine it
     const VectorXd weight = weighted.segment(datum.begin, datum.rows);
-    const VectorXd difference = block.ldlt().solve(weight);
+    const VectorXd difference = solve_symmetric(block, weight);
     const double pull = std::sqrt(weight.dot(difference) / static_cast<double>(datum.rows));
     ++part.data;
     part.rms += pull * pull;

@@ -26,28 +26,28 @@ Design::Design(MatrixXd jacobian, MatrixXd sigma, VectorXd weak, std::vector<Ind
 }
 
 void Design::update() {
-  factor_.compute(sigma_(present_, present_));
-  if (factor_.info() != Eigen::Success) {
+  factor_ = Cholesky(sigma_(present_, present_));
+  if (!factor_.is_positive()) {
     throw StateError("the covariance of the data is not positive definite (a datum without error?)");
   }
   const MatrixXd present = jacobian_(present_, Eigen::all);
-  whitened_ = factor_.matrixL().solve(present);
+  whitened_ = factor_.whitened(present);
   MatrixXd information = whitened_.transpose() * whitened_;
   information.diagonal() += weak_.cwiseAbs2().cwiseInverse();
-  covariance_ = information.llt().solve(MatrixXd::Identity(information.rows(), information.cols()));
+  covariance_ = Cholesky(information).solve(MatrixXd::Identity(information.rows(), information.cols()));
 }
 
 double Design::reduction(std::span<const Index> rows, const VectorXd& gradient) const {
   const std::vector<Index> chosen = as_vector(rows);
   // Part of the new rows not predicted by the present ones: u = J_c - Sigma_cA Sigma_A^-1 J_A.
   const MatrixXd common = sigma_(present_, chosen);
-  const MatrixXd shared = factor_.matrixL().solve(common);
+  const MatrixXd shared = factor_.whitened(common);
   const MatrixXd jacobian = jacobian_(chosen, Eigen::all);
   const MatrixXd own = jacobian - shared.transpose() * whitened_;
   const MatrixXd noise = sigma_(chosen, chosen);
   const MatrixXd spread = noise - shared.transpose() * shared + own * covariance_ * own.transpose();
   const VectorXd told = own * (covariance_ * gradient);
-  return told.dot(spread.llt().solve(told));
+  return told.dot(VectorXd(Cholesky(spread).solve(told)));
 }
 
 void Design::add(std::span<const Index> rows) {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <span>
 #include <vector>
+
+#include "src/core/base/linear_algebra.hpp"
 
 namespace whipple::fit {
 
@@ -37,8 +38,8 @@ class Design {
   Eigen::MatrixXd jacobian_, sigma_;
   Eigen::VectorXd weak_;
   std::vector<Eigen::Index> present_;
-  Eigen::LLT<Eigen::MatrixXd> factor_;  // of Sigma of the present rows
-  Eigen::MatrixXd whitened_;            // their Jacobian
+  Cholesky factor_;           // of Sigma of the present rows
+  Eigen::MatrixXd whitened_;  // their Jacobian
   Eigen::MatrixXd covariance_;
 };
 

@@ -14,6 +14,7 @@
 #include "md_fitting/fit/identifiability.hpp"
 #include "md_fitting/fit/published_rows.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/base/json.hpp"
 #include "src/core/base/text_table.hpp"
 
 namespace whipple::fit {
@@ -339,7 +340,7 @@ std::string plot_data(const NamedFit& named) {
     data["isochores"].push_back(
         {{"volume", isochore.volume}, {"gruneisen", isochore.gruneisen}, {"error", isochore.error}});
   }
-  return data.dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return json_text(data, 1);
 }
 
 }  // namespace whipple::fit

@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "src/core/base/error.hpp"
+#include "src/core/base/linear_algebra.hpp"
 
 namespace whipple::fit {
 namespace {
@@ -65,12 +65,12 @@ Identifiability identifiability(const Fit& fit) {
   const VectorXd size = sizes(fit);
   const MatrixXd scaled =
       size.cwiseInverse().asDiagonal() * fit.covariance * size.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(scaled);
-  if (!(eigen.eigenvalues()[0] > 0.0)) throw StateError("the covariance of the fitted constants is singular");
+  const SymmetricEigen eigen = symmetric_eigen(scaled);
+  if (!(eigen.values[0] > 0.0)) throw StateError("the covariance of the fitted constants is singular");
   Identifiability result;
-  result.eigenvalues = eigen.eigenvalues().cwiseInverse().reverse();
-  result.vectors = eigen.eigenvectors().rowwise().reverse();
-  const MatrixXd fisher = scaled.ldlt().solve(MatrixXd::Identity(scaled.rows(), scaled.cols()));
+  result.eigenvalues = eigen.values.cwiseInverse().reverse();
+  result.vectors = eigen.vectors.rowwise().reverse();
+  const MatrixXd fisher = inverse_of_symmetric(scaled);
   const MatrixXd correlation = fit.correlation();
   for (Index k = 0; k < size.size(); ++k) {
     Determination one;

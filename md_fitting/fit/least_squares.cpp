@@ -7,19 +7,18 @@
 #include <gsl/gsl_fit.h>
 #include <gsl/gsl_multifit_nlinear.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <exception>
 #include <memory>
 
 #include "src/core/base/error.hpp"
+#include "src/core/base/linear_algebra.hpp"
 
 namespace whipple::fit {
 namespace {
 
 struct Callback {
   const LeastSquaresProblem* problem;
-  const Eigen::LLT<Eigen::MatrixXd>* sigma;
+  const Cholesky* sigma;
   std::exception_ptr failure;  // no exception may propagate through GSL's C frames
 };
 
@@ -29,7 +28,7 @@ int whitened_residuals(const gsl_vector* x, void* data, gsl_vector* f) {
     Eigen::VectorXd p(static_cast<Eigen::Index>(x->size));
     for (std::size_t i = 0; i < x->size; ++i) p[static_cast<Eigen::Index>(i)] = gsl_vector_get(x, i);
     p += callback->problem->start - Eigen::VectorXd::Ones(p.size());
-    const Eigen::VectorXd r = callback->sigma->matrixL().solve(callback->problem->residuals(p));
+    const Eigen::VectorXd r = callback->sigma->whitened(callback->problem->residuals(p));
     const bool usable = r.allFinite();  // otherwise worse than any fit: the step is rejected and shortened
     for (std::size_t i = 0; i < f->size; ++i)
       gsl_vector_set(f, i, usable ? r[static_cast<Eigen::Index>(i)] : 1e12);
@@ -60,9 +59,9 @@ void require_determined(const Eigen::MatrixXd& jacobian) {
     if (!(norm > 0.0)) throw StateError(fmt::format("least squares: no data depend on parameter {}", k));
     scaled.col(k) /= norm;
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled.transpose() * scaled);
+  const SymmetricEigen eigen = symmetric_eigen(scaled.transpose() * scaled);
   // The normal matrix of central differences is accurate to about 1e-10.
-  if (!(eigen.eigenvalues()[0] > 1e-11)) {
+  if (!(eigen.values[0] > 1e-11)) {
     throw StateError("least squares: the data leave a combination of the parameters undetermined");
   }
 }
@@ -75,8 +74,8 @@ LeastSquaresSolution solve(const LeastSquaresProblem& problem) {
   if (n < p) {
     throw StateError(fmt::format("least squares: {} data for {} parameters", n, p));
   }
-  const Eigen::LLT<Eigen::MatrixXd> sigma(problem.statistical + problem.model);
-  if (sigma.info() != Eigen::Success) {
+  const Cholesky sigma(problem.statistical + problem.model);
+  if (!sigma.is_positive()) {
     throw StateError(
         "least squares: the covariance of the data is not positive definite (a datum without error?)");
   }
@@ -123,7 +122,7 @@ LeastSquaresSolution solve(const LeastSquaresProblem& problem) {
     solution.parameters[i] = problem.start[i] + gsl_vector_get(x, static_cast<std::size_t>(i)) - 1.0;
   }
   solution.residuals = problem.residuals(solution.parameters);
-  solution.whitened = sigma.matrixL().solve(solution.residuals);
+  solution.whitened = sigma.whitened(solution.residuals);
   solution.chi_squared = solution.whitened.squaredNorm();
   solution.degrees_of_freedom = static_cast<int>(n - p);
   solution.iterations = static_cast<int>(gsl_multifit_nlinear_niter(workspace.get()));
@@ -131,12 +130,12 @@ LeastSquaresSolution solve(const LeastSquaresProblem& problem) {
   const Eigen::MatrixXd jacobian = to_eigen(*gsl_multifit_nlinear_jac(workspace.get()));
   require_determined(jacobian);
   solution.jacobian = jacobian;
-  solution.sigma_factor = sigma.matrixL();
+  solution.sigma_factor = sigma;
   const Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
-  const Eigen::MatrixXd inverse = normal.ldlt().solve(Eigen::MatrixXd::Identity(p, p));
+  const Eigen::MatrixXd inverse = inverse_of_symmetric(normal);
   solution.covariance = 0.5 * (inverse + inverse.transpose());
-  const Eigen::MatrixXd half = sigma.matrixL().solve(problem.statistical);
-  const Eigen::MatrixXd noise = sigma.matrixL().solve(half.transpose());
+  const Eigen::MatrixXd half = sigma.whitened(problem.statistical);
+  const Eigen::MatrixXd noise = sigma.whitened(half.transpose());
   const Eigen::MatrixXd estimator = inverse * jacobian.transpose();
   solution.statistical_covariance = estimator * noise * estimator.transpose();
   return solution;

@@ -5,6 +5,8 @@
 #include <functional>
 #include <vector>
 
+#include "src/core/base/linear_algebra.hpp"
+
 /// Solves weighted nonlinear least-squares problems with correlated errors (docs/theory/fit.md, section 2).
 namespace whipple::fit {
 
@@ -23,7 +25,7 @@ struct LeastSquaresSolution {
   Eigen::VectorXd residuals;               ///< as the problem defines them
   Eigen::VectorXd whitened;                ///< L^-1 r with L L^T = Sigma: unit variance, uncorrelated
   Eigen::MatrixXd jacobian;                ///< of the whitened residuals
-  Eigen::MatrixXd sigma_factor;            ///< L
+  Cholesky sigma_factor;                   ///< L
   double chi_squared = 0.0;
   int degrees_of_freedom = 0;
   int iterations = 0;

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,6 +13,7 @@
 #include "md_fitting/fit/least_squares.hpp"
 #include "md_fitting/fit/table_access.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/base/linear_algebra.hpp"
 
 namespace whipple::fit {
 namespace {
@@ -175,7 +175,7 @@ VapourFit solve_vapour(const GrayConstants& constants, const std::vector<Saturat
   const MatrixXd moved = slopes_by(problem, fitted, before);
   if (!moved.allFinite())
     throw StateError("the saturated densities do not depend smoothly on the solid's constants");
-  fit.sensitivity = -gain * solution.sigma_factor.triangularView<Eigen::Lower>().solve(moved);
+  fit.sensitivity = -gain * solution.sigma_factor.whitened(moved);
   const auto total = [&](const MatrixXd& own, const MatrixXd& solid) -> MatrixXd {
     return scale.asDiagonal() * own * scale.asDiagonal() +
            fit.sensitivity * solid * fit.sensitivity.transpose();

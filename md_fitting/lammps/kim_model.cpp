@@ -9,12 +9,12 @@
 #include <cctype>
 #include <cstdlib>
 #include <filesystem>
-#include <regex>
 #include <sstream>
 #include <vector>
 
 #include "md_fitting/lammps/lammps.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/base/pattern.hpp"
 #include "src/core/base/text.hpp"
 
 namespace whipple::md {
@@ -94,8 +94,8 @@ std::string advice(const std::string& identifier, const std::string& element) {
 }  // namespace
 
 bool is_kim_identifier(const std::string& name) {
-  static const std::regex pattern("[A-Za-z_][A-Za-z0-9_]*__(MO|SM)_[0-9]{12}_[0-9]{3}");
-  return std::regex_match(name, pattern);
+  static const Pattern pattern("[A-Za-z_][A-Za-z0-9_]*__(MO|SM)_[0-9]{12}_[0-9]{3}");
+  return pattern.matches(name);
 }
 
 Interactions kim_interactions(const std::string& identifier, const std::string& element) {

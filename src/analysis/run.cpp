@@ -16,6 +16,7 @@
 #include "src/case/case.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
+#include "src/core/base/json.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/hdf5/hdf5.hpp"
 #include "src/core/parallel/threads.hpp"
@@ -133,7 +134,7 @@ std::vector<SnapshotEntry> read_index(const fs::path& folder) {
   }
   std::vector<SnapshotEntry> entries;
   try {
-    const nlohmann::json index = nlohmann::json::parse(read_text(found.front()));
+    const nlohmann::json index = parse_json(read_text(found.front()));
     for (const nlohmann::json& file : index.at("files")) {
       const fs::path name = file.at("name").get<std::string>();
       if (name != name.filename()) {

@@ -12,6 +12,7 @@
 #include "src/analysis/measures.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
+#include "src/core/base/json.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/base/option_quantity.hpp"
 #include "src/core/base/units.hpp"
@@ -40,7 +41,7 @@ void print_quantities_as_json(const std::filesystem::path& folder) {
     entry["meaning"] = quantity.meaning;
     if (!quantity.reason.empty()) entry["reason"] = quantity.reason;
   }
-  fmt::print("{}\n", all.dump(1));
+  fmt::print("{}\n", json_text(all, 1));
 }
 
 }  // namespace

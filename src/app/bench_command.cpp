@@ -17,6 +17,7 @@
 #include "src/bench/measurement.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
+#include "src/core/base/json.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/base/text_table.hpp"
 #include "src/core/parallel/mpi.hpp"
@@ -53,7 +54,7 @@ void run_worker(const BenchOptions& options) {
   const Measurement measurement = bench::measure(bench::find_problem(options.problems.front()),
                                                  options.threads.front(), length(options), parallel::world());
   if (parallel::rank(parallel::world()) == 0) {
-    io::write_text_atomically(options.worker, bench::to_json(measurement).dump() + "\n");
+    io::write_text_atomically(options.worker, json_text(bench::to_json(measurement), -1) + "\n");
   }
 }
 
@@ -72,7 +73,7 @@ Measurement measure_in_own_processes(const BenchOptions& options, const std::str
   if (options.whole) program.emplace_back("--whole");
   const int code = process::mpirun(ranks, program);
   if (code != 0) throw CLI::RuntimeError(code);
-  const Measurement measurement = bench::from_json(nlohmann::json::parse(read_text(file)));
+  const Measurement measurement = bench::from_json(parse_json(read_text(file)));
   fs::remove(file);
   return measurement;
 }
@@ -129,7 +130,7 @@ void print_scaling(const std::vector<Measurement>& all) {
 
 std::vector<Measurement> read_measurements(const fs::path& file) {
   try {
-    const nlohmann::json json = nlohmann::json::parse(read_text(file));
+    const nlohmann::json json = parse_json(read_text(file));
     std::vector<Measurement> all;
     for (const nlohmann::json& m : json.at("measurements")) all.push_back(bench::from_json(m));
     return all;
@@ -214,7 +215,7 @@ void run_bench(BenchOptions options) {
   if (options.ranks.size() * options.threads.size() > 1) print_scaling(all);
   if (!options.compare.empty()) print_comparison(all, before, options.compare);
   if (options.json.empty()) return;
-  io::write_text_atomically(options.json, to_json(all, options).dump(2) + "\n");
+  io::write_text_atomically(options.json, json_text(to_json(all, options), 2) + "\n");
   fmt::print("\nwrote {}\n", options.json);
 }
 

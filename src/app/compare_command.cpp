@@ -25,6 +25,7 @@
 #include "src/core/base/csv.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
+#include "src/core/base/json.hpp"
 #include "src/core/base/text_table.hpp"
 #include "src/core/process/scripts.hpp"
 #include "src/material/material_file.hpp"
@@ -272,8 +273,7 @@ void draw(const std::vector<Row>& rows, const DrawnMaterials& drawn, const std::
     panels.back()["materials"].push_back(std::move(entry));
   }
   // File names need not be UTF-8.
-  process::draw_json("scripts/plot_compare.py",
-                     panels.dump(1, ' ', false, nlohmann::json::error_handler_t::replace), path);
+  process::draw_json("scripts/plot_compare.py", json_text(panels, 1), path);
 }
 
 bool belongs_to(const Experiment& experiment, const Material& material) {

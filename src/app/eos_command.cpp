@@ -180,7 +180,7 @@ void run_samples(const Request& request) {
   const eos::curves::SampledHugoniot sampled = eos::curves::sampled_hugoniot(
       subjects_of(drawn.materials), eos::curves::spaced(first, last, o.points), release_pressure);
   const Output& output = request.output;
-  if (output.json) fmt::print("{}", json_text(sampled.table));
+  if (output.json) fmt::print("{}", table_as_json(sampled.table));
   if (!output.alone()) print(sampled.table);
   write_output(output.csv, csv_text(sampled.table));
   if (!output.plot.empty()) {
@@ -250,7 +250,7 @@ void add_query(CLI::App& command, const EosQuery& query) {
     const bool one_each =
         std::ranges::all_of(table.series, [](const Series& s) { return s.rows.size() == 1; });
     const bool is_list = query.as_list && one_each;
-    if (output.json) fmt::print("{}", json_text(table));
+    if (output.json) fmt::print("{}", table_as_json(table));
     if (!output.alone()) (is_list ? print_list : print)(table);
     write(table, output);
     warn_beyond_audit(table, subjects);

@@ -8,6 +8,7 @@
 
 #include "eos/experiments/experiment.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/base/json.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/process/paths.hpp"
 #include "src/core/process/scripts.hpp"
@@ -115,8 +116,7 @@ void draw(const Figure& figure, const std::filesystem::path& path) {
       {"points", lines(figure.points)},
       {"bands", bands}};
   // File names need not be UTF-8.
-  process::draw_json("scripts/plot_curves.py",
-                     description.dump(1, ' ', false, nlohmann::json::error_handler_t::replace), path);
+  process::draw_json("scripts/plot_curves.py", json_text(description, 1), path);
   log::info("written: {}", path.string());
 }
 

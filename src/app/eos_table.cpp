@@ -11,6 +11,7 @@
 
 #include "src/core/base/csv.hpp"
 #include "src/core/base/files.hpp"
+#include "src/core/base/json.hpp"
 #include "src/core/base/text_table.hpp"
 
 namespace whipple::app {
@@ -124,7 +125,7 @@ std::string csv_text(const CurveTable& table) {
   return file.str();
 }
 
-std::string json_text(const CurveTable& table) {
+std::string table_as_json(const CurveTable& table) {
   nlohmann::ordered_json all = {{"title", table.title}, {"materials", nlohmann::json::array()}};
   for (const Series& series : table.series) {
     nlohmann::ordered_json rows = nlohmann::json::array();
@@ -143,7 +144,7 @@ std::string json_text(const CurveTable& table) {
     }
     all["materials"].push_back({{"material", series.name}, {"end", series.end}, {"rows", std::move(rows)}});
   }
-  return all.dump(1) + "\n";
+  return json_text(all, 1) + "\n";
 }
 
 bool is_standard_output(const std::string& name) {

@@ -18,7 +18,7 @@ void print_list(const eos::curves::CurveTable& table);
 std::string csv_text(const eos::curves::CurveTable& table);
 /// Returns the table as JSON: a list of rows for each material, each with the columns of the CSV; null for unknown
 /// values.
-std::string json_text(const eos::curves::CurveTable& table);
+std::string table_as_json(const eos::curves::CurveTable& table);
 
 /// Returns whether an output file is named "-": standard output, which then contains nothing else.
 bool is_standard_output(const std::string& name);

@@ -16,6 +16,7 @@
 #include "src/app/materials_table.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
+#include "src/core/base/json.hpp"
 #include "src/core/base/log.hpp"
 #include "src/material/material_file.hpp"
 
@@ -55,7 +56,7 @@ void print_materials_as_json() {
                     {"note", material.note},
                     {"file", material.file.string()}});
   }
-  fmt::print("{}\n", list.dump(1));
+  fmt::print("{}\n", json_text(list, 1));
 }
 
 std::string lower(std::string text) {

@@ -15,6 +15,7 @@
 #include "src/app/analyse_command.hpp"
 #include "src/app/planar_impact.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/base/json.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/process/paths.hpp"
 #include "src/core/process/scripts.hpp"
@@ -53,9 +54,7 @@ std::string write_view(const analysis::Run& run, double megabytes, const std::fi
 void write_planar_impacts(const analysis::Run& run, const std::filesystem::path& output) {
   const int axis = analysis::find_frame(run, analysis::read_snapshot(run.snapshots.front())).axis;
   const cases::Case setup = cases::read_case(run.folder / "run.toml", {});
-  io::write_text_atomically(
-      output / "planar_impact.json",
-      planar_impacts(setup, axis).dump(1, ' ', false, nlohmann::json::error_handler_t::replace));
+  io::write_text_atomically(output / "planar_impact.json", json_text(planar_impacts(setup, axis), 1));
 }
 
 /// Measures a run and draws its views. Returns the path of the three-dimensional view, empty without one.

@@ -19,6 +19,7 @@
 #include "src/app/command_line.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
+#include "src/core/base/json.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/base/option_quantity.hpp"
 #include "src/core/base/progress.hpp"
@@ -140,9 +141,7 @@ int run_here(const Arguments& arguments) {
 /// @throws the error of a wrong case, after its faults were printed
 void print_check_as_json(const Arguments& arguments, bool with_forecast) {
   using nlohmann::json;
-  const auto print = [](const json& text) {
-    fmt::print("{}\n", text.dump(1, ' ', false, json::error_handler_t::replace));
-  };
+  const auto print = [](const json& text) { fmt::print("{}\n", json_text(text, 1)); };
   try {
     print(run::check_json(run::examine_case(run_options(arguments), with_forecast, parallel::world())));
   } catch (const InputError& error) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "src/core/base/error.hpp"
+#include "src/core/base/json.hpp"
 #include "src/core/base/text.hpp"
 #include "src/core/base/text_table.hpp"
 #include "src/run/directory_control.hpp"
@@ -56,7 +57,7 @@ void print_as_json(const std::vector<Found>& runs) {
     entry["run"] = found.run.string();
     list.push_back(std::move(entry));
   }
-  fmt::print("{}\n", list.dump(1, ' ', false, json::error_handler_t::replace));
+  fmt::print("{}\n", json_text(list, 1));
 }
 
 void print_as_table(const std::vector<Found>& runs) {

@@ -219,8 +219,7 @@ Domain peek_dimension(input::Table& root) {
   auto table = root.optional_table("domain");
   if (!table) return domain;
   ParameterTable<Domain> keys = Domain::parameters();
-  std::erase_if(keys,
-                [](const auto& key) { return key.info.name != "dimension" && key.info.name != "axis"; });
+  keys.remove_if([](const ParameterInfo& info) { return info.name != "dimension" && info.name != "axis"; });
   if (!table->read(keys, domain)) return {};
   return domain;
 }

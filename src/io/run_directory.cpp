@@ -9,12 +9,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <regex>
 #include <sstream>
 #include <system_error>
 #include <vector>
 
 #include "src/core/base/error.hpp"
+#include "src/core/base/pattern.hpp"
 #include "src/core/base/text.hpp"
 
 namespace whipple::io {
@@ -28,38 +28,36 @@ namespace fs = std::filesystem;
 
 /// Returns the pattern of files that a run writes into its folder, including the temporary names of `PartialFile`; all
 /// other files there belong to the user.
-std::regex own(const std::string& names) {
-  return std::regex("(" + names + R"()((\.[0-9a-f]{8})?\.partial)?)");
-}
-const std::regex& own_outputs() {
-  static const std::regex names =
+Pattern own(const std::string& names) { return Pattern("(" + names + R"()((\.[0-9a-f]{8})?\.partial)?)"); }
+const Pattern& own_outputs() {
+  static const Pattern names =
       own(R"((run\.toml|(history|gauges|steering)\.csv|log\.txt|(profile|status|columns)\.json))"
           R"(|.+\.(particles|elements)\.(hdf\.series|[0-9]{6,}\.hdf))");
   return names;
 }
-const std::regex& own_checkpoints() {
-  static const std::regex names = own(R"(checkpoint\.[0-9]{8,}\.h5)");
+const Pattern& own_checkpoints() {
+  static const Pattern names = own(R"(checkpoint\.[0-9]{8,}\.h5)");
   return names;
 }
 /// Returns the pattern of pending requests.
-const std::regex& own_requests() {
-  static const std::regex names = own(R"(.+\.toml(\.taken)?)");
+const Pattern& own_requests() {
+  static const Pattern names = own(R"(.+\.toml(\.taken)?)");
   return names;
 }
 /// Returns the pattern of material copies; only those left incomplete by a killed run are removed.
-const std::regex& own_materials() {
-  static const std::regex names = own(R"(.+\.toml)");
+const Pattern& own_materials() {
+  static const Pattern names = own(R"(.+\.toml)");
   return names;
 }
 
 enum class Which { all, partial };
 
 /// Removes matching files. Links are removed, not their targets.
-void remove_matching(const fs::path& folder, const std::regex& names, Which which = Which::all) {
+void remove_matching(const fs::path& folder, const Pattern& names, Which which = Which::all) {
   std::vector<fs::path> outputs;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
-    if ((entry.is_regular_file() || entry.is_symlink()) && std::regex_match(name, names) &&
+    if ((entry.is_regular_file() || entry.is_symlink()) && names.matches(name) &&
         (which == Which::all || name.ends_with(".partial"))) {
       outputs.push_back(entry.path());
     }
@@ -158,7 +156,7 @@ RunDirectory RunDirectory::open(const fs::path& path, const std::string& name) {
     throw InputError(fmt::format("{}: is not the folder of a run: it contains no run.toml", path.string()));
   }
   for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
-    if (entry.is_symlink() && std::regex_match(entry.path().filename().string(), own_outputs()))
+    if (entry.is_symlink() && own_outputs().matches(entry.path().filename().string()))
       throw InputError(
           fmt::format("{}: is a symbolic link; a run writes into its own folder alone: put the file there",
                       entry.path().string()));

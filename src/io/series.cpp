@@ -11,6 +11,7 @@
 
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
+#include "src/core/base/json.hpp"
 #include "src/io/run_directory.hpp"
 
 namespace whipple::io {
@@ -43,7 +44,7 @@ std::string Series::index_text() const {
   index["file-series-version"] = "1.0";
   index["files"] = nlohmann::ordered_json::array();
   for (const Entry& entry : entries_) index["files"].push_back({{"name", entry.file}, {"time", entry.time}});
-  return index.dump(1) + "\n";
+  return json_text(index, 1) + "\n";
 }
 
 void Series::restart(double time) {
@@ -56,7 +57,7 @@ void Series::restart(double time) {
   entries_.clear();
   if (!text.empty()) {
     try {
-      const nlohmann::json index = nlohmann::json::parse(text);
+      const nlohmann::json index = parse_json(text);
       for (const nlohmann::json& entry : index.at("files")) {
         entries_.push_back({entry.at("name").get<std::string>(), entry.at("time").get<double>()});
         if (snapshot_number(entries_.back().file, run_, kind_) != entries_.size() - 1) {

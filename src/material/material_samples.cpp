@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <regex>
 
 #include "src/core/base/error.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/base/normal_samples.hpp"
+#include "src/core/base/pattern.hpp"
 #include "src/core/input/document.hpp"
 #include "src/material/material_file.hpp"
 #include "src/material/material_schema.hpp"
@@ -158,10 +158,9 @@ Errors read_errors(const std::filesystem::path& file, ErrorTier tier) {
 
 /// Issues one warning for each kind of warning of the draws; warnings of a kind differ in numbers only.
 void warn_of_draws(const std::filesystem::path& file, const std::vector<std::string>& warnings, int draws) {
-  static const std::regex number("[0-9]+([.][0-9]+)?([eE][-+]?[0-9]+)?");
+  static const Pattern number("[0-9]+([.][0-9]+)?([eE][-+]?[0-9]+)?");
   std::map<std::string, std::vector<std::string>> kinds;
-  for (const std::string& warning : warnings)
-    kinds[std::regex_replace(warning, number, "#")].push_back(warning);
+  for (const std::string& warning : warnings) kinds[number.replace(warning, "#")].push_back(warning);
   for (const auto& [kind, messages] : kinds)
     log::warning("{}: {} of {} draws: {}", file.filename().string(), messages.size(), draws,
                  messages.front());

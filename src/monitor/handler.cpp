@@ -13,6 +13,7 @@
 
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
+#include "src/core/base/json.hpp"
 #include "src/io/run_directory.hpp"
 #include "src/run/directory_control.hpp"
 #include "src/run/status.hpp"
@@ -36,9 +37,7 @@ enum Status {
 Response text(int status, std::string body) {
   return {status, "text/plain; charset=utf-8", std::move(body) + "\n"};
 }
-Response data(const json& body, int status = ok) {
-  return {status, "application/json", body.dump(-1, ' ', false, json::error_handler_t::replace)};
-}
+Response data(const json& body, int status = ok) { return {status, "application/json", json_text(body, -1)}; }
 
 /// Compares two texts in constant time, independent of the position of a difference.
 bool equal_texts(std::string_view a, std::string_view b) {
@@ -173,7 +172,7 @@ Response Handler::handle(const Request& request) {
     if (!request.changes) return read(path, query);
     if (access_.read_only) return text(forbidden, "this monitor only shows (--read-only)");
     if (request.content_type != "application/json") return text(unsupported, "expected application/json");
-    return change(path, json::parse(request.body));
+    return change(path, parse_json(request.body));
   } catch (const json::exception& error) {
     return text(bad_request, error.what());
   } catch (const InputError& error) {

@@ -36,8 +36,7 @@ constexpr auto table = std::to_array<ActEntry>({
      "output.gauges_every"},
 });
 
-template <class Owner>
-const ParameterInfo* find(const std::vector<Parameter<Owner>>& parameters, std::string_view name) {
+const ParameterInfo* find(std::span<const UnboundParameter> parameters, std::string_view name) {
   const auto found = std::ranges::find_if(parameters, [&](const auto& p) { return p.info.name == name; });
   return found == parameters.end() ? nullptr : &found->info;
 }
@@ -47,7 +46,8 @@ ParameterInfo parameter_of(std::string_view key) {
   const std::string_view name = key.substr(key.find('.') + 1);
   const auto time = cases::TimeControl::parameters();
   const auto output = cases::OutputControl::parameters();
-  const ParameterInfo* info = key.starts_with("time.") ? find(time, name) : find(output, name);
+  const ParameterInfo* info =
+      key.starts_with("time.") ? find(time.parameters(), name) : find(output.parameters(), name);
   if (info == nullptr) throw InternalError(fmt::format("the case has no key {}", key));
   return *info;
 }

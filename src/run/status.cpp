@@ -10,6 +10,7 @@
 
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
+#include "src/core/base/json.hpp"
 #include "src/io/run_directory.hpp"
 
 namespace whipple::run {
@@ -32,14 +33,14 @@ void write_status(const std::filesystem::path& file, const RunStatus& status) {
                      {"written", status.written},
                      {"ended_by", status.ended_by}};
   // Messages may quote files of any encoding.
-  io::write_text_atomically(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  io::write_text_atomically(file, json_text(json, 2) + "\n");
 }
 
 RunStatus read_status(const std::filesystem::path& run) {
   const std::filesystem::path file = run / "status.json";
   RunStatus status;
   try {
-    const Json json = Json::parse(read_text(file));
+    const Json json = parse_ordered_json(read_text(file));
     const auto word = json.at("state").get<std::string>();
     const std::optional<Activity> state = value_of<Activity>(word);
     if (!state) throw InputError(fmt::format("{}: unknown state \"{}\" of a run", file.string(), word));

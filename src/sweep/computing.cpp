@@ -11,6 +11,7 @@
 
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
+#include "src/core/base/json.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/base/machine.hpp"
 #include "src/core/base/text.hpp"
@@ -88,7 +89,7 @@ Record Computer::record(const Point& point) const {
   std::error_code none;
   if (!fs::exists(file, none)) return {};
   try {
-    const Json json = Json::parse(read_text(file));
+    const Json json = parse_ordered_json(read_text(file));
     const std::optional<State> state = value_of<State>(json.at("state").get<std::string>());
     if (!state || json.at("digest") != point.digest) throw InputError("not of this point");
     return {*state, json.at("exit_code"), json.at("message"), json.at("wall_time")};
@@ -107,8 +108,7 @@ void Computer::finish(const Point& point, Record record) {
                      {"state", word_of(record.state)}, {"exit_code", record.exit_code},
                      {"message", record.message},      {"wall_time", record.wall_time}};
   if (plan_.study.computing.keep == Keep::tables) remove_large_files(run_folder(point));
-  replace_durably(record_file(point), record_file(point).string() + ".partial",
-                  json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  replace_durably(record_file(point), record_file(point).string() + ".partial", json_text(json, 2) + "\n");
   std::error_code ignored;
   if (record.state == State::done) fs::remove(log_file(point), ignored);
   ++computed_;

@@ -10,6 +10,7 @@
 
 #include "src/core/base/csv.hpp"
 #include "src/core/base/files.hpp"
+#include "src/core/base/json.hpp"
 #include "src/core/hdf5/hdf5.hpp"
 #include "src/core/process/scripts.hpp"
 
@@ -93,7 +94,7 @@ std::string as_json(const Results& results) {
   json["variables"] = variables;
   json["quantities"] = results.quantities;
   for (const Table* table : tables_of(results)) json[table->name] = json_of(*table);
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json, 1) + "\n";
 }
 
 void write_tables(const Results& results, const std::filesystem::path& folder) {

@@ -14,6 +14,7 @@
 #include <variant>
 
 #include "src/core/base/error.hpp"
+#include "src/core/base/json.hpp"
 #include "src/core/base/random_bits.hpp"
 #include "src/core/base/text.hpp"
 #include "src/core/base/words.hpp"
@@ -266,7 +267,7 @@ std::string pack_cloud(const analysis::Run& run, const analysis::Snapshot& snaps
       append_reals<std::uint16_t>(field, kept, file);
     }
   }
-  std::string header = file.header.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  std::string header = json_text(file.header, -1);
   header.append((4 - header.size() % 4) % 4, ' ');
   std::string bytes = "WPV1";
   append_number(bytes, static_cast<std::uint32_t>(header.size()));

@@ -8,12 +8,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <regex>
 #include <set>
 #include <sstream>
 
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
+#include "src/core/base/pattern.hpp"
 #include "src/io/run_directory.hpp"
 #include "src/view/cloud.hpp"
 
@@ -89,13 +89,12 @@ std::string empty_page(const analysis::Run& run, const fs::path& viewer) {
 
 void append_module(const fs::path& file, std::set<fs::path>& done, std::string& script) {
   if (!done.insert(file).second) return;
-  static const std::regex import_line(R"(import \{[^}]*\} from '\./([a-z_]+\.js)';)");
+  static const Pattern import_line(R"(import \{[^}]*\} from '\./([a-z_]+\.js)';)");
   std::istringstream lines(read_text(file));
   std::string own;
   for (std::string line; std::getline(lines, line);) {
-    std::smatch found;
-    if (std::regex_match(line, found, import_line)) {
-      append_module(file.parent_path() / found[1].str(), done, script);
+    if (const auto found = import_line.match(line)) {
+      append_module(file.parent_path() / found->at(1), done, script);
     } else if (line.starts_with("import ")) {
       throw InputError(fmt::format("{}: error: imports otherwise than by one line: {}", file.string(), line));
     } else {

@@ -20,6 +20,7 @@
 
 #include "src/case/case.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/base/json.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/base/progress.hpp"
 #include "src/core/parallel/mpi.hpp"
@@ -175,7 +176,7 @@ TEST_F(Run, KilledAndRestartedGivesBitwiseTheSameHistory) {
   EXPECT_EQ(first_difference(gauges("killed"), gauges("whole")), "");
   EXPECT_TRUE(newest_checkpoint("killed") == newest_checkpoint("whole"));
   for (const char* run : {"whole", "killed"}) {  // columns.json describes the columns of history.csv
-    const auto columns = nlohmann::json::parse(text(folder_ / run / "columns.json"));
+    const auto columns = parse_json(text(folder_ / run / "columns.json"));
     std::string head;
     for (const auto& column : columns) {
       const auto unit = column.at("unit").get<std::string>();

@@ -5,11 +5,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <random>
 
 #include "md_fitting/fit/design.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/base/linear_algebra.hpp"
 
 namespace whipple::fit {
 namespace {
@@ -33,8 +33,8 @@ TEST(Adaptive, UpdateOfTheCovarianceIsThatOfTheLargerProblem) {
   const Eigen::VectorXd gradient = random(4, 1);
   const auto direct = [&](Eigen::Index rows) {
     const Eigen::MatrixXd j = jacobian.topRows(rows);
-    const Eigen::MatrixXd inverse = sigma.topLeftCorner(rows, rows).inverse();
-    const Eigen::MatrixXd covariance = (j.transpose() * inverse * j).inverse();
+    const Eigen::MatrixXd weights = inverse(sigma.topLeftCorner(rows, rows));
+    const Eigen::MatrixXd covariance = inverse(j.transpose() * weights * j);
     return gradient.dot(covariance * gradient);
   };
   Design design(jacobian, sigma, Eigen::VectorXd::Constant(4, 1e6), {0, 1, 2, 3, 4, 5, 6});

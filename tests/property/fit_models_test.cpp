@@ -2,7 +2,6 @@
 // The other models and the fluid: data made of known constants give them back, within the stated errors.
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "md_fitting/fit/fit_report.hpp"
@@ -11,6 +10,7 @@
 #include "md_fitting/fit/solid_problem.hpp"
 #include "md_fitting/fit/vapour_fit.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/base/linear_algebra.hpp"
 #include "tests/property/fit_recovery.hpp"
 
 namespace whipple::fit {
@@ -46,7 +46,7 @@ void expect_honest(const FitOf& fit_of, const Truth& truth, int seeds) {
     // In units of the errors: the covariance itself mixes m^3/kg with K.
     const Eigen::VectorXd scale = fit.covariance.diagonal().cwiseSqrt();
     sum += deviation.cwiseQuotient(scale).dot(
-        Eigen::LDLT<Eigen::MatrixXd>(fit.correlation()).solve(deviation.cwiseQuotient(scale)));
+        Eigen::VectorXd(solve_symmetric(fit.correlation(), deviation.cwiseQuotient(scale))));
     data_sum += fit.chi_squared;
     degrees_of_freedom += fit.degrees_of_freedom;
   }
@@ -388,7 +388,7 @@ TEST(FitModels, VapourIsRecovered) {
   EXPECT_NEAR(fit.value("join_volume_ratio"), 1.27, 1e-4);
   // The joint covariance is positive and holds the solid's share.
   EXPECT_EQ(fit.covariance.rows(), 10);
-  EXPECT_GT(Eigen::LDLT<Eigen::MatrixXd>(fit.correlation()).vectorD().minCoeff(), 0.0);
+  EXPECT_GT(symmetric_eigen(fit.correlation()).values[0], 0.0);
 
   double attraction = 0.0;
   double join = 0.0;

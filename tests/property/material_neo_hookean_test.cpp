@@ -2,13 +2,13 @@
 // The neo-Hookean solid compared with closed forms (docs/theory/material.md, section 12).
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <memory>
 #include <random>
 
+#include "src/core/base/linear_algebra.hpp"
 #include "src/material/neo_hookean.hpp"
 #include "tests/unit/material_support.hpp"
 
@@ -164,7 +164,8 @@ TEST(NeoHookean, SoundSpeedIsNotBelowThatOfAnyWave) {
       stiffness.col(a) = (traction(moved) - traction(points)) / step;
     }
     const double density = points.mass[0] / points.volume[0];
-    const double fastest = std::sqrt(stiffness.eigenvalues().real().maxCoeff() / density);
+    const double fastest =
+        std::sqrt(symmetric_eigen(0.5 * (stiffness + stiffness.transpose())).values[2] / density);
     EXPECT_GE(points.sound_speed[0], 0.999 * fastest) << i;
     EXPECT_LT(points.sound_speed[0], 1.5 * fastest) << i;
   }

@@ -3,7 +3,6 @@
 // simple shear, energy of closed cycles, loss of strength by melting.
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <array>
 #include <cstring>
@@ -11,6 +10,7 @@
 #include <numbers>
 #include <thread>
 
+#include "src/core/base/linear_algebra.hpp"
 #include "src/material/material_file.hpp"
 #include "tests/unit/material_support.hpp"
 
@@ -62,9 +62,9 @@ double error_of_large_step(material::StressRotation rule, double angle) {
     motion->modulus[k] = 1.0;
   }
   material::elastic_trial(material::lane_count, 1.0, rule, *motion);
-  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(stretch);
-  Matrix3 strain = solver.eigenvectors() * solver.eigenvalues().array().log().matrix().asDiagonal() *
-                   solver.eigenvectors().transpose();
+  const SymmetricEigen eigen = symmetric_eigen(stretch);
+  Matrix3 strain =
+      eigen.vectors * eigen.values.array().log().matrix().asDiagonal() * eigen.vectors.transpose();
   strain -= strain.trace() / 3 * Matrix3::Identity();
   const Matrix3 exact = turn * (initial + 2 * strain) * turn.transpose();
   const auto& s = motion->deviator;

@@ -195,7 +195,7 @@ TEST(ParameterTable, WordsStandForTheValuesOfAnEnumeration) {
 
 // A unit that does not parse would make every reading of the key fail.
 TEST(ParameterTable, UnitsOfTablesAreKnown) {
-  for (const Parameter<Model>& parameter : table()) {
+  for (const UnboundParameter& parameter : table()) {
     EXPECT_NO_THROW(units::conversion(parameter.info.unit, parameter.info.unit)) << parameter.info.name;
   }
 }

@@ -2,12 +2,11 @@
 // The weighted least squares: closed forms, certified values, and what it refuses.
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <cmath>
 
 #include "md_fitting/fit/least_squares.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/base/linear_algebra.hpp"
 
 namespace whipple::fit {
 namespace {
@@ -68,14 +67,14 @@ struct LineProblem {
 // Aitken: p = (A^T S^-1 A)^-1 A^T S^-1 y, covariance (A^T S^-1 A)^-1.
 TEST(LeastSquares, IsGeneralisedLeastSquaresForLinearProblems) {
   const LineProblem line;
-  const MatrixXd inverse = (line.problem.statistical + line.problem.model).inverse();
-  const MatrixXd covariance = (line.design.transpose() * inverse * line.design).inverse();
-  const VectorXd expected = covariance * line.design.transpose() * inverse * line.y;
+  const MatrixXd weights = inverse(line.problem.statistical + line.problem.model);
+  const MatrixXd covariance = inverse(line.design.transpose() * weights * line.design);
+  const VectorXd expected = covariance * line.design.transpose() * weights * line.y;
   const LeastSquaresSolution solution = solve(line.problem);
   EXPECT_LT((solution.parameters - expected).norm(), 1e-8);
   EXPECT_LT((solution.covariance - covariance).norm(), 1e-7 * covariance.norm());
   // The share of the noise: the same estimator G, G S_stat G^T.
-  const MatrixXd estimator = covariance * line.design.transpose() * inverse;
+  const MatrixXd estimator = covariance * line.design.transpose() * weights;
   const MatrixXd noise = estimator * line.problem.statistical * estimator.transpose();
   EXPECT_LT((solution.statistical_covariance - noise).norm(), 1e-7 * noise.norm());
   EXPECT_LT(noise(1, 1), covariance(1, 1));

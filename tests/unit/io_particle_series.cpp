@@ -11,6 +11,7 @@
 #include <numeric>
 
 #include "src/core/base/error.hpp"
+#include "src/core/base/json.hpp"
 #include "src/core/hdf5/hdf5.hpp"
 #include "src/io/background_writer.hpp"
 #include "src/io/particle_series.hpp"
@@ -36,7 +37,7 @@ class Series : public FolderTest {
   }
   std::vector<double> index_times() const {
     std::vector<double> times;
-    const auto index = nlohmann::json::parse(read_text(folder_ / "disk.particles.hdf.series"));
+    const auto index = parse_json(read_text(folder_ / "disk.particles.hdf.series"));
     for (const auto& entry : index.at("files")) {
       EXPECT_TRUE(fs::exists(folder_ / entry.at("name").get<std::string>()));
       times.push_back(entry.at("time").get<double>());
@@ -223,7 +224,7 @@ TEST_F(Series, the_index_holds_exact_times) {
   EXPECT_TRUE(std::ranges::none_of(fs::directory_iterator(folder_), [](const fs::directory_entry& file) {
     return file.path().extension() == ".partial";
   }));
-  const auto index = nlohmann::json::parse(read_text(series.index_path()));
+  const auto index = parse_json(read_text(series.index_path()));
   EXPECT_EQ(index.at("file-series-version"), "1.0");
   EXPECT_EQ(index.at("files")[1].at("name"), "disk.particles.000001.hdf");
 }

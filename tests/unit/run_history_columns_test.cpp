@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "src/core/base/files.hpp"
+#include "src/core/base/json.hpp"
 #include "src/run/observers/history_columns.hpp"
 #include "src/solver/accounts.hpp"
 #include "tests/unit/ball_on_plate.hpp"
@@ -35,7 +36,7 @@ TEST(Accounts, StandInTheManual) {
 // One list for checkpoints, history.csv and columns.json: every limiter is a column that says what it limits.
 TEST(Accounts, AreDescribedForPrograms) {
   const std::vector<HistoryColumn> columns = history_columns(ball_on_plate());
-  const nlohmann::json list = nlohmann::json::parse(columns_as_json(columns));
+  const nlohmann::json list = parse_json(columns_as_json(columns));
   ASSERT_EQ(list.size(), columns.size());
   std::size_t limiters = 0;
   for (std::size_t i = 0; i < columns.size(); ++i) {

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "src/core/base/error.hpp"
+#include "src/core/base/json.hpp"
 #include "src/io/output_fields.hpp"
 #include "src/view/cloud.hpp"
 #include "src/view/page.hpp"
@@ -52,7 +53,7 @@ struct Unpacked {
     EXPECT_EQ(bytes.substr(0, 4), "WPV1");
     std::uint32_t length = 0;
     std::memcpy(&length, bytes.data() + 4, 4);
-    header = nlohmann::json::parse(bytes.substr(8, length));
+    header = parse_json(bytes.substr(8, length));
     std::size_t at = 8 + length;
     const auto n = header.at("n").get<std::size_t>();
     const auto plane = [&](std::size_t width) {
@@ -110,8 +111,8 @@ TEST(PackedCloud, PositionsAndFieldsComeBackWithinHalfAStep) {
   EXPECT_EQ(cloud.header.at("time"), 2.5e-6);
   EXPECT_EQ(cloud.header.at("title"), "Kugel & <Platte>");
   EXPECT_EQ(cloud.header.at("dimension"), "3d");
-  EXPECT_EQ(cloud.header.at("mirrors"), nlohmann::json::parse("[null, 0.25, null]"));
-  EXPECT_EQ(cloud.header.at("bodies")[1], nlohmann::json::parse(R"({"name": "plate", "spacing": 0.002})"));
+  EXPECT_EQ(cloud.header.at("mirrors"), parse_json("[null, 0.25, null]"));
+  EXPECT_EQ(cloud.header.at("bodies")[1], parse_json(R"({"name": "plate", "spacing": 0.002})"));
   std::uint64_t id = 0;
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -6,12 +6,12 @@
 #include <fstream>
 #include <limits>
 #include <map>
-#include <regex>
 #include <sstream>
 
 #include "eos/detonation.hpp"
 #include "eos/inversions.hpp"
 #include "eos/loci.hpp"
+#include "src/core/base/pattern.hpp"
 #include "src/material/material_file.hpp"
 #include "tests/unit/eos_support.hpp"
 
@@ -164,10 +164,9 @@ TEST(LibraryMetals, ShockVelocitiesOfOtherAuthors) {
   std::map<std::string, std::pair<double, double>> fits;
   std::ifstream file(data + "us_up_fits.csv");
   for (std::string line; std::getline(file, line);) {
-    std::smatch found;
-    const std::regex row(R"(^("[^"]*"|[^",#][^,]*),([\d.]*),([\d.]+),([\d.]+),.*)");
-    if (std::regex_match(line, found, row)) {
-      fits[std::string(found[1]) + " " + std::string(found[2])] = {std::stod(found[3]), std::stod(found[4])};
+    static const Pattern row(R"(^("[^"]*"|[^",#][^,]*),([\d.]*),([\d.]+),([\d.]+),.*)");
+    if (const auto found = row.match(line)) {
+      fits[found->at(1) + " " + found->at(2)] = {std::stod(found->at(3)), std::stod(found->at(4))};
     }
   }
   struct Expected {
@@ -210,20 +209,17 @@ TEST(LibraryMetals, ConstantsAreThoseOfSteinbergsTable) {
     std::ifstream file(entry.file);
     const std::string whole((std::istreambuf_iterator<char>(file)), {});
     const std::string text = whole.substr(0, whole.find("[strength]"));
-    std::smatch found;
-    if (!std::regex_search(text, found,
-                           std::regex(R"re(model = "(?:gray|mie_gruneisen)"[^]*SCG_([\w.-]+)\.xml)re")))
-      continue;
+    static const Pattern steinberg(R"re(model = "(?:gray|mie_gruneisen)"[^]*SCG_([\w.-]+)\.xml)re");
+    const auto found = steinberg.find(text);
+    if (!found) continue;
     SCOPED_TRACE(entry.file.stem().string());
-    ASSERT_EQ(rows.count(found[1]), 1U) << found[1];
-    const std::vector<std::string>& row = rows[found[1]];
+    ASSERT_EQ(rows.count(found->at(1)), 1U) << found->at(1);
+    const std::vector<std::string>& row = rows[found->at(1)];
     std::map<std::string, double> constants;
     std::istringstream lines(read_material(entry.file).eos->constants());
     for (std::string line; std::getline(lines, line);) {
-      std::smatch pair;
-      if (std::regex_search(line, pair, std::regex(R"(^(\w+) = "?([-+]?[.\d][-+.\deE]*))"))) {
-        constants[pair[1]] = std::stod(pair[2]);
-      }
+      static const Pattern constant(R"(^(\w+) = "?([-+]?[.\d][-+.\deE]*))");
+      if (const auto pair = constant.find(line)) constants[pair->at(1)] = std::stod(pair->at(2));
     }
     const auto same = [&](const char* name, std::size_t column, double size) {
       const double value = std::stod(row[column]) * size;
@@ -232,7 +228,7 @@ TEST(LibraryMetals, ConstantsAreThoseOfSteinbergsTable) {
     const bool gray = constants.count("reference_specific_volume") == 1;
     EXPECT_NEAR(gray ? 1 / constants.at("reference_specific_volume") : constants.at("reference_density"),
                 1e3 * std::stod(row[2]), 1e-4);
-    if (found[1] == "Tin") {
+    if (found->at(1) == "Tin") {
       EXPECT_EQ(constants.at("hugoniot_intercept"), 2610);
     } else {
       same("hugoniot_intercept", 3, 1e3);
@@ -348,9 +344,9 @@ TEST(LibraryTillotson, HugoniotsAndContinuity) {
       EXPECT_FALSE(melting_point(eos, pressure)) << "a model without melting";
     const std::string constants = eos.constants();
     const auto value = [&](const std::string& name) {
-      std::smatch found;
-      EXPECT_TRUE(std::regex_search(constants, found, std::regex(name + R"( = "?([-+.\deE]+))")));
-      return std::stod(found[1]);
+      const auto found = Pattern(name + R"( = "?([-+.\deE]+))").find(constants);
+      EXPECT_TRUE(found) << name;
+      return found ? std::stod(found->at(1)) : 0.0;
     };
     const double rho0 = eos.reference_density(), modulus = value("bulk_modulus");
     const double incipient = value("incipient_vaporisation_energy"),

@@ -11,7 +11,6 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <regex>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -19,7 +18,9 @@
 
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
+#include "src/core/base/json.hpp"
 #include "src/core/base/log.hpp"
+#include "src/core/base/pattern.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/io/run_directory.hpp"
 #include "src/run/directory_control.hpp"
@@ -135,7 +136,7 @@ class Steering : public ::testing::Test {
     for (const std::string& line : lines_of(directory.history_file())) {
       if (!line.starts_with("step")) result.history.push_back(std::stoll(line));
     }
-    const auto index = nlohmann::json::parse(text_of(result.folder / "ball.particles.hdf.series"));
+    const auto index = parse_json(text_of(result.folder / "ball.particles.hdf.series"));
     for (const auto& entry : index.at("files"))
       result.snapshots.push_back(1e6 * entry.at("time").get<double>());
     result.checkpoints = io::list_checkpoints(directory.checkpoint_folder()).size();
@@ -387,8 +388,7 @@ TEST_F(Steering, TheStatusOfARunThatNoProcessHoldsIsLost) {
   EXPECT_TRUE(any_goes_on(temporary_.path()));
   const std::string text = read_text(temporary_.path() / "status.json");
   EXPECT_THAT(text, HasSubstr("\"state\": \"running\""));
-  std::ofstream(temporary_.path() / "status.json")
-      << std::regex_replace(text, std::regex("running"), "asleep");
+  std::ofstream(temporary_.path() / "status.json") << Pattern("running").replace(text, "asleep");
   EXPECT_THROW((void)read_status(temporary_.path()), InputError);
   EXPECT_FALSE(any_goes_on(temporary_.path()));
   std::ofstream(temporary_.path() / "status.json") << "{}";

@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <utility>
 
 #include "src/core/base/error.hpp"
+#include "src/core/base/linear_algebra.hpp"
 
 namespace whipple {
 
@@ -28,12 +28,11 @@ NormalSamples::NormalSamples(Eigen::VectorXd mean, const Eigen::MatrixXd& covari
   constexpr double rounding = 1e-5;  // files contain seven digits
   if (!correlation.isApprox(correlation.transpose(), rounding))
     throw InputError("the covariance is not symmetric");
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlation);
-  if (!(eigen.eigenvalues().minCoeff() > -rounding)) {
+  const SymmetricEigen eigen = symmetric_eigen(correlation);
+  if (!(eigen.values.minCoeff() > -rounding)) {
     throw InputError("the covariance is not positive: its correlations contradict each other");
   }
-  factor_ =
-      scale.asDiagonal() * eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  factor_ = scale.asDiagonal() * eigen.vectors * eigen.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }
 
 Eigen::VectorXd NormalSamples::draw() {

@@ -78,20 +78,12 @@ std::string wrapped(const std::vector<std::string>& words) {
 
 }  // namespace
 
-bool Range::contains(double value) const {
-  const bool above = lower_open ? value > lower : value >= lower;
-  const bool below = upper_open ? value < upper : value <= upper;
-  return above && below;
-}
-
-std::string Range::text() const {
-  std::string result;
-  if (std::isfinite(lower)) result = fmt::format("{} {}", lower_open ? ">" : ">=", lower);
-  if (std::isfinite(upper)) {
-    if (!result.empty()) result += " and ";
-    result += fmt::format("{} {}", upper_open ? "<" : "<=", upper);
-  }
-  return result.empty() ? "any" : result;
+std::vector<BoundParameter> bind(std::span<const UnboundParameter> parameters, void* owner) {
+  std::vector<BoundParameter> bound;
+  bound.reserve(parameters.size());
+  for (const UnboundParameter& parameter : parameters)
+    bound.push_back({parameter.info, parameter.target(owner)});
+  return bound;
 }
 
 std::string value_as_toml(const BoundParameter& parameter) {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <limits>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,6 +14,7 @@
 #include <variant>
 #include <vector>
 
+#include "src/core/base/range.hpp"
 #include "src/core/base/tensor.hpp"
 #include "src/core/base/words.hpp"
 
@@ -20,28 +22,6 @@
 /// and ranges, error messages, `whipple describe`, the manual, provenance, and the selection of constants varied in a
 /// fit.
 namespace whipple {
-
-/// Describes the admissible range of a number; infinite bounds mean no bound.
-struct Range {
-  double lower = -std::numeric_limits<double>::infinity();
-  double upper = std::numeric_limits<double>::infinity();
-  bool lower_open = false;
-  bool upper_open = false;
-
-  [[nodiscard]] bool contains(double value) const;
-  /// Returns "> 0", ">= 0 and < 0.5", "any".
-  [[nodiscard]] std::string text() const;
-};
-
-namespace range {
-inline Range any() { return {}; }
-inline Range positive() { return {.lower = 0.0, .lower_open = true}; }
-inline Range non_negative() { return {.lower = 0.0}; }
-inline Range between(double lower, double upper) { return {.lower = lower, .upper = upper}; }
-inline Range open_between(double lower, double upper) {
-  return {.lower = lower, .upper = upper, .lower_open = true, .upper_open = true};
-}
-}  // namespace range
 
 /// Describes a parameter independent of the object that contains it.
 struct ParameterInfo {
@@ -83,14 +63,15 @@ struct BoundParameter {
   ParameterTarget target;
 };
 
-template <class Owner>
-struct Parameter {
-  using Member = std::variant<double Owner::*, std::int64_t Owner::*, bool Owner::*, std::string Owner::*,
-                              Vector3 Owner::*, std::vector<double> Owner::*,
-                              std::vector<std::string> Owner::*, std::function<ParameterTarget(Owner&)>>;
+/// Describes a parameter of objects whose type only the function knows, so that code of tables is compiled once.
+struct UnboundParameter {
   ParameterInfo info;
-  Member member;
+  std::function<ParameterTarget(void* owner)> target;
+};
 
+/// Describes a parameter of an object of type Owner.
+template <class Owner>
+struct Parameter : UnboundParameter {
   /// Makes the key optional: the initial value of the member is the default.
   [[nodiscard]] Parameter optional() && {
     info.required = false;
@@ -114,91 +95,115 @@ struct Parameter {
   }
 };
 
+/// Lists the parameters of objects of type Owner.
 template <class Owner>
-using ParameterTable = std::vector<Parameter<Owner>>;
+class ParameterTable {
+ public:
+  ParameterTable() = default;
+  ParameterTable(std::initializer_list<Parameter<Owner>> parameters) {
+    for (const Parameter<Owner>& parameter : parameters) parameters_.push_back(parameter);
+  }
+  void push_back(Parameter<Owner> parameter) { parameters_.push_back(std::move(parameter)); }
+  void append(const ParameterTable& further) {
+    parameters_.insert(parameters_.end(), further.begin(), further.end());
+  }
+  void remove_if(const std::function<bool(const ParameterInfo&)>& condition) {
+    std::erase_if(parameters_, [&](const UnboundParameter& parameter) { return condition(parameter.info); });
+  }
+
+  [[nodiscard]] std::span<const UnboundParameter> parameters() const { return parameters_; }
+  [[nodiscard]] std::size_t size() const { return parameters_.size(); }
+  auto begin() { return parameters_.begin(); }
+  auto end() { return parameters_.end(); }
+  auto begin() const { return parameters_.begin(); }
+  auto end() const { return parameters_.end(); }
+
+ private:
+  std::vector<UnboundParameter> parameters_;
+};
+
+namespace detail {
+/// Declares the parameter that a member holds.
+template <class Owner, class Value>
+Parameter<Owner> parameter(ParameterInfo info, Value Owner::* member) {
+  return {{std::move(info),
+           [member](void* owner) -> ParameterTarget { return &(static_cast<Owner*>(owner)->*member); }}};
+}
+}  // namespace detail
 
 /// Declares a number with a unit.
 template <class Owner>
 Parameter<Owner> real(std::string name, double Owner::* member, std::string unit, Range range,
                       std::string meaning) {
-  return {{std::move(name), std::move(unit), range, std::move(meaning), true, {}}, member};
+  return detail::parameter<Owner>({std::move(name), std::move(unit), range, std::move(meaning), true, {}},
+                                  member);
 }
 template <class Owner>
 Parameter<Owner> integer(std::string name, std::int64_t Owner::* member, Range range, std::string meaning) {
-  return {{std::move(name), "", range, std::move(meaning), true, {}}, member};
+  return detail::parameter<Owner>({std::move(name), "", range, std::move(meaning), true, {}}, member);
 }
 template <class Owner>
 Parameter<Owner> boolean(std::string name, bool Owner::* member, std::string meaning) {
-  return {{std::move(name), "", {}, std::move(meaning), true, {}}, member};
+  return detail::parameter<Owner>({std::move(name), "", {}, std::move(meaning), true, {}}, member);
 }
 template <class Owner>
 Parameter<Owner> text(std::string name, std::string Owner::* member, std::string meaning) {
-  return {{std::move(name), "", {}, std::move(meaning), true, {}}, member};
+  return detail::parameter<Owner>({std::move(name), "", {}, std::move(meaning), true, {}}, member);
 }
 /// Declares a choice of words stored as text.
 template <class Owner>
 Parameter<Owner> choice(std::string name, std::string Owner::* member, std::vector<std::string> choices,
                         std::string meaning) {
-  return {{std::move(name), "", {}, std::move(meaning), true, std::move(choices)}, member};
+  return detail::parameter<Owner>({std::move(name), "", {}, std::move(meaning), true, std::move(choices)},
+                                  member);
 }
 /// Declares a choice of the words of an enumeration (words.hpp).
 template <class Owner, class Enum>
   requires std::is_enum_v<Enum>
 Parameter<Owner> choice(std::string name, Enum Owner::* member, std::string meaning) {
-  return {{std::move(name), "", {}, std::move(meaning), true, word_list<Enum>()},
-          std::function<ParameterTarget(Owner&)>(
-              [member](Owner& owner) { return choice_target(owner.*member); })};
+  return {{{std::move(name), "", {}, std::move(meaning), true, word_list<Enum>()},
+           [member](void* owner) -> ParameterTarget {
+             return choice_target(static_cast<Owner*>(owner)->*member);
+           }}};
 }
 /// Declares three components, each with a unit; the range applies to every component.
 template <class Owner>
 Parameter<Owner> vector(std::string name, Vector3 Owner::* member, std::string unit, Range range,
                         std::string meaning) {
-  return {{std::move(name), std::move(unit), range, std::move(meaning), true, {}}, member};
+  return detail::parameter<Owner>({std::move(name), std::move(unit), range, std::move(meaning), true, {}},
+                                  member);
 }
 /// Declares a list of numbers with units; the range applies to every entry.
 template <class Owner>
 Parameter<Owner> real_list(std::string name, std::vector<double> Owner::* member, std::string unit,
                            Range range, std::string meaning) {
-  return {{std::move(name), std::move(unit), range, std::move(meaning), true, {}}, member};
+  return detail::parameter<Owner>({std::move(name), std::move(unit), range, std::move(meaning), true, {}},
+                                  member);
 }
 template <class Owner>
 Parameter<Owner> text_list(std::string name, std::vector<std::string> Owner::* member,
                            std::vector<std::string> choices, std::string meaning) {
-  return {{std::move(name), "", {}, std::move(meaning), true, std::move(choices)}, member};
+  return detail::parameter<Owner>({std::move(name), "", {}, std::move(meaning), true, std::move(choices)},
+                                  member);
 }
 
-/// Returns the destination of the value of a parameter in an object.
-template <class Owner>
-ParameterTarget target_of(const Parameter<Owner>& parameter, Owner& owner) {
-  return std::visit(
-      [&](const auto& member) -> ParameterTarget {
-        if constexpr (requires { member(owner); }) {
-          return member(owner);
-        } else {
-          return &(owner.*member);
-        }
-      },
-      parameter.member);
-}
+/// Binds parameters to the object whose type they were declared for.
+std::vector<BoundParameter> bind(std::span<const UnboundParameter> parameters, void* owner);
 
 /// Binds a table to an object.
 template <class Owner>
 std::vector<BoundParameter> bind(const ParameterTable<Owner>& table, Owner& owner) {
-  std::vector<BoundParameter> bound;
-  bound.reserve(table.size());
-  for (const Parameter<Owner>& parameter : table)
-    bound.push_back({parameter.info, target_of(parameter, owner)});
-  return bound;
+  return whipple::bind(table.parameters(), static_cast<void*>(&owner));
 }
 
 /// Returns a table extended by the parameters of a part of its owner.
 template <class Owner, class Part>
 ParameterTable<Owner> with_part(ParameterTable<Owner> table, Part Owner::* part,
                                 const ParameterTable<Part>& added) {
-  for (const Parameter<Part>& parameter : added) {
-    table.push_back({parameter.info, std::function<ParameterTarget(Owner&)>([part, parameter](Owner& owner) {
-                       return target_of(parameter, owner.*part);
-                     })});
+  for (const UnboundParameter& parameter : added) {
+    table.push_back({{parameter.info, [part, target = parameter.target](void* owner) {
+                        return target(&(static_cast<Owner*>(owner)->*part));
+                      }}});
   }
   return table;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "src/core/base/json.hpp"
 #include "src/core/base/units.hpp"
 
 namespace whipple::input {
@@ -163,7 +164,7 @@ std::string schema_text(const Schema& table, const std::string& title, const std
   all["title"] = title;
   all["description"] = description;
   all.update(table);
-  return all.dump(2) + "\n";
+  return json_text(all, 2) + "\n";
 }
 
 }  // namespace whipple::input

@@ -28,7 +28,7 @@ struct ElasticConstants {
         real<Owner>("poisson_ratio", &Owner::poisson_ratio, "",
                     Range{.lower = -1.0, .upper = 0.5, .lower_open = true}, "Poisson's ratio nu")
             .optional()};
-    table.insert(table.end(), own.begin(), own.end());
+    table.append(own);
     return table;
   }
 

@@ -20,7 +20,7 @@ struct HardeningLaw : ElasticConstants {
   static ParameterTable<Law> parameters(const ParameterTable<Law>& own) {
     ParameterTable<Law> table = {
         real<Law>("yield_stress", &Law::yield_stress, "Pa", range::positive(), "initial yield stress A")};
-    table.insert(table.end(), own.begin(), own.end());
+    table.append(own);
     table.push_back(real<Law>("kinematic_modulus", &Law::kinematic_modulus, "Pa", range::non_negative(),
                               "H: slope of the back stress over plastic strain in uniaxial tension")
                         .optional());

@@ -32,9 +32,11 @@ struct ThermalBarrier {
         real(name + "_p", &P::p, "", allowed, "p of the profile of " + of),
         real(name + "_q", &P::q, "", allowed, "q of the profile of " + of)};
     if (required) return table;
-    ParameterTable<P> optional;
-    for (auto& parameter : table) optional.push_back(std::move(parameter).optional("none without " + of));
-    return optional;
+    for (UnboundParameter& parameter : table) {
+      parameter.info.required = false;
+      parameter.info.default_text = "none without " + of;
+    }
+    return table;
   }
   /// Returns how many of its constants are given; only 0 and 4 are consistent.
   [[nodiscard]] int given() const {

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "src/core/base/json.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/solver/accounts.hpp"
 
@@ -283,7 +284,7 @@ std::string columns_as_json(std::span<const HistoryColumn> columns) {
     list.back()["taken_by"] = account->taken_by;
     list.back()["taken_to"] = account->taken_to;
   }
-  return list.dump(1) + "\n";
+  return json_text(list, 1) + "\n";
 }
 
 std::vector<io::HistoryValue> history_row(std::span<const HistoryColumn> columns,

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "src/core/base/json.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/base/simd.hpp"
 #include "src/core/base/text.hpp"
@@ -28,16 +29,16 @@ std::string profile_as_json(const Moment& moment, const solver::Profile& profile
   for (const solver::Profile::Stage& stage : profile.stages()) {
     stages.push_back({{"stage", stage.name}, {"seconds", stage.seconds}, {"calls", stage.calls}});
   }
-  return nlohmann::json({{"wall_seconds", moment.wall_time},
-                         {"ranks", parallel::size(simulation.communicator())},
-                         {"threads", parallel::threads()},
-                         {"device", kernel_set() == KernelSet::plain ? "reference" : "cpu"},
-                         {"steps", moment.step()},
-                         {"particles", simulation.particle_count()},
-                         {"elements", simulation.element_count()},
-                         {"bytes_of_first_rank", simulation.bytes()},
-                         {"stages", stages}})
-      .dump(2);
+  return json_text(nlohmann::json({{"wall_seconds", moment.wall_time},
+                                   {"ranks", parallel::size(simulation.communicator())},
+                                   {"threads", parallel::threads()},
+                                   {"device", kernel_set() == KernelSet::plain ? "reference" : "cpu"},
+                                   {"steps", moment.step()},
+                                   {"particles", simulation.particle_count()},
+                                   {"elements", simulation.element_count()},
+                                   {"bytes_of_first_rank", simulation.bytes()},
+                                   {"stages", stages}}),
+                   2);
 }
 
 /// Returns the fraction of the unresolved energy that is carried by freely expanded fluid: continuous, with less than
