@@ -159,6 +159,11 @@ void print_plan(const std::vector<Planned>& all) {
                       std::string(shields::source_of(word.value))});
     }
     fmt::print("{}", text_table(rows, "lrll"));
+    if (shields::reason_against_design(impact).empty()) {
+      const shields::Design design = shields::whipple_design(impact);
+      fmt::print("  a design for this sphere: bumper of {:.3g} mm, wall of {:.3g} mm\n", 1e3 * design.bumper,
+                 1e3 * design.wall);
+    }
     if (!planned.refused.empty()) {
       fmt::print("  no case: {}\n", planned.refused);
       continue;
@@ -198,16 +203,21 @@ std::string folder_name(const shields::Shot& shot) {
 void write_cases(const std::vector<Planned>& all, const fs::path& output, bool dry_run) {
   std::vector<InputFault> faults;
   std::vector<std::string> names;
+  std::vector<fs::path> folders;
   for (const Planned& planned : all) {
     if (!planned.refused.empty()) faults.push_back({.text = planned.refused});
     names.push_back(folder_name(planned.shot));
     if (all.size() > 1 && (names.back().empty() || std::ranges::count(names, names.back()) > 1))
       faults.push_back(
           {.text = fmt::format("several shots \"{}\": a folder needs a name of its own", names.back())});
+    folders.push_back(all.size() == 1 ? output : output / names.back());
+    if (fs::exists(folders.back()))
+      faults.push_back(
+          {.text = fmt::format("{} exists: give another folder with -o", folders.back().string())});
   }
   if (!faults.empty()) throw InputError(std::move(faults));
   for (std::size_t k = 0; k < all.size(); ++k) {
-    const fs::path folder = all.size() == 1 ? output : output / names[k];
+    const fs::path& folder = folders[k];
     if (!dry_run) write_new(folder, "case.toml", all[k].text);
     log::info("{} {}", dry_run ? "would write" : "wrote", (folder / "case.toml").string());
   }

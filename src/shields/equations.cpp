@@ -103,19 +103,20 @@ double critical_diameter(Equation equation, const Impact& impact) {
   throw InternalError("no such equation");
 }
 
+std::string reason_against_design(const Impact& impact) {
+  const std::string reason = reason_against(Equation::nno_1993, impact);
+  if (!reason.empty()) return reason;
+  const double v_n = 1e-3 * impact.projectile.velocity * std::cos(impact.projectile.angle);
+  if (v_n < 7.0) return fmt::format("it is for 7 km/s along the normal and more, this is {:.4g}", v_n);
+  return {};
+}
+
 Design whipple_design(const Impact& impact) {
-  const Shield& shield = impact.shield;
-  if (shield.bumpers.size() != 1)
-    throw InputError(
-        fmt::format("the design of a Whipple shield does not apply: it is for 1 bumper, the shield has {}",
-                    shield.bumpers.size()));
+  const std::string reason = reason_against_design(impact);
+  if (!reason.empty())
+    throw InputError(fmt::format("the design of a Whipple shield does not apply: {}", reason));
   const forms::Input in = forms::input_of(impact);
   const double v_n = in.v * std::cos(impact.projectile.angle), d = 100.0 * impact.projectile.diameter;
-  if (v_n < 7.0)
-    throw InputError(
-        fmt::format("the design of a Whipple shield does not apply: it is for 7 km/s along the normal and "
-                    "more, this is {:.4g}",
-                    v_n));
   const double mass = std::numbers::pi / 6.0 * d * d * d * in.rho_p;
   const double share = in.spacing / d < 30.0 ? 0.25 : 0.20;
   const double wall = 0.16 * std::sqrt(d) * std::pow(in.rho_p * in.rho_b, 1.0 / 6.0) * std::cbrt(mass) * v_n /

@@ -46,6 +46,9 @@ std::string reason_against(Equation equation, const Impact& impact);
 /// @throws InputError naming the equation and the reason if it does not apply
 double critical_diameter(Equation equation, const Impact& impact);
 
+/// Returns why the design equation does not apply to an impact; empty: it applies.
+std::string reason_against_design(const Impact& impact);
+
 /// Holds the thicknesses (m) that stop a sphere at speeds beyond 7 km/s.
 struct Design {
   double bumper = 0.0, wall = 0.0;
