@@ -14,7 +14,7 @@ OF_GAUGES = ("gauge", "peak", "arrival", "history_error")
 ON_REQUEST = {"wall_speed": ("place", "travel"), "arrival_speed": (), "run_distance": ("place",), "peak": (), "arrival": (),
               "profile_error": ("table",), "history_error": ("table",), "peak_stress": ("place",), "elongation": (),
               "neck_strain": (), "failure_strain": (), "failure_triaxiality": (), "shear_strength": ("place", "travel"),
-              "shear_stroke": ("travel",), "jet_speed": ("fraction",), "jet_gap": ("fraction",), "jet_fraction": ("time", "speed")}
+              "shear_stroke": ("travel",), "reach": ("fraction",), "height": ("place",), "jet_speed": ("fraction",), "jet_gap": ("fraction",), "jet_fraction": ("time", "speed")}
 UNITS = {"place": " m", "travel": " m", "time": " s", "speed": " m/s"}
 
 

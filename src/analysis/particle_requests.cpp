@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Measures of the particles of a body at snapshots: jets along x, and deviations from exact profiles. Places and
 // velocities are those of the case, whatever moves at the start.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -11,6 +13,7 @@
 #include "src/analysis/requests.hpp"
 #include "src/analysis/run.hpp"
 #include "src/analysis/run_table.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::analysis {
 namespace {
@@ -18,7 +21,7 @@ namespace {
 /// Particles of one body.
 struct Particles {
   std::vector<double> x, mass;
-  std::vector<Vector3> velocity;
+  std::vector<Vector3> position, velocity;
   std::map<std::string, std::vector<double>> scalars;  ///< fields, and of the velocity its component along x
 };
 
@@ -36,7 +39,8 @@ std::optional<Particles> particles_of(const Run& run, const std::string& name, d
   Particles found;
   for (std::size_t p = 0; p < snapshot.size(); ++p) {
     if (snapshot.body[p] != static_cast<std::size_t>(body - run.bodies.begin())) continue;
-    found.x.push_back(snapshot.position[p].x() + snapshot.time * last->frame_velocity.x());
+    found.position.emplace_back(snapshot.position[p] + snapshot.time * last->frame_velocity);
+    found.x.push_back(found.position.back().x());
     found.mass.push_back(snapshot.mass[p]);
     found.velocity.emplace_back(snapshot.velocity[p] + last->frame_velocity);
     found.scalars["velocity"].push_back(found.velocity.back().x());
@@ -70,6 +74,16 @@ std::size_t place_of_fraction(const Particles& particles, const std::vector<std:
   return order.size() - 1;
 }
 
+/// Returns the number of an axis, "x", "y" or "z".
+/// @throws InputError for another word
+int axis_of(const std::string& word) {
+  constexpr std::string_view axes = "xyz";
+  const std::size_t axis = word.size() == 1 ? axes.find(word) : std::string_view::npos;
+  if (axis == std::string_view::npos)
+    throw InputError(fmt::format("\"{}\" is no axis; there are x, y, z", word));
+  return static_cast<int>(axis);
+}
+
 double tip_speed(const Particles& particles, double fraction) {
   const auto speed = [&](std::size_t p) { return particles.velocity[p].x(); };
   const std::vector<std::size_t> order = descending(particles.mass.size(), speed);
@@ -93,6 +107,28 @@ double profile_error(const Request& request) {
     scale += found->mass[p] * std::abs(wanted);
   }
   return scale > 0.0 ? miss / scale : nan;
+}
+
+double reach(const Request& request) {
+  const int axis = axis_of(request.names[1]);
+  const std::optional<Particles> found = particles_of(request, whenever);
+  if (!found || found->mass.empty()) return nan;
+  const auto place = [&](std::size_t p) { return found->position[p][axis]; };
+  const std::vector<std::size_t> order = descending(found->mass.size(), place);
+  return place(order[place_of_fraction(*found, order, request.fraction)]);
+}
+
+double height(const Request& request) {
+  const int up = axis_of(request.names[1]), along = axis_of(request.names[2]);
+  const Run run = read_run(request.folder);
+  const std::optional<Particles> found = particles_of(run, request.names[0], whenever);
+  if (!found) return nan;
+  double greatest = -whenever;
+  for (const Vector3& position : found->position) {
+    if (std::abs(position[along] - request.place) <= 0.5 * run.cell_size)
+      greatest = std::max(greatest, position[up]);
+  }
+  return greatest;
 }
 
 double jet_speed(const Request& request) {

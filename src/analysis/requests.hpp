@@ -66,6 +66,8 @@ double shear_strength(const Request& request);
 double shear_stroke(const Request& request);
 // Of the particles of a body (particle_requests.cpp).
 double profile_error(const Request& request);
+double reach(const Request& request);
+double height(const Request& request);
 double jet_speed(const Request& request);
 double jet_gap(const Request& request);
 double jet_fraction(const Request& request);

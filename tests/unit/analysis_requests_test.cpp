@@ -294,6 +294,24 @@ class Jets : public Requests {
   }
 };
 
+TEST_F(Jets, ReachAndHeightOfAHeap) {
+  // A triangle of a hundred columns of 1 mm, of equal masses, behind one grain that lies ahead of it.
+  std::vector<Particle> heap;
+  for (int i = 0; i < 100; ++i) {
+    for (int k = 0; k < 100 - i; ++k)
+      heap.push_back({{1e-3 * (i + 0.5), 0.0, 1e-3 * k}, {0, 0, 0}, 1e-6, 0.0});
+  }
+  heap.push_back({{0.5, 0.0, 0.0}, {0, 0, 0}, 1e-6, 0.0});
+  write({{3e-6, heap}});
+  EXPECT_NEAR(take("reach.strip.x fraction=1 %"), 90.5e-3, 1e-3);  // 50 of 5051 lie in the last ten columns
+  EXPECT_NEAR(take("reach.strip.x fraction=0.01 %"), 0.5, 1e-6);
+  EXPECT_NEAR(take("reach.strip.z fraction=50 %"), 29e-3, 1e-3);  // 1 - 1/sqrt(2) of the height
+  EXPECT_NEAR(take("height.strip.z.x place=20.5 mm"), 79e-3, 1e-6);
+  EXPECT_TRUE(std::isnan(take("height.strip.z.x place=200 mm")));
+  EXPECT_THAT(refusal("reach.strip.r fraction=1 %"), HasSubstr("there are x, y, z"));
+  EXPECT_THAT(refusal("height.strip.z place=1 mm"), HasSubstr("BODY.AXIS.AXIS"));
+}
+
 TEST_F(Jets, TheErrorOfAProfileIsWeightedByMassWithinTheTable) {
   file("exact.csv") << "# made up\nx [m],pressure [Pa],velocity [m/s]\n0,10,0\n1,20,100\n";
   write({{1e-6,
