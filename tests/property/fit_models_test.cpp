@@ -334,7 +334,7 @@ TEST(FitModels, DebyeTemperatureIsThatOfTheElasticStateNextToTheReference) {
   SyntheticStore store = isotherm_store(solid, false, 1);
   const double v0 = solid.gray.reference_specific_volume;
   for (const auto& [ratio, shear] : {std::pair{0.9, 80e9}, std::pair{1.001, 50e9}, std::pair{1.1, 30e9}}) {
-    store.add("elastic", {{"specific_volume", ratio * v0}},
+    store.add("elastic", {{"specific_volume", ratio * v0}, {"temperature", 0.0}},
               {{"bulk_modulus", {140e9, 0.0}}, {"shear_modulus_hill", {shear, 0.0}}});
   }
   const Fit fit = fit_debye_gruneisen(store.points, noise_only(), "s");
