@@ -248,19 +248,96 @@ std::string digest_of(const cases::Case& setup) {
   return sha256(cases::to_toml(setup, of_body));
 }
 
+/// Returns where the study names the key of a variable.
+std::string where_of(const Study& study, const std::string& variable) {
+  for (const Vary& vary : study.varied) {
+    if (vary.key == variable || (vary.covariance && variable.starts_with(vary.key + "."))) return vary.where;
+  }
+  return study.find ? study.find->where : study.file.string();
+}
+
+/// Returns whether one key is the other or contains it.
+bool are_related(std::string_view one, std::string_view other) {
+  const std::string_view shorter = one.size() < other.size() ? one : other;
+  const std::string_view longer = one.size() < other.size() ? other : one;
+  return longer.starts_with(shorter) &&
+         (shorter.empty() || shorter.size() == longer.size() || longer[shorter.size()] == '.');
+}
+
+/// Returns a line per variable that sets a key at, above or below the one at fault.
+/// @param file  to which the key belongs, for the message
+std::string lines_of(const Plan& plan, const Point& point, const std::string& key, const std::string& file,
+                     const std::string& text) {
+  std::string lines;
+  for (std::size_t v = 0; v < plan.variables.size(); ++v) {
+    const std::string& variable = plan.variables[v].name;
+    const std::vector<std::string> keys = keys_of(plan.study, variable);
+    if (std::ranges::none_of(keys, [&](const std::string& own) { return are_related(own, key); })) continue;
+    lines += fmt::format("{}: error: '{}' = {}, in {}: {}\n", where_of(plan.study, variable), variable,
+                         toml_string(point.texts[v]), file, text);
+  }
+  return lines;
+}
+
+/// Returns the faults of a point: file, line and key of the study that set what is wrong, and the file that it changes.
+/// @param error    of its case
+/// @param scratch  folder of its materials, which the reader knows nothing of
+std::string faults_of(const Plan& plan, const Point& point, const InputError& error,
+                      const std::filesystem::path& scratch) {
+  std::string lines;
+  std::set<std::string> told;
+  for (const auto& [key, value] : point.changes) {
+    if (!value.starts_with(folder_mark)) continue;
+    const std::filesystem::path copy = scratch / value.substr(folder_mark.size());
+    if (!std::filesystem::exists(copy) || !told.insert(copy.string()).second) continue;
+    const std::filesystem::path base =
+        find_material(plan.base.bodies[body_of(plan.base, key)].material, plan.base.file.parent_path());
+    try {
+      require_usable(read_material(copy));
+    } catch (const InputError& of_material) {
+      for (const InputFault& fault : of_material.faults()) {
+        const std::string below = fault.key.empty() ? key : key + "." + fault.key;
+        const std::string copied = copy.string() + ": error: ";
+        const std::string text =
+            fault.text.starts_with(copied) ? fault.text.substr(copied.size()) : fault.text;
+        lines += lines_of(plan, point, below, base.string(), text);
+      }
+    }
+  }
+  if (lines.empty()) {
+    for (const InputFault& fault : error.faults())
+      if (!fault.key.empty()) lines += lines_of(plan, point, fault.key, plan.base.file.string(), fault.text);
+  }
+  if (!lines.empty()) return lines.substr(0, lines.size() - 1);
+  std::string values;
+  for (std::size_t v = 0; v < plan.variables.size(); ++v)
+    values += fmt::format("{}{} = {}", v == 0 ? "" : ", ", plan.variables[v].name, point.texts[v]);
+  return fmt::format("{}: error: at {}:\n{}", plan.study.file.string(), values, error.what());
+}
+
 /// Reads the case of a point: sets its digest. @returns the memory that it is expected to take, bytes
 double settle(const Plan& plan, Point& point, const std::filesystem::path& scratch) {
-  set_changes(plan, point);
   try {
+    set_changes(plan, point);
     const log::WarningsAside aside;  // each point's own run repeats them
     const cases::Case setup = cases::read_case(plan.base.file, changes_in(point, scratch));
     point.digest = digest_of(setup);
     return cases::expected_memory(setup);
   } catch (const InputError& error) {
-    std::string values;
-    for (std::size_t v = 0; v < plan.variables.size(); ++v)
-      values += fmt::format("{}{} = {}", v == 0 ? "" : ", ", plan.variables[v].name, point.texts[v]);
-    throw InputError(fmt::format("{}: error: at {}:\n{}", plan.study.file.string(), values, error.what()));
+    throw InputError(faults_of(plan, point, error, scratch));
+  }
+}
+
+/// Checks that no key is set by two variables: constants drawn from a covariance may be varied as well.
+void check_single(const Plan& plan) {
+  std::map<std::string, std::string> known;
+  for (const Variable& variable : plan.variables) {
+    for (const std::string& key : keys_of(plan.study, variable.name)) {
+      const auto [first, is_new] = known.emplace(key, variable.name);
+      if (!is_new)
+        throw InputError(fmt::format("{}: error: '{}' varies twice, as '{}' and as '{}'",
+                                     plan.study.file.string(), key, first->second, variable.name));
+    }
   }
 }
 
@@ -366,7 +443,8 @@ std::vector<std::pair<std::string, std::string>> changes_in(const Point& point,
   return changes;
 }
 
-Plan make_plan(const std::filesystem::path& file) {
+std::optional<Plan> make_plan(const std::filesystem::path& file,
+                              const std::function<bool()>& is_asked_to_end) {
   Plan plan{.study = read_study(file), .base = {}, .variables = {}, .points = {}};
   const Study& study = plan.study;
   plan.base = cases::read_case(study.case_path(), {});
@@ -375,6 +453,7 @@ Plan make_plan(const std::filesystem::path& file) {
   const std::vector<std::vector<std::string>> groups = groups_of(plan);
   if (study.find)
     plan.variables.push_back({.name = study.find->key, .unit = Number::of(study.find->between[0])->unit});
+  check_single(plan);
   const std::vector<std::string> cells =
       study.bands.cell_sizes.empty() ? std::vector<std::string>{""} : study.bands.cell_sizes;
   const std::vector<double> offsets = study.bands.offsets.empty() ? std::vector{0.0} : study.bands.offsets;
@@ -384,6 +463,7 @@ Plan make_plan(const std::filesystem::path& file) {
     for (const std::string& cell : cells) {
       for (const double offset : offsets) {
         for (const std::string& sought : scan_of(study)) {
+          if (is_asked_to_end()) return std::nullopt;
           Point point;
           point.group = group;
           point.cell_size = cell;
