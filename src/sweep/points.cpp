@@ -8,12 +8,12 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <set>
 #include <string_view>
 #include <system_error>
 
-#include "src/analysis/measures.hpp"
 #include "src/case/build/placement.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
@@ -25,7 +25,7 @@
 #include "src/core/input/document.hpp"
 #include "src/material/material_file.hpp"
 #include "src/material/material_samples.hpp"
-#include "src/run/observers/history_columns.hpp"
+#include "src/sweep/quantities.hpp"
 #include "src/sweep/sampling.hpp"
 
 namespace whipple::sweep {
@@ -111,11 +111,14 @@ Values listed(const Vary& vary) {
 }
 
 /// Draws the constants of a fitted material.
-Values drawn(const Vary& vary, const Study& study, const cases::Case& base) {
+Values drawn(const Vary& vary, const Study& study, const cases::Case& base,
+             const std::function<bool()>& is_asked_to_end) {
   const std::size_t body = body_of(base, vary.key);
   const MaterialSamples samples =
       sample_material(base.bodies[body].material, static_cast<int>(study.sample.count),
-                      static_cast<std::uint64_t>(study.sample.seed), ErrorTier::fit, base.file.parent_path());
+                      static_cast<std::uint64_t>(study.sample.seed), ErrorTier::fit, base.file.parent_path(),
+                      is_asked_to_end);
+  if (is_asked_to_end()) return {};
   Values all;
   for (const auto& [key, value] : samples.changes.front()) {
     const std::optional<Number> number = Number::of(value);
@@ -149,7 +152,8 @@ std::vector<std::vector<std::string>> product(
 }
 
 /// Returns the values of all sampled ranges and covariances, sample by sample.
-std::vector<Values> sampled(const Study& study, const cases::Case& base) {
+std::vector<Values> sampled(const Study& study, const cases::Case& base,
+                            const std::function<bool()>& is_asked_to_end) {
   std::vector<const Vary*> ranges;
   for (const Vary& vary : study.varied)
     if (vary.kind() == Vary::Kind::sampled) ranges.push_back(&vary);
@@ -168,7 +172,7 @@ std::vector<Values> sampled(const Study& study, const cases::Case& base) {
       values.texts.push_back({in_range(*ranges[r], shares[i][r]).text()});
   }
   for (const Vary& vary : study.varied)
-    if (vary.kind() == Vary::Kind::covariance) all.push_back(drawn(vary, study, base));
+    if (vary.kind() == Vary::Kind::covariance) all.push_back(drawn(vary, study, base, is_asked_to_end));
   return all;
 }
 
@@ -341,57 +345,6 @@ void check_single(const Plan& plan) {
   }
 }
 
-/// Checks the names of the wanted results.
-void check_names(const Plan& plan) {
-  std::vector<std::string> history, bodies, gauges;
-  for (const run::HistoryColumn& column : run::history_columns(plan.base))
-    history.push_back("history." + column.name);
-  for (const cases::Body& body : plan.base.bodies) bodies.push_back(body.name);
-  for (const cases::Gauge& gauge : plan.base.all_gauges()) gauges.push_back(gauge.name);
-  for (const Wanted& wanted : plan.study.wanted()) {
-    const auto refuse = [&](const std::vector<std::string>& accepted, const char* what) {
-      throw InputError(fmt::format("{}: error: '{}' is no {}{}", plan.study.file.string(), wanted.name, what,
-                                   did_you_mean(wanted.name, accepted)));
-    };
-    if (wanted.name.starts_with("history.")) {
-      if (std::ranges::count(history, wanted.name) == 0) refuse(history, "column of history.csv");
-    } else if (wanted.is_column()) {
-      const bool known = std::ranges::any_of(
-          gauges, [&](const std::string& gauge) { return wanted.name.starts_with("gauge." + gauge + "."); });
-      if (!known) refuse(gauges, "column of a gauge of the case, gauge.NAME.COLUMN");
-    } else {
-      std::vector<std::string> names;
-      for (const analysis::Measure& measure : analysis::measures()) {
-        const std::string name(measure.name);
-        if (!name.ends_with(".BODY")) names.push_back(name);
-        for (const std::string& body : bodies)
-          if (name.ends_with(".BODY")) names.push_back(name.substr(0, name.size() - 4) + body);
-      }
-      if (std::ranges::count(names, wanted.name) == 0) refuse(names, "measure of whipple analyse");
-    }
-  }
-}
-
-/// Checks the unit of the threshold of a limit, where the unit of the quantity is known before a run.
-void check_threshold(const Plan& plan) {
-  if (!plan.study.find) return;
-  const std::string& name = plan.study.find->quantity;
-  std::optional<std::string> unit;
-  for (const run::HistoryColumn& column : run::history_columns(plan.base))
-    if ("history." + column.name == name) unit = column.unit;
-  for (const analysis::Measure& measure : analysis::measures()) {
-    const std::string known(measure.name);
-    const bool of_body = known.ends_with(".BODY") && name.starts_with(known.substr(0, known.size() - 4));
-    if (known == name || of_body) unit = measure.unit;
-  }
-  if (!unit) return;
-  try {
-    static_cast<void>(units::parse_quantity(plan.study.find->crosses, *unit == "1" ? "" : *unit));
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: error: 'find.crosses': {}", plan.study.file.string(), error.what()));
-  }
-}
-
 /// Returns the values of the sought key before the first halving; one empty text without a limit.
 std::vector<std::string> scan_of(const Study& study) {
   if (!study.find) return {""};
@@ -405,11 +358,11 @@ std::vector<std::string> scan_of(const Study& study) {
 }
 
 double number_of(const Variable& variable, const std::string& text) {
-  return variable.is_number ? Number::of(text)->value : analysis::nan;
+  return variable.is_number ? Number::of(text)->value : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Lists the values of all variables but the sought one, in the order of the groups.
-std::vector<std::vector<std::string>> groups_of(Plan& plan) {
+/// Lists the values of all variables but the sought one, in the order of the groups; none if it is asked to end.
+std::vector<std::vector<std::string>> groups_of(Plan& plan, const std::function<bool()>& is_asked_to_end) {
   std::vector<std::vector<std::vector<std::string>>> lists;
   for (const Vary& vary : plan.study.varied) {
     if (vary.kind() != Vary::Kind::list && vary.kind() != Vary::Kind::steps) continue;
@@ -417,7 +370,8 @@ std::vector<std::vector<std::string>> groups_of(Plan& plan) {
     plan.variables.insert(plan.variables.end(), values.variables.begin(), values.variables.end());
     lists.push_back(values.texts);
   }
-  const std::vector<Values> samples = sampled(plan.study, plan.base);
+  const std::vector<Values> samples = sampled(plan.study, plan.base, is_asked_to_end);
+  if (is_asked_to_end()) return {};
   if (!samples.empty()) {
     std::vector<std::vector<std::string>> together(static_cast<std::size_t>(plan.study.sample.count));
     for (const Values& values : samples) {
@@ -448,9 +402,9 @@ std::optional<Plan> make_plan(const std::filesystem::path& file,
   Plan plan{.study = read_study(file), .base = {}, .variables = {}, .points = {}};
   const Study& study = plan.study;
   plan.base = cases::read_case(study.case_path(), {});
-  check_names(plan);
-  check_threshold(plan);
-  const std::vector<std::vector<std::string>> groups = groups_of(plan);
+  check_quantities(plan);
+  const std::vector<std::vector<std::string>> groups = groups_of(plan, is_asked_to_end);
+  if (is_asked_to_end()) return std::nullopt;
   if (study.find)
     plan.variables.push_back({.name = study.find->key, .unit = Number::of(study.find->between[0])->unit});
   check_single(plan);

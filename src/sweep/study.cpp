@@ -210,7 +210,7 @@ void Bands::check(const Study& study, const Faults& faults) const {
   }
   const std::vector<std::string> keys = study.keys();
   for (const std::string& key : keys) {
-    if (!offsets.empty() && (key == "domain" || key.starts_with("domain.")))
+    if (!offsets.empty() && (key + ".").starts_with("domain."))
       faults.add("offsets", fmt::format("'offsets' move the domain, which '{}' changes", key));
   }
   if (!cell_sizes.empty() && std::ranges::count(keys, "domain.cell_size") > 0)

@@ -313,8 +313,40 @@ def measured_later():
         require(records(folder) == before, "measured again")
 
 
+FITTED = """
+name = "fitted"
+source = "test"
+[eos]
+model = "gray"
+molar_mass = "63.546 g/mol"
+reference_specific_volume = "0.1118 cm^3/g"
+hugoniot_intercept = "3.94 km/s"
+hugoniot_slope = 1.489
+gruneisen = 1.97
+gruneisen_slope = 1.5
+electronic_heat_coefficient = "4.9e-7 kJ/(mol K^2)"
+melting_temperature = "1790 K"
+vapour_attraction = "0.62 kJ cm^3/g^2"
+[covariance]
+names = ["hugoniot_intercept"]
+units = ["m/s"]
+[covariance.matrix]
+hugoniot_intercept = [400.0]
+"""
+
+
 def ctrl_c():
-    """A signal ends the preparation of points and the drawing of figures at once."""
+    """A signal ends the drawing of samples, the preparation of points and the drawing of figures at once."""
+    (FOLDER / "fitted.toml").write_text(FITTED, encoding="utf-8")
+    text = CASE.read_text(encoding="utf-8").replace('"copper_ofhc_mie_gruneisen"', '"fitted.toml"')
+    (FOLDER / "fitted_case.toml").write_text(text, encoding="utf-8")
+    samples = FOLDER / "many_samples.toml"
+    samples.write_text('case = "fitted_case.toml"\n[[vary]]\nkey = "body.0.material"\ncovariance = true\n[sample]\ncount = 100000\n')
+    process = subprocess.Popen(command(samples, FOLDER / "many_samples"), stderr=subprocess.PIPE, text=True)
+    time.sleep(0.3)
+    process.send_signal(signal.SIGINT)
+    message = process.communicate(timeout=10)[1]
+    require(process.returncode == 128 + signal.SIGINT and not (FOLDER / "many_samples").exists(), f"{process.returncode} {message}")
     temporary = FOLDER / "temporary"
     temporary.mkdir()
     many = study("many", '[[vary]]\nkey = "body.0.velocity.1"\nrange = ["100 m/s", "300 m/s"]\ncount = 90000\n' + QUANTITIES)
