@@ -75,9 +75,9 @@ class Expectation:
     """One quantity: what is measured, when, and what is expected of it."""
 
     # Keys that belong to the measures of one kind, and to these always.
-    OF_KIND = {"place": ("wall_speed.", "run_distance.", "peak_stress.", "shear_strength."),
+    OF_KIND = {"place": ("wall_speed.", "run_distance.", "peak_stress.", "shear_strength.", "height."),
                "travel": ("wall_speed.", "shear_strength.", "shear_stroke."), "table": ("profile_error.", "history_error."),
-               "fraction": ("jet_speed.", "jet_gap."), "speed": ("jet_fraction.",)}
+               "fraction": ("jet_speed.", "jet_gap.", "reach."), "speed": ("jet_fraction.",)}
     KEYS = {"name", "measure", "time", *OF_KIND, "value", "tolerance", "kind", "source", "known", "unit", "class"}
 
     def __init__(self, table, where):

@@ -7,10 +7,10 @@ import pathlib
 import numpy as np
 from matplotlib.figure import Figure
 
-from report import measured_history, style, units
+from report import measured_history, program, style, units
 from report.curves import new_figure
 from report.expectations import UNITS, BadExpectation, Case, Expectation, RunOfCase, quantity
-from report.measured import Measures
+from report.measured import Measures, request
 from report.page import Page
 from report.run import Run
 
@@ -215,7 +215,8 @@ def add_to(page: Page, run: Run, add_figure) -> list[dict]:
     add_figure("expected.png", "Points: this run, with the band of 95 % of the case's grid study. Blue: expected value with "
                "its tolerance; arrows: bounds, and the side that is allowed.", figure_of(drawn))
     add_figure("histories.png", "Measured histories and those of this run, moved in time so that both reach half the largest measured "
-               "value together.", measured_history.figure(run.folder / "gauges.csv", found.expectations))
+               "value together.", measured_history.figure(run.folder / "gauges.csv", found.expectations,
+                                                       lambda e: program.measure(run.folder, request(e, "history_shift"))))
     page.note("The band is that of the case's own grid study (docs/generated/results: discretization, position of the "
               "lattice), where there is one; its value on the finest grid is next to it. A departure of a single run "
               "within the band says nothing." if studies else

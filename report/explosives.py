@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from report import gauges, pieces, style, units
 from report.analysis import AXES
 from report.curves import legend_above, new_figure
-from report.detonation import particles_of
+from report.particles import particles_of
 from report.expectations import quantity
 from report.history import History
 from report.page import Page

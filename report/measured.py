@@ -3,14 +3,26 @@
 import csv
 import math
 
+from report import program
 from report.expectations import BadExpectation
-from report import detonation, tension
-from report.wall_speed import wall_speed
 
 
 # Measures of gauges.csv that moving along with the bodies changes, as do its positions and velocities.
 OF_PATHS = ("wall_speed", "arrival_speed", "run_distance")
 OF_GAUGES = ("gauge", "peak", "arrival", "history_error")
+# Measures of `whipple measure`, and the keys that they take.
+ON_REQUEST = {"wall_speed": ("place", "travel"), "arrival_speed": (), "run_distance": ("place",), "peak": (), "arrival": (),
+              "profile_error": ("table",), "history_error": ("table",), "peak_stress": ("place",), "elongation": (),
+              "neck_strain": (), "failure_strain": (), "failure_triaxiality": (), "shear_strength": ("place", "travel"),
+              "shear_stroke": ("travel",), "reach": ("fraction",), "height": ("place",), "jet_speed": ("fraction",), "jet_gap": ("fraction",), "jet_fraction": ("time", "speed")}
+UNITS = {"place": " m", "travel": " m", "time": " s", "speed": " m/s"}
+
+
+def request(expectation, kind=None):
+    """The text by which `whipple measure` takes the measure of an expectation, or another kind with the same names and keys."""
+    own, _, names = expectation.measure.partition(".")
+    keys = (f" {key}={getattr(expectation, key)}{UNITS.get(key, '')}" for key in ON_REQUEST[own])
+    return f"{kind or own}.{names}" + "".join(keys)
 
 
 def depends_on_frame(measure):
@@ -75,31 +87,12 @@ class Measures:
         return self.single["projectile_size"]
 
     def value(self, expectation):
-        """At a time: linear between the snapshots; of a driven wall, after a travel. NaN if there is no such measure or time."""
-        kind, _, of = expectation.measure.partition(".")
+        """As the expectation has it; at a time linear between the snapshots. NaN if there is no such measure or time."""
+        kind = expectation.measure.partition(".")[0]
         if self.moving and depends_on_frame(expectation.measure):
             return math.nan
-        if kind == "wall_speed":
-            return wall_speed(self.folder / "gauges.csv", of, expectation.place, expectation.travel)
-        if kind == "arrival_speed":
-            return detonation.arrival_speed(self.folder / "gauges.csv", of)
-        if kind == "run_distance":
-            return detonation.run_distance(self.folder / "gauges.csv", of, expectation.place)
-        if kind in ("peak", "arrival"):
-            return detonation.peak_of_gauge(self.folder / "gauges.csv", of)[kind == "arrival"]
-        if kind == "profile_error":
-            return detonation.profile_error(self.folder, *of.split("."), expectation.table)
-        if kind == "history_error":
-            from report import measured_history  # takes numpy and matplotlib
-            return measured_history.measure(self.folder / "gauges.csv", of, expectation.table)
-        if kind in tension.KINDS:
-            return tension.measure(expectation.measure, self.folder, expectation.place, expectation.travel)
-        if kind == "jet_speed":
-            return detonation.jet_speed(self.folder, of, expectation.fraction)
-        if kind == "jet_gap":
-            return detonation.jet_gap(self.folder, of, expectation.fraction)
-        if kind == "jet_fraction":
-            return detonation.jet_fraction(self.folder, of, expectation.time, expectation.speed)
+        if kind in ON_REQUEST:
+            return program.measure(self.folder, request(expectation))
         if expectation.time is None:
             return self.single.get(expectation.measure, math.nan)
         series = self._gauges() if expectation.measure.startswith("gauge.") else self.series

@@ -58,6 +58,8 @@ MAY_USE = {
     # Writes cases from the decks of other codes, as text, and cards for these codes; looks heat capacities up in the material
     # library.
     "src/decks": ["src/core/base", "src/core/input", "eos", "src/material"],
+    # Ballistic limit equations, tables of shots, and the text of cases of shields.
+    "src/shields": ["src/core/base", "src/core/input"],
     "md_fitting/plan": ["src/core/base", "src/core/input"],
     "md_fitting/lammps": ["src/core/base", "md_fitting/data_set"],
     "md_fitting/protocols": ["src/core/base", "eos", "md_fitting/data_set", "md_fitting/plan", "md_fitting/lammps"],
@@ -70,7 +72,7 @@ MAY_USE = {
     # whipple-md for states.
     "src/app": ["src/core/base", "src/core/input", "src/core/parallel", "src/core/process", "eos", "eos/curves", "eos/experiments", "eos/files",
                 "src/particles", "src/grid", "src/material",
-                "src/transfer", "src/io", "src/analysis", "src/view", "src/monitor", "src/decks", "src/case", "src/solver", "src/run", "src/sweep", "src/bench",
+                "src/transfer", "src/io", "src/analysis", "src/view", "src/monitor", "src/decks", "src/shields", "src/case", "src/solver", "src/run", "src/sweep", "src/bench",
                 "md_fitting/elements", "md_fitting/plan",
                 "md_fitting/simulated_crystal"],
     # The Python module whipple.eos: no MPI, no grid.
@@ -116,12 +118,10 @@ WORDS_ALLOWED = {
     "src/core": "reads and checks words",
     "src/decks": "grammars and cards of other codes' decks",
     "eos/experiments/measured_table.cpp": "heads and empty cells of tables of measurements",
-    "md_fitting/fit/bootstrap.cpp": "names of results in the store",
     "md_fitting/fit/constant_list.cpp": "the unit 1",
     "md_fitting/fit/gray_fit.cpp": "names of fitted constants",
     "md_fitting/fit/material_writer.cpp": "writes and copies TOML",
     "md_fitting/lammps/potential.cpp": "pair styles of LAMMPS",
-    "md_fitting/protocols/point_text.cpp": "names of results in the store",
     "src/app/materials_table.cpp": "groups of the material library, which are folders",
     "src/fem/gmsh.cpp": "grammar of Gmsh",
     "src/fem/vtk_legacy.cpp": "grammar of VTK",
@@ -132,6 +132,7 @@ WORDS_ALLOWED = {
     "src/monitor/folder.cpp": "endings of file names",
     "src/run/directory_control.cpp": "endings of file names",
     "src/sweep/quantities.cpp": "the unit 1",
+    "src/app/shield_command.cpp": "endings of file names",
     "src/sweep/results.cpp": "the unit 1",
     "src/run/run.cpp": "the file name case.toml",
 }

@@ -134,6 +134,7 @@ def main():
     parser.add_argument("--check-fresh", action="store_true", help="whether the written tables belong to the cases")
     parser.add_argument("--whipple", default=str(ROOT / "build/release/bin/whipple"), help="the executable")
     arguments = parser.parse_args()
+    os.environ["WHIPPLE_PROGRAM"] = arguments.whipple  # which takes the measures, too
     try:
         if arguments.check_fresh:
             return check_fresh()

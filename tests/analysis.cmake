@@ -1,5 +1,5 @@
 # Measures of finished runs.
-whipple_test(test_analysis OPTIMIZED SOURCES unit/analysis_test.cpp unit/analysis_fragments_test.cpp unit/analysis_instruments_test.cpp unit/analysis_paths_test.cpp unit/view_test.cpp DEPENDS whipple_view whipple_analysis LABELS fast)
+whipple_test(test_analysis OPTIMIZED SOURCES unit/analysis_test.cpp unit/analysis_fragments_test.cpp unit/analysis_instruments_test.cpp unit/analysis_paths_test.cpp unit/analysis_requests_test.cpp unit/analysis_outcome_test.cpp unit/view_test.cpp DEPENDS whipple_view whipple_analysis GTest::gmock LABELS fast)
 if(WHIPPLE_PYTHON)
   add_test(NAME analysis_frames COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/analysis_frames.py $<TARGET_FILE:whipple>)
   set_tests_properties(analysis_frames PROPERTIES LABELS fast TIMEOUT 300)

@@ -1,6 +1,7 @@
 # Tests of the command line and of the scripts.
 whipple_test(process_test SOURCES unit/process_run.cpp DEPENDS whipple_process LABELS fast)
 whipple_test(sweep_test SOURCES unit/sweep_test.cpp DEPENDS whipple_sweep LABELS fast)
+whipple_test(shields_test SOURCES unit/shields_equations_test.cpp unit/shields_cases_test.cpp DEPENDS whipple_shields whipple_case GTest::gmock LABELS fast)
 whipple_test(bench_test SOURCES unit/bench_reference_kernel_test.cpp DEPENDS whipple_bench LABELS fast)
 whipple_test(app_command_line_test SOURCES unit/app_command_line.cpp DEPENDS GTest::gmock nlohmann_json::nlohmann_json LABELS fast)
 whipple_test(app_planar_impact_test SOURCES unit/app_planar_impact_test.cpp unit/monitor_table_test.cpp DEPENDS whipple_app nlohmann_json::nlohmann_json LABELS fast)
@@ -38,6 +39,9 @@ if(WHIPPLE_PYTHON)
            $<TARGET_FILE:whipple> ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml ${CMAKE_CURRENT_BINARY_DIR}/app_monitor_browser)
   add_test(NAME app_sweep COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/app_sweep.py $<TARGET_FILE:whipple>
            ${CMAKE_CURRENT_SOURCE_DIR}/data/thrown_block.toml ${CMAKE_CURRENT_BINARY_DIR}/app_sweep)
+  add_test(NAME app_shield COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/app_shield.py $<TARGET_FILE:whipple>
+           ${PROJECT_SOURCE_DIR}/cases/ryan_shields/shots.csv ${CMAKE_CURRENT_BINARY_DIR}/app_shield)
+  set_tests_properties(app_shield PROPERTIES LABELS fast TIMEOUT 300)
   set_tests_properties(app_sweep PROPERTIES LABELS fast TIMEOUT 300 COST 10)
   set_tests_properties(app_monitor PROPERTIES LABELS fast TIMEOUT 300)
   set_tests_properties(app_monitor_browser PROPERTIES LABELS "browser;long" TIMEOUT 300 COST 80 SKIP_RETURN_CODE 77)

@@ -191,60 +191,6 @@ std::string PointRecord::label() const {
   return text;
 }
 
-std::string_view unit_of(std::string_view quantity) {
-  static const std::map<std::string_view, std::string_view> units = {
-      {"temperature", "K"},
-      {"pressure", "Pa"},
-      {"specific_volume", "m^3/kg"},
-      {"specific_internal_energy", "J/kg"},
-      {"lattice_constant", "m"},
-      {"cohesive_energy", "J/kg"},
-      {"mean_square_displacement", "m^2"},
-      {"shock_velocity", "m/s"},
-      {"particle_velocity", "m/s"},
-      {"melting_temperature", "K"},
-      {"solid_specific_volume", "m^3/kg"},
-      {"liquid_specific_volume", "m^3/kg"},
-      {"latent_heat", "J/kg"},
-      {"fusion_volume", "m^3/kg"},
-      {"specific_enthalpy", "J/kg"},
-      {"residual_temperature", "K"},
-      {"density", "kg/m^3"},
-      {"thermal_expansion", "1/K"},
-      {"strain_rate", "1/s"},
-      {"spall_strength", "Pa"},
-      {"spall_temperature", "K"},
-      {"spall_specific_volume", "m^3/kg"},
-      {"liquid_density", "kg/m^3"},
-      {"vapour_density", "kg/m^3"},
-      {"vapour_pressure", "Pa"},
-      {"surface_energy", "J/m^2"},
-      {"interface_width", "m"},
-      {"quantum_free_energy", "J/kg"},
-      {"quantum_energy", "J/kg"},
-      {"quantum_heat_capacity", "J/(kg K)"},
-      {"quantum_pressure", "Pa"},
-      {"zero_point_energy", "J/kg"},
-      {"zero_point_pressure", "Pa"},
-      {"debye_temperature", "K"},
-      {"c11", "Pa"},
-      {"c12", "Pa"},
-      {"c44", "Pa"},
-      {"bulk_modulus", "Pa"},
-      {"shear_modulus_voigt", "Pa"},
-      {"shear_modulus_reuss", "Pa"},
-      {"shear_modulus_hill", "Pa"},
-      {"fcc_pressure", "Pa"},
-      {"fcc_specific_internal_energy", "J/kg"},
-      {"bcc_pressure", "Pa"},
-      {"bcc_specific_internal_energy", "J/kg"},
-      {"hcp_pressure", "Pa"},
-      {"hcp_specific_internal_energy", "J/kg"},
-  };
-  const auto found = units.find(quantity);
-  return found == units.end() ? std::string_view{} : found->second;
-}
-
 std::vector<PointRecord> read_store(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path)) {
     throw InputError(

@@ -5,24 +5,41 @@
 
 #include <cmath>
 
-#include "md_fitting/data_set/data_set.hpp"
+#include "md_fitting/data_set/points.hpp"
 #include "src/core/base/error.hpp"
 
 namespace whipple::fit {
 namespace {
 
 using Eigen::VectorXd;
+using md::CoexistencePoint;
+using md::HugoniotPoint;
+using md::LiquidVapourPoint;
 using md::PointRecord;
+using md::StatePoint;
+using md::ZeroPressurePoint;
+
+const std::string energy_name(md::name_of(&StatePoint::specific_internal_energy));
+const std::string correlation_name(md::name_of(&StatePoint::error_correlation));
+
+template <class... Member>
+std::vector<std::string> names_of(Member... member) {
+  return {std::string(md::name_of(member))...};
+}
 
 /// Returns the results of a protocol that the fit reads.
 const std::vector<std::string>& measured(const std::string& protocol) {
-  static const std::map<std::string, std::vector<std::string>, std::less<>> quantities = {
-      {"zero_pressure_volume", {"specific_volume"}},
-      {"hugoniot", {"pressure"}},
-      {"isotherm", {"pressure", "specific_internal_energy"}},
-      {"isochore", {"pressure", "specific_internal_energy"}},
-      {"coexistence", {"melting_temperature", "solid_specific_volume", "latent_heat"}},
-      {"liquid_vapour", {"liquid_density", "vapour_density"}},
+  const auto state = [] { return names_of(&StatePoint::pressure, &StatePoint::specific_internal_energy); };
+  static const std::map<std::string_view, std::vector<std::string>> quantities = {
+      {ZeroPressurePoint::protocol, names_of(&ZeroPressurePoint::specific_volume)},
+      {HugoniotPoint::protocol, names_of(&HugoniotPoint::pressure)},
+      {word_of(md::PointKind::isotherm), state()},
+      {word_of(md::PointKind::isochore), state()},
+      {CoexistencePoint::protocol,
+       names_of(&CoexistencePoint::melting_temperature, &CoexistencePoint::solid_specific_volume,
+                &CoexistencePoint::latent_heat)},
+      {LiquidVapourPoint::protocol,
+       names_of(&LiquidVapourPoint::liquid_density, &LiquidVapourPoint::vapour_density)},
   };
   static const std::vector<std::string> none;
   const auto found = quantities.find(protocol);
@@ -71,8 +88,8 @@ void draw_normal(PointRecord& point, std::mt19937_64& generator) {
     const auto found = point.results.find(name);
     if (found == point.results.end()) continue;
     double deviate = normal(generator);
-    if (name == "specific_internal_energy" && point.results.contains("error_correlation")) {
-      const double c = point.results.at("error_correlation").value;
+    if (name == energy_name && point.results.contains(correlation_name)) {
+      const double c = point.results.at(correlation_name).value;
       deviate = c * first + std::sqrt(std::fmax(0.0, 1.0 - c * c)) * deviate;
     }
     first = deviate;
@@ -86,17 +103,20 @@ std::vector<PointRecord> resampled(std::span<const PointRecord> points, std::mt1
   std::vector<PointRecord> drawn(points.begin(), points.end());
   for (PointRecord& point : drawn) {
     if (!point.done()) continue;
-    const double before = point.kind() == md::PointKind::hugoniot ? point.result("pressure").value : 0.0;
+    const bool shock = point.kind() == md::PointKind::hugoniot;
+    const double before = shock ? md::required(point, &HugoniotPoint::pressure).value : 0.0;
     if (has_blocks(point)) {
       draw_blocks(point, generator);
     } else {
       draw_normal(point, generator);
     }
-    if (point.kind() == md::PointKind::hugoniot) {
+    if (shock) {
       // By the jump conditions, Us and up are proportional to the square root of the pressure.
-      const double factor = std::sqrt(std::fmax(0.0, point.result("pressure").value / before));
-      point.results.at("shock_velocity").value *= factor;
-      point.results.at("particle_velocity").value *= factor;
+      const double pressure = md::required(point, &HugoniotPoint::pressure).value;
+      const double factor = std::sqrt(std::fmax(0.0, pressure / before));
+      for (const auto member : {&HugoniotPoint::shock_velocity, &HugoniotPoint::particle_velocity}) {
+        point.results.at(std::string(md::name_of(member))).value *= factor;
+      }
     }
   }
   return drawn;

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "md_fitting/data_set/crystal_structure.hpp"
+#include "md_fitting/data_set/points.hpp"
 #include "md_fitting/data_set/run_cost.hpp"
 
 namespace whipple::fit {
@@ -123,13 +124,13 @@ bool Ranges::present(const PlannedPoint& point) const {
   return std::any_of(points_.begin(), points_.end(), [&](const PointRecord& record) {
     if (record.kind() != point.protocol) return false;
     if (point.protocol == md::PointKind::coexistence)
-      return same(record.condition("pressure"), point.pressure);
+      return same(condition(record, &md::CoexistencePoint::pressure), point.pressure);
     if (point.protocol == md::PointKind::zero_pressure_volume) {
-      return same(record.condition("temperature"), point.temperature);
+      return same(condition(record, &md::ZeroPressurePoint::temperature), point.temperature);
     }
-    return same(record.condition("specific_volume"), point.volume_ratio * static_volume_) &&
+    return same(condition(record, &md::StatePoint::specific_volume), point.volume_ratio * static_volume_) &&
            (point.protocol == md::PointKind::hugoniot ||
-            same(record.condition("temperature"), point.temperature));
+            same(condition(record, &md::StatePoint::temperature), point.temperature));
   });
 }
 

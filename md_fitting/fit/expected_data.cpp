@@ -8,19 +8,23 @@
 #include "eos/loci.hpp"
 #include "eos/model_equation_of_state.hpp"
 #include "eos/models/gray.hpp"
+#include "md_fitting/data_set/points.hpp"
 #include "md_fitting/fit/laws.hpp"
 #include "src/core/base/error.hpp"
 
 namespace whipple::fit {
 namespace {
 
+using md::CoexistencePoint;
+using md::HugoniotPoint;
 using md::PointRecord;
+using md::StatePoint;
 
-/// Returns the geometric mean of sigma/scale (cells x steps)^1/2 over the points of a protocol that have an error;
-/// 0 if there are none.
-template <class Scale>
-double coefficient(std::span<const PointRecord> points, md::PointKind protocol, const char* quantity,
-                   Scale scale) {
+/// Returns the geometric mean of sigma/scale (cells x steps)^1/2 over the points of a protocol whose result has an
+/// error; 0 if there are none.
+template <class Result, class Scale>
+double coefficient(std::span<const PointRecord> points, md::PointKind protocol, Result result, Scale scale) {
+  const std::string quantity(md::name_of(result));
   double sum = 0.0;
   int count = 0;
   for (const PointRecord& point : points) {
@@ -43,15 +47,20 @@ ExpectedData::ExpectedData(const GrayFit& fit, std::span<const PointRecord> poin
       candidates_(candidates.size()),
       hugoniot_owners_(data_.hugoniot.size(), -1),
       melting_owners_(data_.melting.size(), -1) {
-  const auto pressure = [](const PointRecord& point) { return point.result("pressure").value; };
-  const auto thermal = [](const PointRecord& point) { return std::sqrt(point.condition("temperature")); };
+  const auto pressure = [](const PointRecord& point) {
+    return md::required(point, &HugoniotPoint::pressure).value;
+  };
+  const auto thermal = [](const PointRecord& point) {
+    return std::sqrt(md::condition(point, &StatePoint::temperature));
+  };
   const auto one = [](const PointRecord&) { return 1.0; };
-  shock_pressure_ = coefficient(points, md::PointKind::hugoniot, "pressure", pressure);
-  pressure_ = coefficient(points, md::PointKind::isochore, "pressure", thermal);
-  energy_ = coefficient(points, md::PointKind::isochore, "specific_internal_energy", thermal);
-  melting_ = coefficient(points, md::PointKind::coexistence, "melting_temperature", one);
-  solid_volume_ = coefficient(points, md::PointKind::coexistence, "solid_specific_volume", one);
-  latent_heat_ = coefficient(points, md::PointKind::coexistence, "latent_heat", one);
+  shock_pressure_ = coefficient(points, md::PointKind::hugoniot, &HugoniotPoint::pressure, pressure);
+  pressure_ = coefficient(points, md::PointKind::isochore, &StatePoint::pressure, thermal);
+  energy_ = coefficient(points, md::PointKind::isochore, &StatePoint::specific_internal_energy, thermal);
+  melting_ = coefficient(points, md::PointKind::coexistence, &CoexistencePoint::melting_temperature, one);
+  solid_volume_ =
+      coefficient(points, md::PointKind::coexistence, &CoexistencePoint::solid_specific_volume, one);
+  latent_heat_ = coefficient(points, md::PointKind::coexistence, &CoexistencePoint::latent_heat, one);
   double sum = 0.0;
   double states = 0.0;
   for (const Isochore& isochore : data_.isochores) {

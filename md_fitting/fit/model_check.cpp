@@ -7,6 +7,7 @@
 #include "eos/loci.hpp"
 #include "eos/model_equation_of_state.hpp"
 #include "eos/models/gray.hpp"
+#include "md_fitting/data_set/points.hpp"
 #include "md_fitting/fit/laws.hpp"
 #include "md_fitting/fit/vapour_fit.hpp"
 #include "src/core/base/error.hpp"
@@ -77,22 +78,19 @@ std::vector<ModelCheck> check_solid(const eos::EquationOfState& model,
 
   for (const char* protocol : {"isotherm", "isochore"}) {
     Deviations pressure(std::string(protocol) + " pressure", "GPa", 1e9);
-    for (const md::PointRecord& point : md::select(points, protocol)) {
-      if (!is_solid(point)) continue;
-      pressure.add(point.result("pressure").value, [&] {
-        return solid_pressure(point.condition("specific_volume"), point.condition("temperature"));
-      });
+    for (const md::StatePoint& point : md::select_as<md::StatePoint>(points, protocol)) {
+      if (!point.solid) continue;
+      pressure.add(point.pressure.value,
+                   [&] { return solid_pressure(point.specific_volume, point.temperature); });
     }
     pressure.finish(checks);
   }
 
   Deviations expansion("volume at zero pressure", "%", 0.01);
-  for (const md::PointRecord& point : md::select(points, "zero_pressure_volume")) {
-    const double volume = point.result("specific_volume").value;
+  for (const md::ZeroPressurePoint& point : md::select_as<md::ZeroPressurePoint>(points)) {
     expansion.add(1.0, [&] {
-      return 1.0 /
-             (eos::density_at_pressure(model, point.condition("pressure"), point.condition("temperature")) *
-              volume);
+      return 1.0 / (eos::density_at_pressure(model, point.pressure, point.temperature) *
+                    point.specific_volume.value);
     });
   }
   expansion.finish(checks);

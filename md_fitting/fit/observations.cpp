@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "md_fitting/data_set/points.hpp"
 #include "md_fitting/data_set/run_cost.hpp"
 #include "src/core/base/error.hpp"
 
@@ -16,6 +17,8 @@ namespace {
 
 using md::Estimate;
 using md::PointRecord;
+using md::StatePoint;
+using md::ZeroPressurePoint;
 
 /// Upper limit of |r|. Proportional series have r = +-1, which makes one combination of P and E exact and the error
 /// matrix singular. The error of that combination, relative to those of P and E, is sqrt(2 (1 - r)); r is estimated
@@ -28,24 +31,23 @@ constexpr std::size_t least_isochores = 2;
 constexpr std::size_t least_isotherm = 5;
 
 /// Finds V at zero pressure and the reference temperature, from the point there or by linear interpolation.
-bool reference_volume(const std::vector<PointRecord>& points, double temperature, Estimate& volume) {
-  const PointRecord* below = nullptr;
-  const PointRecord* above = nullptr;
-  for (const PointRecord& point : points) {
-    if (!is_solid(point)) continue;
-    const double t = point.condition("temperature");
+bool reference_volume(const std::vector<ZeroPressurePoint>& points, double temperature, Estimate& volume) {
+  const ZeroPressurePoint* below = nullptr;
+  const ZeroPressurePoint* above = nullptr;
+  for (const ZeroPressurePoint& point : points) {
+    const double t = point.temperature;
     if (std::abs(t - temperature) <= same_temperature) {
-      volume = point.result("specific_volume");
+      volume = point.specific_volume;
       return true;
     }
-    if (t < temperature && (below == nullptr || t > below->condition("temperature"))) below = &point;
-    if (t > temperature && (above == nullptr || t < above->condition("temperature"))) above = &point;
+    if (t < temperature && (below == nullptr || t > below->temperature)) below = &point;
+    if (t > temperature && (above == nullptr || t < above->temperature)) above = &point;
   }
   if (below == nullptr || above == nullptr) return false;
-  const double t0 = below->condition("temperature");
-  const double weight = (temperature - t0) / (above->condition("temperature") - t0);
-  const Estimate v0 = below->result("specific_volume");
-  const Estimate v1 = above->result("specific_volume");
+  const double t0 = below->temperature;
+  const double weight = (temperature - t0) / (above->temperature - t0);
+  const Estimate v0 = below->specific_volume;
+  const Estimate v1 = above->specific_volume;
   volume.value = (1 - weight) * v0.value + weight * v1.value;
   volume.error = std::hypot((1 - weight) * v0.error, weight * v1.error);
   return true;
@@ -53,30 +55,26 @@ bool reference_volume(const std::vector<PointRecord>& points, double temperature
 
 /// Returns the state behind the shock by the jump conditions: V is exact, us and up represent the pressure above
 /// the initial one, P = us up / V0 with V0 = V us / (us - up).
-HugoniotState hugoniot_state(const PointRecord& point) {
+HugoniotState hugoniot_state(const md::HugoniotPoint& point) {
   HugoniotState state;
-  state.volume = point.condition("specific_volume");
-  state.shock_velocity = point.result("shock_velocity").value;
-  state.particle_velocity = point.result("particle_velocity").value;
+  state.volume = point.specific_volume;
+  state.shock_velocity = point.shock_velocity.value;
+  state.particle_velocity = point.particle_velocity.value;
   state.pressure.value =
       state.particle_velocity * (state.shock_velocity - state.particle_velocity) / state.volume;
-  state.pressure.error = point.result("pressure").error;
+  state.pressure.error = point.pressure.error;
   return state;
 }
 
 std::vector<Isochore> isochores(std::span<const PointRecord> points) {
   std::vector<Isochore> found;
   for (const char* protocol : {"isochore", "isotherm"}) {
-    for (const PointRecord& point : md::select(points, protocol)) {
-      if (!is_solid(point)) continue;
-      const double volume = point.condition("specific_volume");
-      ThermalState state{point.condition("temperature"), point.result("pressure"),
-                         point.result("specific_internal_energy")};
+    for (const StatePoint& point : md::select_as<StatePoint>(points, protocol)) {
+      if (!point.solid) continue;
+      const double volume = point.specific_volume;
+      ThermalState state{point.temperature, point.pressure, point.specific_internal_energy};
       // Both are means over the same trajectory.
-      const auto correlation = point.results.find("error_correlation");
-      if (correlation != point.results.end()) {
-        state.correlation = std::clamp(correlation->second.value, -most_correlated, most_correlated);
-      }
+      state.correlation = std::clamp(point.error_correlation, -most_correlated, most_correlated);
       const auto place = std::find_if(found.begin(), found.end(), [&](const Isochore& isochore) {
         return std::abs(isochore.volume - volume) <= same_volume * volume;
       });
@@ -107,28 +105,23 @@ std::vector<Isochore> isochores(std::span<const PointRecord> points) {
 
 /// Returns the melting points; at each pressure only those of the largest cells are used, since a plan may contain
 /// smaller ones to show the size effect.
-std::vector<MeltingPoint> melting_points(std::vector<PointRecord> points) {
-  // Without the volume of the solid a point does not constrain V0.
-  std::erase_if(points, [](const auto& point) { return !point.results.contains("solid_specific_volume"); });
-  const auto cells = [](const PointRecord& point) {
-    const md::RunShape shape = md::run_shape(point.provenance);
-    return shape.cells * shape.cells * shape.length;
-  };
-  std::map<double, double> largest;  // by pressure
-  for (const PointRecord& point : points) {
-    double& most = largest[point.condition("pressure")];
-    most = std::max(most, cells(point));
+std::vector<MeltingPoint> melting_points(std::span<const PointRecord> points) {
+  std::map<double, double> largest;  // cells, by pressure
+  std::vector<std::pair<md::CoexistencePoint, double>> with_cells;
+  for (const PointRecord& record : points) {
+    const auto point = md::read_as<md::CoexistencePoint>(record);
+    if (!point.solid_specific_volume) continue;  // does not constrain V0
+    const md::RunShape shape = md::run_shape(record.provenance);
+    const double cells = shape.cells * shape.cells * shape.length;
+    with_cells.emplace_back(point, cells);
+    double& most = largest[point.pressure];
+    most = std::max(most, cells);
   }
   std::vector<MeltingPoint> found;
-  for (const PointRecord& point : points) {
-    if (cells(point) < largest[point.condition("pressure")]) continue;
-    const auto optional = [&](const char* name) {
-      const auto result = point.results.find(name);
-      return result == point.results.end() ? std::nullopt : std::optional(result->second);
-    };
-    found.push_back({point.condition("pressure"), point.result("melting_temperature"),
-                     point.result("solid_specific_volume"), optional("latent_heat"),
-                     optional("fusion_volume")});
+  for (const auto& [point, cells] : with_cells) {
+    if (cells < largest[point.pressure]) continue;
+    found.push_back({point.pressure, point.melting_temperature, *point.solid_specific_volume,
+                     point.latent_heat, point.fusion_volume});
   }
   std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.pressure < b.pressure; });
   return found;
@@ -138,10 +131,9 @@ std::vector<MeltingPoint> melting_points(std::vector<PointRecord> points) {
 std::vector<IsothermState> isotherm_states(std::span<const PointRecord> points, double temperature) {
   std::vector<IsothermState> found;
   for (const char* protocol : {"isotherm", "isochore"}) {
-    for (const PointRecord& point : md::select(points, protocol)) {
-      if (!is_solid(point) || std::abs(point.condition("temperature") - temperature) > same_temperature)
-        continue;
-      const IsothermState state{point.condition("specific_volume"), point.result("pressure")};
+    for (const StatePoint& point : md::select_as<StatePoint>(points, protocol)) {
+      if (!point.solid || std::abs(point.temperature - temperature) > same_temperature) continue;
+      const IsothermState state{point.specific_volume, point.pressure};
       // An isotherm and an isochore may share a state: it is one datum.
       const bool twice = std::ranges::any_of(found, [&](const IsothermState& other) {
         return other.volume == state.volume && other.pressure.value == state.pressure.value;
@@ -176,10 +168,9 @@ std::optional<double> modulus_at_rest(std::vector<IsothermState> isotherm, doubl
 /// Returns the points of the protocol "quantum" at a temperature, by decreasing volume.
 std::vector<QuantumState> quantum_states(std::span<const PointRecord> points, double temperature) {
   std::vector<QuantumState> found;
-  for (const PointRecord& point : md::select(points, "quantum")) {
-    if (std::abs(point.condition("temperature") - temperature) > same_temperature) continue;
-    found.push_back({point.condition("specific_volume"), point.result("quantum_pressure"),
-                     point.result("debye_temperature").value});
+  for (const md::QuantumPoint& point : md::select_as<md::QuantumPoint>(points)) {
+    if (std::abs(point.temperature - temperature) > same_temperature) continue;
+    found.push_back({point.specific_volume, point.quantum_pressure, point.debye_temperature});
   }
   std::ranges::sort(found, [](const auto& a, const auto& b) { return a.volume > b.volume; });
   return found;
@@ -247,20 +238,16 @@ void take_quantum_nuclei(Observations& data, const std::string& store_name) {
 
 /// Adds the observations of liquid, vapour and Debye temperature.
 void add_other_phases(std::span<const PointRecord> points, Observations& data) {
-  for (const PointRecord& point : md::select(points, "liquid")) {
-    if (point.result("liquid").value < 0.5) continue;
-    data.liquid.push_back(
-        {point.condition("temperature"), point.condition("pressure"), point.result("specific_volume")});
+  for (const md::LiquidPoint& point : md::select_as<md::LiquidPoint>(points)) {
+    if (point.liquid) data.liquid.push_back({point.temperature, point.pressure, point.specific_volume});
   }
-  for (const PointRecord& point : md::select(points, "liquid_vapour")) {
-    data.saturation.push_back(
-        {point.condition("temperature"), point.result("liquid_density"), point.result("vapour_density")});
+  for (const md::LiquidVapourPoint& point : md::select_as<md::LiquidVapourPoint>(points)) {
+    data.saturation.push_back({point.temperature, point.liquid_density, point.vapour_density});
   }
   std::sort(data.saturation.begin(), data.saturation.end(),
             [](const auto& a, const auto& b) { return a.temperature < b.temperature; });
-  for (const PointRecord& point : md::select(points, "elastic")) {
-    data.elastic.push_back({point.condition("specific_volume"), point.result("bulk_modulus").value,
-                            point.result("shear_modulus_hill").value});
+  for (const md::ElasticPoint& point : md::select_as<md::ElasticPoint>(points)) {
+    data.elastic.push_back({point.specific_volume, point.bulk_modulus.value, point.shear_modulus_hill.value});
   }
 }
 
@@ -280,7 +267,7 @@ std::string common_origin(std::span<const PointRecord> points, const char* entry
   return *values.begin();
 }
 
-std::string missing(std::span<const PointRecord> points, const char* protocol, const std::string& have,
+std::string missing(std::span<const PointRecord> points, std::string_view protocol, const std::string& have,
                     const std::string& need) {
   const auto failed = std::count_if(points.begin(), points.end(), [&](const PointRecord& point) {
     return point.protocol == protocol && !point.done();
@@ -291,11 +278,6 @@ std::string missing(std::span<const PointRecord> points, const char* protocol, c
 }
 
 }  // namespace
-
-bool is_solid(const PointRecord& point) {
-  const auto flag = point.results.find("solid");
-  return flag == point.results.end() || flag->second.value > 0.5;
-}
 
 Observations observe(std::span<const PointRecord> points, const FitSettings& settings, const Needs& needs,
                      const std::string& store_name) {
@@ -318,15 +300,15 @@ Observations observe(std::span<const PointRecord> points, const FitSettings& set
   data.reference_temperature = reference_temperature;
 
   std::string lacking;
-  const std::vector<PointRecord> volumes = md::select(points, "zero_pressure_volume");
+  const std::vector<ZeroPressurePoint> volumes = md::select_as<ZeroPressurePoint>(points);
   if (!reference_volume(volumes, reference_temperature, data.reference_volume)) {
-    lacking += missing(points, "zero_pressure_volume",
+    lacking += missing(points, ZeroPressurePoint::protocol,
                        fmt::format("{} finished, none at {} K nor on both sides of it", volumes.size(),
                                    reference_temperature),
                        fmt::format("one at {} K", reference_temperature));
   }
-  for (const PointRecord& point : md::select(points, "hugoniot")) {
-    if (is_solid(point)) data.hugoniot.push_back(hugoniot_state(point));
+  for (const md::HugoniotPoint& point : md::select_as<md::HugoniotPoint>(points)) {
+    if (point.solid) data.hugoniot.push_back(hugoniot_state(point));
   }
   std::sort(data.hugoniot.begin(), data.hugoniot.end(),
             [](const auto& a, const auto& b) { return a.particle_velocity < b.particle_velocity; });
@@ -358,7 +340,7 @@ Observations observe(std::span<const PointRecord> points, const FitSettings& set
     compare_nuclei(data);
     if (needs.isotherm && settings.nuclei == Nuclei::quantum) take_quantum_nuclei(data, store_name);
   }
-  data.melting = melting_points(md::select(points, "coexistence"));
+  data.melting = melting_points(md::select(points, md::CoexistencePoint::protocol));
   add_other_phases(points, data);
   if (!lacking.empty()) {
     throw InputError(fmt::format("{}: points are missing:{}", store_name, lacking));

@@ -108,10 +108,6 @@ struct Needs {
   bool isotherm = false;
 };
 
-/// Returns whether the crystal of a point has not melted; true for protocols without that flag, which simulate only
-/// solids.
-bool is_solid(const md::PointRecord& point);
-
 /// Converts the finished points of a database to data.
 /// @param settings  reference temperature, and the window of particle velocities, which must contain at least three
 /// Hugoniot states

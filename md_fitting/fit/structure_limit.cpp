@@ -7,12 +7,11 @@
 #include <map>
 #include <vector>
 
+#include "md_fitting/data_set/points.hpp"
 #include "src/core/base/units.hpp"
 
 namespace whipple::fit {
 namespace {
-
-constexpr std::string_view energy_key = "specific_internal_energy";
 
 /// Holds a volume of the cold curve: pressure, and energy of another structure minus that of the simulated one.
 struct ColdDifference {
@@ -22,12 +21,12 @@ struct ColdDifference {
 /// Returns the differences by structure, in order of decreasing volume.
 std::map<std::string, std::vector<ColdDifference>> cold_differences(std::span<const md::PointRecord> points) {
   std::map<std::string, std::vector<ColdDifference>> found;
-  for (const md::PointRecord& point : md::select(points, "cold_curve")) {
-    for (const auto& [name, estimate] : point.results) {
-      if (name.size() <= energy_key.size() + 1 || !name.ends_with(energy_key)) continue;
-      const std::string structure = name.substr(0, name.size() - energy_key.size() - 1);
-      found[structure].push_back({point.condition("specific_volume"), point.result("pressure").value,
-                                  estimate.value - point.result(std::string(energy_key)).value});
+  for (const md::ColdCurvePoint& point : md::select_as<md::ColdCurvePoint>(points)) {
+    for (const md::ColdCurvePoint::Other& other : md::ColdCurvePoint::others()) {
+      const std::optional<double>& energy = point.*other.specific_internal_energy;
+      if (!energy) continue;
+      found[std::string(word_of(other.structure))].push_back(
+          {point.specific_volume, point.pressure, *energy - point.specific_internal_energy});
     }
   }
   for (auto& [structure, curve] : found) {

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "md_fitting/data_set/points.hpp"
 #include "md_fitting/data_set/store_order.hpp"
 #include "md_fitting/protocols/budget.hpp"
 #include "md_fitting/protocols/point_team.hpp"
@@ -282,8 +283,7 @@ int count_molten(std::span<const Task> tasks, const std::filesystem::path& store
     }
     try {
       for (const PointRecord& point : read_store(store)) {
-        const auto solid = point.results.find("solid");
-        if (solids.contains(point.key) && solid != point.results.end() && solid->second.value < 0.5) ++count;
+        if (solids.contains(point.key) && !is_solid(point)) ++count;
       }
     } catch (const InputError& error) {
       log::warning("{}", error.what());

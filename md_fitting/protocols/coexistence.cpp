@@ -208,9 +208,9 @@ std::pair<double, double> find_coexistence(const Potential& potential, double pr
 }
 
 /// Computes one run of the point.
-ReplicaValues melting_point(const Potential& potential, double pressure, double first_guess,
-                            const CoexistencePlan& section, double dt, std::int64_t seed,
-                            std::string& transcript) {
+CoexistencePoint melting_point(const Potential& potential, double pressure, double first_guess,
+                               const CoexistencePlan& section, double dt, std::int64_t seed,
+                               std::string& transcript) {
   const auto [temperature, share] =
       find_coexistence(potential, pressure, first_guess, section, dt, seed, transcript);
   const RunSize& size = section.size;
@@ -224,12 +224,14 @@ ReplicaValues melting_point(const Potential& potential, double pressure, double 
   const double mass = potential.mass();
   const double solid_volume = metal::specific_volume(solid.volume.value, mass);
   const double liquid_volume = metal::specific_volume(liquid.volume.value, mass);
-  return {{"melting_temperature", temperature},
-          {"solid_share", share},
-          {"solid_specific_volume", solid_volume},
-          {"liquid_specific_volume", liquid_volume},
-          {"latent_heat", metal::specific_energy(liquid.enthalpy.value - solid.enthalpy.value, mass)},
-          {"fusion_volume", liquid_volume - solid_volume}};
+  const double latent_heat = metal::specific_energy(liquid.enthalpy.value - solid.enthalpy.value, mass);
+  return {.pressure = pressure,
+          .melting_temperature = {temperature, 0.0},
+          .solid_share = {share, 0.0},
+          .solid_specific_volume = Estimate{solid_volume, 0.0},
+          .liquid_specific_volume = Estimate{liquid_volume, 0.0},
+          .latent_heat = Estimate{latent_heat, 0.0},
+          .fusion_volume = Estimate{liquid_volume - solid_volume, 0.0}};
 }
 
 }  // namespace
@@ -278,8 +280,9 @@ std::string refusal(const CoexistenceRun& run) {
   return {};
 }
 
-ReplicaSet measure_coexistence(const Potential& potential, double pressure, double first_guess,
-                               const CoexistencePlan& section, std::int64_t seed) {
+ReplicaSet<CoexistencePoint> measure_coexistence(const Potential& potential, double pressure,
+                                                 double first_guess, const CoexistencePlan& section,
+                                                 std::int64_t seed) {
   if (potential.structure() != CrystalStructure::fcc) {
     throw InputError(fmt::format("coexistence is measured for fcc crystals, {} of {} is {}",
                                  potential.element(), potential.name(), word_of(potential.structure())));
@@ -296,9 +299,10 @@ ReplicaSet measure_coexistence(const Potential& potential, double pressure, doub
   const double start =
       find_coexistence(potential, pressure, first_guess, section, dt, next_seed(seed, "search"), search)
           .first;
-  ReplicaSet set = run_replicas(section.replicas, seed, [&](std::int64_t own_seed, std::string& transcript) {
-    return melting_point(potential, pressure, start, section, dt, own_seed, transcript);
-  });
+  auto set = run_replicas<CoexistencePoint>(
+      section.replicas, seed, [&](std::int64_t own_seed, std::string& transcript) {
+        return melting_point(potential, pressure, start, section, dt, own_seed, transcript);
+      });
   set.transcript.insert(0, search);
   return set;
 }
@@ -306,17 +310,17 @@ ReplicaSet measure_coexistence(const Potential& potential, double pressure, doub
 void add_coexistence(const Plan& plan, TaskList& list) {
   for (const CoexistencePlan& section : plan.coexistences) {
     for (std::size_t i = 0; i < section.pressure.size(); ++i) {
-      PointRequest request{
-          {{"pressure", section.pressure[i]}},
-          size_settings(section.size),
-          {},
-          precision_of("melting_temperature", false, section.target, section.size, section.replicas)};
+      PointRequest request{conditions_of(CoexistencePoint{.pressure = section.pressure[i]}),
+                           size_settings(section.size),
+                           {},
+                           precision_of(&CoexistencePoint::melting_temperature, false, section.target,
+                                        section.size, section.replicas)};
       request.settings["first_guess"] = fmt::format("{}", section.first_guess[i]);
       request.settings["attempts"] = std::to_string(section.attempts);
       request.settings["replicas"] = std::to_string(section.replicas);
       request.settings["length"] = std::to_string(section.length);
       list.add(request, [&potential = list.potential(), section, i](std::int64_t seed, const PointRecord*) {
-        return to_result(
+        return to_result<CoexistencePoint>(
             measure_coexistence(potential, section.pressure[i], section.first_guess[i], section, seed));
       });
     }

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "md_fitting/data_set/data_set.hpp"
+#include "md_fitting/data_set/points.hpp"
 #include "md_fitting/lammps/potential.hpp"
 #include "md_fitting/plan/coexistence.hpp"
 #include "md_fitting/protocols/replicas.hpp"
@@ -61,10 +61,10 @@ class StartingTemperature {
 /// Measures the melting temperature at a pressure from a crystal in contact with its melt at constant enthalpy and
 /// pressure (Morris, Wang, Ho, Chan, Phys. Rev. B 49 (1994) 3109), in a cell n x n x length; then volume and
 /// enthalpy of each phase at that temperature in a separate cell; all from independent runs. Face-centred cubic
-/// crystals only. Results: melting_temperature (K), solid_share (fraction of the atoms), solid_ and
-/// liquid_specific_volume (m^3/kg), latent_heat (J/kg), fusion_volume (m^3/kg).
+/// crystals only.
 /// @throws StateError if too many runs find no coexistence, with the outcome of each.
-ReplicaSet measure_coexistence(const Potential& potential, double pressure, double first_guess,
-                               const CoexistencePlan& section, std::int64_t seed);
+ReplicaSet<CoexistencePoint> measure_coexistence(const Potential& potential, double pressure,
+                                                 double first_guess, const CoexistencePlan& section,
+                                                 std::int64_t seed);
 
 }  // namespace whipple::md

@@ -75,10 +75,11 @@ void add_cold_curve(const Plan& plan, TaskList& list) {
   for (const double ratio : plan.cold_curve->volume_ratio) {
     list.require_range(ratio);
     const double volume = ratio * list.potential().static_volume();
-    list.add({{{"specific_volume", volume}, {"temperature", 0.0}}, {}, {}},
+    list.add({conditions_of(ColdCurvePoint{.specific_volume = volume}), {}, {}},
              [&potential = list.potential(), volume](std::int64_t, const PointRecord*) {
                TaskResult result;
-               for (const auto& [structure, word] : words(CrystalStructure{})) {
+               ColdCurvePoint point{.specific_volume = volume};
+               for (const auto& [structure, pressure, energy] : ColdCurvePoint::others()) {
                  const bool own = structure == potential.structure();
                  ColdState state;
                  try {
@@ -89,12 +90,16 @@ void add_cold_curve(const Plan& plan, TaskList& list) {
                    result.message = error.what();
                    continue;
                  }
-                 const std::string prefix = own ? "" : fmt::format("{}_", word);
-                 result.results[prefix + "pressure"] = {state.pressure, 0.0};
-                 result.results[prefix + "specific_internal_energy"] = {state.specific_internal_energy, 0.0};
-                 if (structure == CrystalStructure::hcp)
-                   result.results["hcp_axial_ratio"] = {state.axial_ratio, 0.0};
+                 if (own) {
+                   point.pressure = state.pressure;
+                   point.specific_internal_energy = state.specific_internal_energy;
+                 } else {
+                   point.*pressure = state.pressure;
+                   point.*energy = state.specific_internal_energy;
+                 }
+                 if (structure == CrystalStructure::hcp) point.hcp_axial_ratio = state.axial_ratio;
                }
+               result.results = results_of(point);
                return result;
              });
   }

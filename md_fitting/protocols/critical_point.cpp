@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "md_fitting/data_set/points.hpp"
 #include "src/core/base/error.hpp"
 
 namespace whipple::md {
@@ -82,9 +83,8 @@ CriticalPoint estimate_critical_point(std::span<const Saturation> points) {
 
 std::vector<Saturation> saturations(std::span<const PointRecord> points) {
   std::vector<Saturation> found;
-  for (const PointRecord& point : select(points, "liquid_vapour")) {
-    found.push_back(
-        {point.condition("temperature"), point.result("liquid_density"), point.result("vapour_density")});
+  for (const LiquidVapourPoint& point : select_as<LiquidVapourPoint>(points)) {
+    found.push_back({point.temperature, point.liquid_density, point.vapour_density});
   }
   return found;
 }

@@ -132,21 +132,14 @@ void add_elastic(const Plan& plan, TaskList& list) {
   for (const double ratio : section.volume_ratio) {
     list.require_range(ratio);
     const double volume = ratio * list.potential().static_volume();
-    list.add({{{"specific_volume", volume}, {"temperature", 0.0}},
+    list.add({conditions_of(ElasticPoint{.specific_volume = volume}),
               {{"largest_strain", fmt::format("{}", section.largest_strain)},
                {"strains", std::to_string(section.strains)}},
               {}},
              [&potential = list.potential(), section, volume](std::int64_t, const PointRecord*) {
                const ElasticResult result =
                    measure_elastic(potential, volume, section.largest_strain, section.strains);
-               return TaskResult{{{"pressure", {result.pressure, 0.0}},
-                                  {"c11", result.c11},
-                                  {"c12", result.c12},
-                                  {"c44", result.c44},
-                                  {"bulk_modulus", result.bulk_modulus},
-                                  {"shear_modulus_voigt", result.shear_modulus_voigt},
-                                  {"shear_modulus_reuss", result.shear_modulus_reuss},
-                                  {"shear_modulus_hill", result.shear_modulus_hill}},
+               return TaskResult{results_of<ElasticPoint>(result),
                                  result.stable() ? "" : "the crystal is mechanically unstable",
                                  result.transcript};
              });

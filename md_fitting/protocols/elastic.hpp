@@ -5,20 +5,14 @@
 #include <span>
 #include <string>
 
-#include "md_fitting/data_set/data_set.hpp"
+#include "md_fitting/data_set/points.hpp"
 #include "md_fitting/lammps/potential.hpp"
 
 namespace whipple::md {
 
 /// Holds the elastic constants of a static cubic crystal: the coefficients of stress with respect to strain, at nonzero
 /// pressure those of Birch (Barron, Klein, Proc. Phys. Soc. 85 (1965) 523). Errors are those of the strain series.
-struct ElasticResult {
-  Estimate c11, c12, c44;        ///< Pa
-  Estimate bulk_modulus;         ///< Pa
-  Estimate shear_modulus_voigt;  ///< Pa, of a polycrystal at uniform strain
-  Estimate shear_modulus_reuss;  ///< Pa, of a polycrystal at uniform stress
-  Estimate shear_modulus_hill;   ///< Pa, their mean
-  double pressure = 0.0;         ///< Pa
+struct ElasticResult : ElasticPoint {
   std::string transcript;
 
   /// Returns whether Born's criteria hold: the crystal is stable against any small strain.

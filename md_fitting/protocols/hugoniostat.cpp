@@ -33,6 +33,7 @@ HugoniostatResult run_hugoniostat(const Potential& potential, const ReferenceSta
   const CrystalStructure structure = potential.structure();
   const double dt = time_step(potential, ratio, guess.temperature, size);
   HugoniostatResult result;
+  result.imposed_pressure = pressure;
 
   // The centre of mass of the simulated crystal is at rest, which was corrected for in the reference (equations 4
   // and 7): the thermostat needs the reference of a crystal of the simulated size.
@@ -119,6 +120,7 @@ HugoniostatResult run_hugoniostat(const Potential& potential, const ReferenceSta
   result.shock_velocity = {shock, shock * relative_error};
   result.particle_velocity = {particle, particle * relative_error};
   result.crystal_share = inherent_crystal_share(crystal, potential);
+  result.solid = result.crystal_share > solid_share_limit;
   result.transcript += lammps.transcript();
   return result;
 }
@@ -136,28 +138,17 @@ void add_hugoniostat(const Plan& plan, TaskList& list) {
     } catch (const StateError& error) {
       list.fault(error.what());
     }
-    list.add({{{"pressure", pressure}}, size_settings(size), list.first_key("zero_pressure_volume")},
+    list.add({conditions_of(HugoniostatPoint{.imposed_pressure = pressure}), size_settings(size),
+              list.first_key(ZeroPressurePoint::protocol)},
              [&potential, size, pressure](std::int64_t seed, const PointRecord* zero_pressure) {
                const ReferenceState reference = reference_state(*zero_pressure);
                const HugoniostatResult state = run_hugoniostat(potential, reference, pressure, size, seed);
-               const bool solid = state.crystal_share > solid_share_limit;
-               std::string message = structure_remark(state.crystal_share, solid);
+               std::string message = structure_remark(state.crystal_share, state.solid);
                if (!state.converged) {
                  message += fmt::format("{}not converged: the Hugoniot is missed by {:.1f} K",
                                         message.empty() ? "" : "; ", state.residual_temperature.value);
                }
-               return TaskResult{{{"pressure", state.pressure},
-                                  {"specific_volume", state.specific_volume},
-                                  {"temperature", state.temperature},
-                                  {"specific_internal_energy", state.specific_internal_energy},
-                                  {"shock_velocity", state.shock_velocity},
-                                  {"particle_velocity", state.particle_velocity},
-                                  {"residual_temperature", state.residual_temperature},
-                                  {"converged", {state.converged ? 1.0 : 0.0, 0.0}},
-                                  {"crystal_share", {state.crystal_share, 0.0}},
-                                  {"solid", {solid ? 1.0 : 0.0, 0.0}}},
-                                 message,
-                                 state.transcript};
+               return TaskResult{results_of<HugoniostatPoint>(state), message, state.transcript};
              });
   }
 }

@@ -4,24 +4,15 @@
 #include <cstdint>
 #include <string>
 
-#include "md_fitting/data_set/data_set.hpp"
+#include "md_fitting/data_set/points.hpp"
 #include "md_fitting/lammps/potential.hpp"
 #include "md_fitting/plan/run_size.hpp"
 #include "md_fitting/protocols/hugoniot.hpp"
 
 namespace whipple::md {
 
-struct HugoniostatResult {
-  Estimate pressure;                  ///< Pa
-  Estimate specific_volume;           ///< m^3/kg
-  Estimate temperature;               ///< K
-  Estimate specific_internal_energy;  ///< J/kg
-  Estimate shock_velocity;            ///< m/s; the error includes the effect of the residual
-  Estimate particle_velocity;         ///< m/s, likewise
-  Estimate residual_temperature;      ///< K, residual of equation 8 over 3k/m
-  double crystal_share = 0.0;         ///< after minimisation to the nearest minimum of the energy
-  int parts = 0;                      ///< parts of the equilibration that were needed
-  bool converged = false;
+struct HugoniostatResult : HugoniostatPoint {
+  int parts = 0;  ///< parts of the equilibration that were needed
   std::string transcript;
 };
 

@@ -53,8 +53,9 @@ Solution finish(const Run& run, const Slopes& slopes, double energy, double pres
 }  // namespace
 
 ReferenceState reference_state(const PointRecord& zero_pressure) {
-  return {zero_pressure.result("specific_volume"), zero_pressure.result("specific_internal_energy"),
-          zero_pressure.condition("pressure"), zero_pressure.result("error_correlation").value};
+  const auto point = read_as<ZeroPressurePoint>(zero_pressure);
+  return {point.specific_volume, required(zero_pressure, &ZeroPressurePoint::specific_internal_energy),
+          point.pressure, required(zero_pressure, &ZeroPressurePoint::error_correlation)};
 }
 
 HugoniotState solve_hugoniot(StateSource& source, const ReferenceState& reference, double specific_volume,
@@ -130,6 +131,7 @@ HugoniotState solve_hugoniot(StateSource& source, const ReferenceState& referenc
     for (std::size_t k = 0; k < values.size(); ++k) changes[k][i] = 0.5 * (above[k] - below[k]);
   }
   HugoniotState result;
+  result.specific_volume = specific_volume;
   const std::array<Estimate*, 5> targets = {&result.temperature, &result.pressure,
                                             &result.specific_internal_energy, &result.shock_velocity,
                                             &result.particle_velocity};

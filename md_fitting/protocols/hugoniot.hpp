@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "md_fitting/data_set/data_set.hpp"
+#include "md_fitting/data_set/points.hpp"
 #include "md_fitting/protocols/state_source.hpp"
 
 namespace whipple::md {
@@ -28,15 +28,7 @@ struct HugoniotSearch {
   int most_runs = 8;
 };
 
-struct HugoniotState {
-  Estimate temperature;               ///< K
-  Estimate pressure;                  ///< Pa
-  Estimate specific_internal_energy;  ///< J/kg
-  Estimate shock_velocity;            ///< m/s
-  Estimate particle_velocity;         ///< m/s
-  Estimate mean_square_displacement;  ///< m^2
-  double crystal_share = 1.0;
-  bool solid = true;
+struct HugoniotState : HugoniotPoint {
   int runs = 0;
   /// Pa, of the final run, each shifted onto the Hugoniot; may be empty.
   std::vector<double> pressure_blocks{};

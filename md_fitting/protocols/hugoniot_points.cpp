@@ -18,17 +18,10 @@ TaskResult compute_hugoniot(const Potential& potential, const RunSize& size, std
   search.gruneisen = 2.0 * volume / reference.specific_volume.value;
   search.first_temperature = guess_hugoniot(potential, reference, volume).temperature;
   const HugoniotState state = solve_hugoniot(source, reference, volume, search);
-  return {{{"pressure", state.pressure},
-           {"temperature", state.temperature},
-           {"specific_internal_energy", state.specific_internal_energy},
-           {"shock_velocity", state.shock_velocity},
-           {"particle_velocity", state.particle_velocity},
-           {"mean_square_displacement", state.mean_square_displacement},
-           {"crystal_share", {state.crystal_share, 0.0}},
-           {"solid", {state.solid ? 1.0 : 0.0, 0.0}}},
+  return {results_of<HugoniotPoint>(state),
           structure_remark(state.crystal_share, state.solid),
           source.transcript(),
-          {{"pressure", state.pressure_blocks}}};
+          {blocks_of(&HugoniotPoint::pressure, state.pressure_blocks)}};
 }
 
 }  // namespace
@@ -39,10 +32,9 @@ void add_hugoniot(const Plan& plan, TaskList& list) {
   for (const double ratio : plan.hugoniot->volume_ratio) {
     list.require_range(ratio);
     const double volume = ratio * list.potential().static_volume();
-    list.add({{{"specific_volume", volume}},
-              size_settings(size),
-              list.first_key("zero_pressure_volume"),
-              precision_of("shock_velocity", true, plan.hugoniot->target, size)},
+    list.add({conditions_of(HugoniotPoint{.specific_volume = volume}), size_settings(size),
+              list.first_key(ZeroPressurePoint::protocol),
+              precision_of(&HugoniotPoint::shock_velocity, true, plan.hugoniot->target, size)},
              [&potential = list.potential(), size, volume](std::int64_t seed, const PointRecord* reference) {
                return compute_hugoniot(potential, size, seed, volume, *reference);
              });

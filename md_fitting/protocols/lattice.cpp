@@ -52,11 +52,7 @@ LatticeResult measure_lattice(const Potential& potential) {
 void add_lattice(const Plan&, TaskList& list) {
   list.add({}, [&potential = list.potential()](std::int64_t, const PointRecord*) {
     const LatticeResult result = measure_lattice(potential);
-    return TaskResult{{{"lattice_constant", result.lattice_constant},
-                       {"cohesive_energy", result.cohesive_energy},
-                       {"specific_volume", result.specific_volume}},
-                      "",
-                      result.transcript};
+    return TaskResult{results_of<LatticePoint>(result), "", result.transcript};
   });
 }
 

@@ -23,15 +23,16 @@ TaskResult compute_liquid(const Potential& potential, const RunSize& size, std::
   const auto energy = [&](const Estimate& e) {
     return Estimate{metal::specific_energy(e.value + kinetic, mass), metal::specific_energy(e.error, mass)};
   };
-  const bool liquid = phase.crystal_share < largest_liquid_share;
-  result.results = {
-      {"specific_volume",
-       {metal::specific_volume(phase.volume.value, mass), metal::specific_volume(phase.volume.error, mass)}},
-      {"specific_enthalpy", energy(phase.enthalpy)},
-      {"specific_internal_energy", energy(phase.energy)},
-      {"crystal_share", {phase.crystal_share, 0.0}},
-      {"liquid", {liquid ? 1.0 : 0.0, 0.0}}};
-  if (!liquid) result.message = "the melt froze";
+  const LiquidPoint point{.temperature = temperature,
+                          .pressure = pressure,
+                          .specific_volume = {metal::specific_volume(phase.volume.value, mass),
+                                              metal::specific_volume(phase.volume.error, mass)},
+                          .specific_enthalpy = energy(phase.enthalpy),
+                          .specific_internal_energy = energy(phase.energy),
+                          .crystal_share = phase.crystal_share,
+                          .liquid = phase.crystal_share < largest_liquid_share};
+  result.results = results_of(point);
+  if (!point.liquid) result.message = "the melt froze";
   return result;
 }
 
@@ -40,10 +41,13 @@ TaskResult compute_liquid(const Potential& potential, const RunSize& size, std::
 void add_liquid(const Plan& plan, TaskList& list) {
   if (!plan.liquid) return;
   const RunSize size = plan.liquid->size;
-  const Precision precision = precision_of("specific_volume", true, plan.liquid->target, size);
+  const Precision precision = precision_of(&LiquidPoint::specific_volume, true, plan.liquid->target, size);
   for (const double pressure : plan.liquid->pressure) {
     for (const double temperature : plan.liquid->temperature) {
-      list.add({{{"temperature", temperature}, {"pressure", pressure}}, size_settings(size), {}, precision},
+      list.add({conditions_of(LiquidPoint{.temperature = temperature, .pressure = pressure}),
+                size_settings(size),
+                {},
+                precision},
                [&potential = list.potential(), size, pressure, temperature](std::int64_t seed,
                                                                             const PointRecord*) {
                  return compute_liquid(potential, size, seed, pressure, temperature);

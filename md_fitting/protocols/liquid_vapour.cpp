@@ -31,7 +31,6 @@ constexpr double bin = 1.0;          // A
 constexpr double least_core = 3.0;   // A: half of the film that is certainly melt
 constexpr double least_space = 6.0;  // A: on either side
 constexpr double least_vapour_atoms = 4.0;
-constexpr const char* vapour_atoms = "vapour_atoms";  // of one run, no result of the point
 
 /// Returns the distances of all atoms from the centre of the film.
 std::vector<double> distances_from_film(const std::vector<double>& positions, double period) {
@@ -97,8 +96,8 @@ Interface find_interface(std::span<const double> profile, double step) {
 namespace {
 
 /// Computes one run of the point, including the number of atoms in its vapour.
-ReplicaValues measure_film(const Potential& potential, double temperature, const LiquidVapourPlan& section,
-                           std::int64_t seed, std::string& transcript) {
+FilmRun measure_film(const Potential& potential, double temperature, const LiquidVapourPlan& section,
+                     std::int64_t seed, std::string& transcript) {
   const double mass = potential.mass();
   const RunSize& size = section.size;
   const double dt = time_step(potential, 1.2, temperature, size);
@@ -168,30 +167,31 @@ ReplicaValues measure_film(const Potential& potential, double temperature, const
   }
   transcript += lammps.transcript();
   const double density = 1.0 / metal::specific_volume(1.0, mass);  // kg/m^3 of one atom per A^3
-  return {{"liquid_density", density * mean(liquid)},
-          {"vapour_density", density * mean(vapour)},
-          {"vapour_pressure", mean(normal)},
-          {"surface_energy", mean(surface)},
-          {"interface_width", interface.width * metal::angstrom},
-          {vapour_atoms, mean(vapour) * 2.0 * (0.5 * period - space) * area}};
+  return {{.temperature = temperature,
+           .liquid_density = {density * mean(liquid), 0.0},
+           .vapour_density = {density * mean(vapour), 0.0},
+           .vapour_pressure = {mean(normal), 0.0},
+           .surface_energy = {mean(surface), 0.0},
+           .interface_width = {interface.width * metal::angstrom, 0.0}},
+          mean(vapour) * 2.0 * (0.5 * period - space) * area};
 }
 
 }  // namespace
 
-ReplicaSet measure_liquid_vapour(const Potential& potential, double temperature,
-                                 const LiquidVapourPlan& section, std::int64_t seed) {
-  ReplicaSet set = run_replicas(section.replicas, seed, [&](std::int64_t own_seed, std::string& transcript) {
-    return measure_film(potential, temperature, section, own_seed, transcript);
-  });
+ReplicaSet<FilmRun> measure_liquid_vapour(const Potential& potential, double temperature,
+                                          const LiquidVapourPlan& section, std::int64_t seed) {
+  auto set =
+      run_replicas<FilmRun>(section.replicas, seed, [&](std::int64_t own_seed, std::string& transcript) {
+        return measure_film(potential, temperature, section, own_seed, transcript);
+      });
   // Apply the criterion to the mean: selecting among the runs would keep those with the denser vapour.
-  const double atoms = set.mean(vapour_atoms).value;
-  set.values.erase(vapour_atoms);
+  const double atoms = set.mean(&FilmRun::vapour_atoms).value;
   if (atoms < least_vapour_atoms) {
     throw StateError(fmt::format(
         "the vapour holds {:.1f} atoms on average next to an interface of {:.1f} A width: too few "
         "below about 0.7 "
         "of the critical temperature, or in so small a box",
-        atoms, set.mean("interface_width").value / metal::angstrom));
+        atoms, set.mean(&FilmRun::interface_width).value / metal::angstrom));
   }
   return set;
 }
@@ -200,13 +200,14 @@ void add_liquid_vapour(const Plan& plan, TaskList& list) {
   if (!plan.liquid_vapour) return;
   const LiquidVapourPlan section = *plan.liquid_vapour;
   for (const double temperature : section.temperature) {
-    PointRequest request{{{"temperature", temperature}}, size_settings(section.size), {}};
+    PointRequest request{
+        conditions_of(LiquidVapourPoint{.temperature = temperature}), size_settings(section.size), {}};
     request.settings["gap"] = fmt::format("{}", section.gap);
     request.settings["replicas"] = std::to_string(section.replicas);
-    list.add(request,
-             [&potential = list.potential(), section, temperature](std::int64_t seed, const PointRecord*) {
-               return to_result(measure_liquid_vapour(potential, temperature, section, seed));
-             });
+    list.add(request, [&potential = list.potential(), section, temperature](std::int64_t seed,
+                                                                            const PointRecord*) {
+      return to_result<LiquidVapourPoint>(measure_liquid_vapour(potential, temperature, section, seed));
+    });
   }
 }
 

@@ -11,14 +11,17 @@
 
 namespace whipple::md {
 
+/// One run of a film.
+struct FilmRun : LiquidVapourPoint {
+  double vapour_atoms = 0.0;  ///< mean number of atoms in the vapour
+};
+
 /// Simulates a film of melt in equilibrium with its vapour, at constant volume and temperature, in independent
-/// runs. Results: liquid_density and vapour_density (kg/m^3) of the melt inside the film and of the vapour outside,
-/// vapour_pressure (Pa), the stress normal to the film, surface_energy (J/m^2), interface_width (m), over which the
-/// density falls from 90 to 10 %.
+/// runs.
 /// @throws StateError if film and vapour do not separate in too many runs (too hot), or if the vapour contains too
 /// few atoms (too cold).
-ReplicaSet measure_liquid_vapour(const Potential& potential, double temperature,
-                                 const LiquidVapourPlan& section, std::int64_t seed);
+ReplicaSet<FilmRun> measure_liquid_vapour(const Potential& potential, double temperature,
+                                          const LiquidVapourPlan& section, std::int64_t seed);
 
 /// Returns the centre of a group of positions in a period: the mean of their directions on a circle.
 /// @returns 0 ... period

@@ -82,8 +82,6 @@ class Layers {
 
 }  // namespace
 
-bool PistonResult::elastic() const { return slipped_share < least_slipped_share; }
-
 double slipped_share(std::span<const double> before, std::span<const double> after,
                      std::span<const std::size_t> atoms, double period, double lattice_constant) {
   const double limit = 0.5 * lattice_constant / std::sqrt(6.0);
@@ -178,6 +176,7 @@ PistonResult measure_piston(const Potential& potential, const ReferenceState& re
   }
   if (front.size() < frames / 2) throw StateError("no shock front was seen to run through the crystal");
   PistonResult result;
+  result.particle_velocity = particle_velocity;
   result.shock_velocity = late_slope(time, front);
   const double shock = result.shock_velocity.value;
   if (!(shock > particle_velocity)) throw StateError("the shock front does not run ahead of the piston");
@@ -224,7 +223,8 @@ PistonResult measure_piston(const Potential& potential, const ReferenceState& re
   }
   result.slipped_share =
       slipped_share(before, positions, behind, a * static_cast<double>(section.size.cells), a);
-  result.sample_density = 1.0 / metal::specific_volume(volume / inside, mass);
+  result.elastic = result.slipped_share < least_slipped_share;
+  result.density = 1.0 / metal::specific_volume(volume / inside, mass);
 
   lammps.command("region behind block INF INF INF INF {:.17g} {:.17g} units box", height[first],
                  height[last]);
@@ -252,25 +252,16 @@ void add_piston(const Plan& plan, TaskList& list) {
     } catch (const StateError& error) {
       list.fault(error.what());
     }
-    PointRequest request{{{"particle_velocity", velocity}},
-                         size_settings(section.size),
-                         list.first_key("zero_pressure_volume")};
+    PointRequest request{conditions_of(PistonPoint{.particle_velocity = velocity}),
+                         size_settings(section.size), list.first_key(ZeroPressurePoint::protocol)};
     request.settings["length"] = std::to_string(section.length);
     request.settings.erase("steps");  // the run length is set by the travel of the front
     list.add(request, [&potential, section, velocity](std::int64_t seed, const PointRecord* zero_pressure) {
       const ReferenceState reference = reference_state(*zero_pressure);
-      const PistonResult shock = measure_piston(potential, reference, zero_pressure->condition("temperature"),
-                                                velocity, section, seed);
-      return TaskResult{{{"shock_velocity", shock.shock_velocity},
-                         {"particle_velocity", {velocity, 0.0}},
-                         {"pressure", shock.pressure},
-                         {"temperature", shock.temperature},
-                         {"density", {shock.sample_density, 0.0}},
-                         {"shear_stress_share", {shock.shear_stress_share, 0.0}},
-                         {"slipped_share", {shock.slipped_share, 0.0}},
-                         {"elastic", {shock.elastic() ? 1.0 : 0.0, 0.0}}},
-                        shock.elastic() ? "elastic: no datum for an equation of state" : "",
-                        shock.transcript};
+      const double temperature = read_as<ZeroPressurePoint>(*zero_pressure).temperature;
+      const PistonResult shock = measure_piston(potential, reference, temperature, velocity, section, seed);
+      return TaskResult{results_of<PistonPoint>(shock),
+                        shock.elastic ? "elastic: no datum for an equation of state" : "", shock.transcript};
     });
   }
 }

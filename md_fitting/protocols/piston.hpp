@@ -6,25 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "md_fitting/data_set/data_set.hpp"
+#include "md_fitting/data_set/points.hpp"
 #include "md_fitting/lammps/potential.hpp"
 #include "md_fitting/plan/piston.hpp"
 #include "md_fitting/protocols/hugoniot.hpp"
 
 namespace whipple::md {
 
-struct PistonResult {
-  Estimate shock_velocity;          ///< m/s, relative to the material ahead of the shock
-  Estimate pressure;                ///< Pa, normal stress behind the front from the momentum jump condition
-  Estimate temperature;             ///< K, behind the front
-  double shear_stress_share = 0.0;  ///< (P_zz - (P_xx + P_yy)/2) / P_zz behind the front
-  double slipped_share = 0.0;       ///< fraction of the atoms behind the front, see `slipped_share`
-  double sample_density = 0.0;      ///< kg/m^3, behind the front, from the number of atoms
+struct PistonResult : PistonPoint {
   std::string transcript;
-
-  /// Returns whether the crystal was compressed without slip. The state is then not hydrostatic and not a datum for
-  /// an equation of state.
-  [[nodiscard]] bool elastic() const;
 };
 
 /// Measures a shock along [001] of a perfect crystal that impacts a momentum mirror (Holian, Lomdahl, Science 280

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "md_fitting/data_set/points.hpp"
 #include "src/core/base/units.hpp"
 
 namespace whipple::md {
@@ -60,7 +61,7 @@ std::string summarize(const PointRecord& point) {
   if (!point.done()) return fmt::format("{} FAILED: {}", text, point.message);
   const char* joint = ": ";
   for (const auto& [name, estimate] : point.results) {
-    if (name == "solid" || name == "error_correlation") continue;
+    if (name == name_of(&StatePoint::solid) || name == name_of(&StatePoint::error_correlation)) continue;
     text += joint + format_result(name, estimate);
     joint = ", ";
   }

@@ -36,6 +36,7 @@ Estimate negative_slope(const std::array<double, 5>& f, double volume) {
 TaskResult measure(const Potential& potential, const QuantumPlan& section, double volume,
                    double temperature) {
   TaskResult result;
+  QuantumPoint point{.specific_volume = volume, .temperature = temperature};
   const double per_mass = 3.0 / (potential.mass() * metal::dalton);  // three vibrations per atom
   std::array<double, 5> free_energy{}, zero_point{}, logarithm{};
   for (std::size_t i = 0; i < free_energy.size(); ++i) {
@@ -49,16 +50,17 @@ TaskResult measure(const Potential& potential, const QuantumPlan& section, doubl
     logarithm[i] = mean_of(frequencies, [](double w) { return std::log(w); });
     if (i != 2) continue;
     const double square = mean_of(frequencies, [](double w) { return w * w; });
-    result.results = {{"quantum_free_energy", {per_mass * excess.free_energy, 0.0}},
-                      {"quantum_energy", {per_mass * excess.energy, 0.0}},
-                      {"quantum_heat_capacity", {per_mass * excess.heat_capacity, 0.0}},
-                      {"debye_temperature", {si::hbar / si::boltzmann * std::sqrt(5.0 / 3.0 * square), 0.0}},
-                      {"zero_point_energy", {zero_point[i], 0.0}}};
+    point.quantum_free_energy = per_mass * excess.free_energy;
+    point.quantum_energy = per_mass * excess.energy;
+    point.quantum_heat_capacity = per_mass * excess.heat_capacity;
+    point.debye_temperature = si::hbar / si::boltzmann * std::sqrt(5.0 / 3.0 * square);
+    point.zero_point_energy = zero_point[i];
   }
-  result.results["quantum_pressure"] = negative_slope(free_energy, volume);
-  result.results["zero_point_pressure"] = negative_slope(zero_point, volume);
+  point.quantum_pressure = negative_slope(free_energy, volume);
+  point.zero_point_pressure = negative_slope(zero_point, volume);
   const Estimate gruneisen = negative_slope(logarithm, volume);
-  result.results["vibration_gruneisen"] = {gruneisen.value * volume, gruneisen.error * volume};
+  point.vibration_gruneisen = {gruneisen.value * volume, gruneisen.error * volume};
+  result.results = results_of(point);
   return result;
 }
 
@@ -72,7 +74,7 @@ void add_quantum(const Plan& plan, TaskList& list) {
     const double volume = ratio * list.potential().static_volume();
     for (const double temperature : section.temperature) {
       list.add(
-          {{{"specific_volume", volume}, {"temperature", temperature}},
+          {conditions_of(QuantumPoint{.specific_volume = volume, .temperature = temperature}),
            {{"cells", std::to_string(section.cells)},
             {"displacement", fmt::format("{} m", section.displacement)}},
            {}},

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <string>
 
+#include "md_fitting/data_set/points.hpp"
 #include "md_fitting/protocols/replicas.hpp"
 #include "src/core/base/error.hpp"
 
@@ -12,11 +13,6 @@ namespace whipple::md {
 namespace {
 
 constexpr double agreement = 2.0;
-
-const std::set<std::string>& flags() {
-  static const std::set<std::string> names = {"solid", "liquid"};
-  return names;
-}
 
 double weighted_error(double n, double first, double m, double second) {
   return std::hypot(n * first, m * second) / (n + m);
@@ -51,7 +47,7 @@ PointRecord join(const PointRecord& point, const PointRecord& segment) {
     const auto found = segment.results.find(name);
     if (found == segment.results.end()) continue;
     const Estimate& other = found->second;
-    if (flags().contains(name)) {
+    if (is_flag(name)) {
       estimate.value = std::min(estimate.value, other.value);
       continue;
     }
@@ -68,18 +64,21 @@ PointRecord join(const PointRecord& point, const PointRecord& segment) {
     if (of_replicas(joined)) joined.results[name] = replica_mean(means);
   }
   // The correlation of the errors, of energy and the quantity measured with it, is that of the joint covariance.
-  if (joined.results.contains("error_correlation")) {
-    const std::string partner = joined.results.contains("pressure") ? "pressure" : "specific_volume";
-    const std::string energy = "specific_internal_energy";
+  const std::string correlation(name_of(&StatePoint::error_correlation));
+  if (joined.results.contains(correlation)) {
+    const bool of_state = joined.results.contains(std::string(name_of(&StatePoint::pressure)));
+    const std::string partner(of_state ? name_of(&StatePoint::pressure)
+                                       : name_of(&ZeroPressurePoint::specific_volume));
+    const std::string energy(name_of(&StatePoint::specific_internal_energy));
     const auto covariance = [&](const PointRecord& part) {
-      return part.result("error_correlation").value * part.result(partner).error * part.result(energy).error;
+      return part.result(correlation).value * part.result(partner).error * part.result(energy).error;
     };
     const auto error = [&](const std::string& name) {
       return weighted_error(n, point.result(name).error, m, segment.result(name).error);
     };
     const double sum = (n * n * covariance(point) + m * m * covariance(segment)) / ((n + m) * (n + m));
     if (const double product = error(partner) * error(energy); product > 0.0) {
-      joined.results["error_correlation"].value = std::clamp(sum / product, -1.0, 1.0);
+      joined.results[correlation].value = std::clamp(sum / product, -1.0, 1.0);
     }
   }
   if (!segment.message.empty() && joined.message.find(segment.message) == std::string::npos) {

@@ -12,8 +12,6 @@
 
 namespace whipple::md {
 
-Estimate ReplicaSet::mean(const std::string& result) const { return replica_mean(values.at(result)); }
-
 Estimate replica_mean(std::span<const double> values) {
   if (values.size() < 2) throw InternalError("the error of a mean needs two independent runs");
   const auto n = static_cast<double>(values.size());
@@ -25,9 +23,8 @@ Estimate replica_mean(std::span<const double> values) {
 
 std::int64_t least_replicas(std::int64_t wanted) { return std::max<std::int64_t>(2, wanted / 2 + 1); }
 
-ReplicaSet run_replicas(std::int64_t wanted, std::int64_t seed,
-                        const std::function<ReplicaValues(std::int64_t, std::string&)>& run) {
-  ReplicaSet set;
+std::string repeat_runs(std::int64_t wanted, std::int64_t seed,
+                        const std::function<void(std::int64_t)>& run) {
   std::string failures;
   std::int64_t failed = 0;
   const auto left_out = [&](std::int64_t number, const char* reason) {
@@ -36,9 +33,7 @@ ReplicaSet run_replicas(std::int64_t wanted, std::int64_t seed,
   };
   for (std::int64_t number = 0; number < wanted; ++number) {
     try {
-      const ReplicaValues brought =
-          run(seed_from(sha256(fmt::format("{} {}", seed, number))), set.transcript);
-      for (const auto& [name, value] : brought) set.values[name].push_back(value);
+      run(seed_from(sha256(fmt::format("{} {}", seed, number))));
     } catch (const StateError& error) {
       left_out(number, error.what());
     } catch (const LammpsError& error) {
@@ -49,17 +44,7 @@ ReplicaSet run_replicas(std::int64_t wanted, std::int64_t seed,
                                    least_replicas(wanted), failures));
     }
   }
-  if (failed > 0) set.remark = fmt::format("{} of {} runs left out: {}", failed, wanted, failures);
-  return set;
-}
-
-TaskResult to_result(ReplicaSet set) {
-  TaskResult result;
-  for (const auto& [name, values] : set.values) result.results[name] = replica_mean(values);
-  result.message = std::move(set.remark);
-  result.transcript = std::move(set.transcript);
-  result.blocks = std::move(set.values);
-  return result;
+  return failed > 0 ? fmt::format("{} of {} runs left out: {}", failed, wanted, failures) : std::string{};
 }
 
 }  // namespace whipple::md

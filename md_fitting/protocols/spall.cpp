@@ -26,8 +26,8 @@ constexpr double window_strain = 0.004;
 constexpr double part_strain = 0.02;
 constexpr std::int64_t interval = 5;
 
-ReplicaValues stretch(const Potential& potential, double temperature, const SpallPlan& section,
-                      std::int64_t seed, std::string& transcript) {
+SpallPoint stretch(const Potential& potential, double temperature, const SpallPlan& section,
+                   std::int64_t seed, std::string& transcript) {
   const std::int64_t cells = section.size.cells;
   // Half of the usual step: the failure is sudden and hot.
   const double dt =
@@ -82,10 +82,12 @@ ReplicaValues stretch(const Potential& potential, double temperature, const Spal
     };
     transcript += lammps.transcript();
     const double mass = potential.mass();
-    return {{"spall_strength", metal::bar * peak.value},
-            {"spall_temperature", at_peak(history[1])},
-            {"spall_specific_volume", metal::specific_volume(at_peak(history[2]), mass)},
-            {"specific_volume", metal::specific_volume(initial_volume, mass)}};
+    return {.temperature = temperature,
+            .strain_rate = section.strain_rate,
+            .spall_strength = {metal::bar * peak.value, 0.0},
+            .spall_temperature = {at_peak(history[1]), 0.0},
+            .spall_specific_volume = {metal::specific_volume(at_peak(history[2]), mass), 0.0},
+            .specific_volume = {metal::specific_volume(initial_volume, mass), 0.0}};
   }
   throw StateError(fmt::format("no failure up to a volume strain of {:.3g}; the tension is {:.4g} GPa",
                                strain, 1e-9 * metal::bar * history[0].back()));
@@ -105,26 +107,28 @@ Peak largest_mean(std::span<const double> series, std::size_t window) {
   return peak;
 }
 
-ReplicaSet measure_spall(const Potential& potential, double temperature, const SpallPlan& section,
-                         std::int64_t seed) {
-  return run_replicas(section.replicas, seed, [&](std::int64_t own_seed, std::string& transcript) {
-    return stretch(potential, temperature, section, own_seed, transcript);
-  });
+ReplicaSet<SpallPoint> measure_spall(const Potential& potential, double temperature, const SpallPlan& section,
+                                     std::int64_t seed) {
+  return run_replicas<SpallPoint>(section.replicas, seed,
+                                  [&](std::int64_t own_seed, std::string& transcript) {
+                                    return stretch(potential, temperature, section, own_seed, transcript);
+                                  });
 }
 
 void add_spall(const Plan& plan, TaskList& list) {
   if (!plan.spall) return;
   const SpallPlan section = *plan.spall;
   for (const double temperature : section.temperature) {
-    PointRequest request{{{"temperature", temperature}, {"strain_rate", section.strain_rate}},
-                         size_settings(section.size),
-                         {}};
+    PointRequest request{
+        conditions_of(SpallPoint{.temperature = temperature, .strain_rate = section.strain_rate}),
+        size_settings(section.size),
+        {}};
     request.settings["replicas"] = std::to_string(section.replicas);
     request.settings["largest_strain"] = fmt::format("{}", section.largest_strain);
     request.settings.erase("steps");  // a run ends with the failure
     list.add(request,
              [&potential = list.potential(), section, temperature](std::int64_t seed, const PointRecord*) {
-               return to_result(measure_spall(potential, temperature, section, seed));
+               return to_result<SpallPoint>(measure_spall(potential, temperature, section, seed));
              });
   }
 }

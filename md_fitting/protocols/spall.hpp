@@ -11,12 +11,10 @@
 
 namespace whipple::md {
 
-/// Measures the maximum tension of a crystal in uniform adiabatic expansion from zero pressure: spall_strength
-/// (Pa), spall_temperature (K) and spall_specific_volume (m^3/kg) at the maximum, and the initial specific_volume,
-/// from independent runs.
+/// Measures the maximum tension of a crystal in uniform adiabatic expansion from zero pressure, from independent runs.
 /// @throws StateError if too many runs end without a result: the crystal melted before the maximum, or did not fail.
-ReplicaSet measure_spall(const Potential& potential, double temperature, const SpallPlan& section,
-                         std::int64_t seed);
+ReplicaSet<SpallPoint> measure_spall(const Potential& potential, double temperature, const SpallPlan& section,
+                                     std::int64_t seed);
 
 /// Holds the largest mean over `window` consecutive samples and the first index of its window.
 struct Peak {

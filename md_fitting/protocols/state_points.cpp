@@ -12,25 +12,28 @@ namespace {
 void add_state(TaskList& list, double ratio, double temperature, const RunSize& size, const Target& target) {
   list.require_range(ratio);
   const double volume = ratio * list.potential().static_volume();
-  list.add({{{"specific_volume", volume}, {"temperature", temperature}},
+  list.add({conditions_of(StatePoint{.specific_volume = volume, .temperature = temperature}),
             size_settings(size),
             {},
-            precision_of("pressure", false, target, size)},
+            precision_of(&StatePoint::pressure, false, target, size)},
            [&potential = list.potential(), size, volume, temperature](std::int64_t seed, const PointRecord*) {
              NvtStateSource source(potential, size, seed);
              const State state = source.state(volume, temperature, StateSource::Effort::final);
              const double displacement =
                  std::sqrt(state.mean_square_displacement.value) / neighbour_distance(potential, volume);
              return TaskResult{
-                 {{"pressure", state.pressure},
-                  {"specific_internal_energy", state.specific_internal_energy},
-                  {"error_correlation", {state.correlation, 0.0}},
-                  {"mean_square_displacement", state.mean_square_displacement},
-                  {"crystal_share", {state.crystal_share, 0.0}},
-                  {"solid", {state.solid ? 1.0 : 0.0, 0.0}}},
+                 results_of(StatePoint{.specific_volume = volume,
+                                       .temperature = temperature,
+                                       .pressure = state.pressure,
+                                       .specific_internal_energy = state.specific_internal_energy,
+                                       .mean_square_displacement = state.mean_square_displacement,
+                                       .error_correlation = state.correlation,
+                                       .crystal_share = state.crystal_share,
+                                       .solid = state.solid}),
                  structure_remark(state.crystal_share, state.solid, displacement),
                  source.transcript(),
-                 {{"pressure", state.pressure_blocks}, {"specific_internal_energy", state.energy_blocks}}};
+                 {blocks_of(&StatePoint::pressure, state.pressure_blocks),
+                  blocks_of(&StatePoint::specific_internal_energy, state.energy_blocks)}};
            });
 }
 

@@ -74,7 +74,7 @@ void TaskList::require_range(double volume_ratio) {
 void TaskList::require_box(const PointRequest& request) {
   const auto cells = request.settings.find("cells");
   if (cells == request.settings.end()) return;
-  const auto volume = request.conditions.find("specific_volume");
+  const auto volume = request.conditions.find(std::string(name_of(&StatePoint::specific_volume)));
   const double ratio = volume == request.conditions.end() ? 1.0 : volume->second / potential_.static_volume();
   const double width = std::stod(cells->second) * potential_.lattice_constant() * std::cbrt(ratio);
   if (width >= potential_.cutoff()) return;
@@ -109,7 +109,7 @@ std::string TaskList::add(const PointRequest& request, Compute compute) {
   return key;
 }
 
-std::string TaskList::first_key(const std::string& protocol) const {
+std::string TaskList::first_key(std::string_view protocol) const {
   const auto found =
       std::find_if(tasks_.begin(), tasks_.end(), [&](const Task& task) { return task.protocol == protocol; });
   return found == tasks_.end() ? std::string{} : found->key;
@@ -127,19 +127,11 @@ std::map<std::string, std::string> size_settings(const RunSize& size) {
           {"time_step", size.time_step > 0.0 ? fmt::format("{} s", size.time_step) : "automatic"}};
 }
 
-Precision precision_of(const std::string& quantity, bool relative, const Target& target, const RunSize& size,
-                       std::int64_t replicas) {
-  constexpr std::int64_t usual_segments = 20;
-  return {quantity, target.error, relative,
-          target.most_steps > 0 ? std::max<std::int64_t>(1, target.most_steps / (replicas * size.steps))
-                                : usual_segments};
-}
-
 std::string with_validity(std::string message, const PointRecord& point) {
   const auto limit = point.provenance.find("validity_pressure");
   if (limit == point.provenance.end()) return message;
-  const auto result = point.results.find("pressure");
-  const auto condition = point.conditions.find("pressure");
+  const auto result = point.results.find(std::string(name_of(&StatePoint::pressure)));
+  const auto condition = point.conditions.find(std::string(name_of(&CoexistencePoint::pressure)));
   if (result == point.results.end() && condition == point.conditions.end()) return message;
   const double pressure = result != point.results.end() ? result->second.value : condition->second;
   if (pressure <= units::parse_quantity(limit->second, "Pa")) return message;

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <set>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include "md_fitting/data_set/points.hpp"
 #include "md_fitting/protocols/tasks.hpp"
 
 namespace whipple::md {
@@ -42,7 +46,7 @@ class TaskList {
   /// than the cutoff, since atoms would interact with their periodic images.
   std::string add(const PointRequest& request, Compute compute);
   /// Returns the key of the first point of a protocol; empty if there is none yet.
-  [[nodiscard]] std::string first_key(const std::string& protocol) const;
+  [[nodiscard]] std::string first_key(std::string_view protocol) const;
 
   /// Returns the tasks. @throws InputError with all faults, if any.
   std::vector<Task> take();
@@ -63,8 +67,21 @@ class TaskList {
 std::map<std::string, std::string> size_settings(const RunSize& size);
 
 /// Converts the target of a section to points whose segments have the steps of `size`, `replicas` times.
-Precision precision_of(const std::string& quantity, bool relative, const Target& target, const RunSize& size,
-                       std::int64_t replicas = 1);
+/// @param quantity  decisive result, by its member of the record
+template <class Point>
+Precision precision_of(Estimate Point::* quantity, bool relative, const Target& target, const RunSize& size,
+                       std::int64_t replicas = 1) {
+  constexpr std::int64_t usual_segments = 20;
+  return {std::string(name_of(quantity)), target.error, relative,
+          target.most_steps > 0 ? std::max<std::int64_t>(1, target.most_steps / (replicas * size.steps))
+                                : usual_segments};
+}
+
+/// Returns the entry of block averages of a result.
+template <class Point>
+std::pair<std::string, std::vector<double>> blocks_of(Estimate Point::* result, std::vector<double> means) {
+  return {std::string(name_of(result)), std::move(means)};
+}
 
 /// Returns the remark for a point whose crystal has melted or contains defects or a cavity; empty for an intact
 /// crystal.

@@ -60,12 +60,16 @@ ZeroPressureResult measure_zero_pressure(const Potential& potential, double temp
   const Estimate volume = series_mean(series[1]);
   std::vector<double> blocks;
   for (const double mean : block_means(series[1])) blocks.push_back(metal::specific_volume(mean, mass));
-  return {{metal::specific_volume(volume.value, mass), metal::specific_volume(volume.error, mass)},
-          {metal::specific_energy(energy.value, mass), metal::specific_energy(energy.error, mass)},
-          {modes * expansion.value, modes * expansion.error},
-          error_correlation(series[0], series[1]),
-          lammps.transcript(),
-          std::move(blocks)};
+  ZeroPressureResult result;
+  result.specific_volume = {metal::specific_volume(volume.value, mass),
+                            metal::specific_volume(volume.error, mass)};
+  result.specific_internal_energy = {metal::specific_energy(energy.value, mass),
+                                     metal::specific_energy(energy.error, mass)};
+  result.thermal_expansion = {modes * expansion.value, modes * expansion.error};
+  result.error_correlation = error_correlation(series[0], series[1]);
+  result.transcript = lammps.transcript();
+  result.volume_blocks = std::move(blocks);
+  return result;
 }
 
 Estimate thermal_expansion(std::span<const double> volume, std::span<const double> energy, double atoms,
@@ -79,19 +83,16 @@ void add_zero_pressure(const Plan& plan, TaskList& list) {
   if (!plan.zero_pressure) return;
   const RunSize size = plan.zero_pressure->size;
   for (const double temperature : plan.zero_pressure->temperature) {
-    list.add({{{"temperature", temperature}, {"pressure", 0.0}},
+    list.add({conditions_of(ZeroPressurePoint{.temperature = temperature}),
               size_settings(size),
               {},
-              precision_of("specific_volume", true, plan.zero_pressure->target, size)},
+              precision_of(&ZeroPressurePoint::specific_volume, true, plan.zero_pressure->target, size)},
              [&potential = list.potential(), size, temperature](std::int64_t seed, const PointRecord*) {
                const ZeroPressureResult result = measure_zero_pressure(potential, temperature, size, seed);
-               return TaskResult{{{"specific_volume", result.specific_volume},
-                                  {"specific_internal_energy", result.specific_internal_energy},
-                                  {"error_correlation", {result.correlation, 0.0}},
-                                  {"thermal_expansion", result.thermal_expansion}},
+               return TaskResult{results_of<ZeroPressurePoint>(result),
                                  "",
                                  result.transcript,
-                                 {{"specific_volume", result.volume_blocks}}};
+                                 {blocks_of(&ZeroPressurePoint::specific_volume, result.volume_blocks)}};
              });
   }
 }

@@ -5,17 +5,13 @@
 #include <span>
 #include <string>
 
-#include "md_fitting/data_set/data_set.hpp"
+#include "md_fitting/data_set/points.hpp"
 #include "md_fitting/lammps/potential.hpp"
 #include "md_fitting/plan/plan.hpp"
 
 namespace whipple::md {
 
-struct ZeroPressureResult {
-  Estimate specific_volume;           ///< m^3/kg
-  Estimate specific_internal_energy;  ///< J/kg
-  Estimate thermal_expansion;         ///< 1/K, (1/V) dV/dT at constant pressure, from fluctuations
-  double correlation = 0.0;           ///< of the errors of volume and energy, -1 ... 1
+struct ZeroPressureResult : ZeroPressurePoint {
   std::string transcript;
   std::vector<double> volume_blocks{};  ///< m^3/kg, means over parts of the averaged time
 };

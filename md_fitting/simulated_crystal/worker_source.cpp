@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <set>
 
+#include "md_fitting/data_set/points.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
 #include "src/core/base/log.hpp"
@@ -94,23 +95,24 @@ bool WorkerSource::find(const std::vector<PointRecord>& points, double volume_ra
     for (const PointRecord& point : points) {
       const bool crystal = point.kind() == PointKind::cold_curve;
       if ((!crystal && point.kind() != PointKind::isochore) || !mine(point) ||
-          !same(point.condition("specific_volume"), isochore.volume)) {
+          !same(condition(point, &StatePoint::specific_volume), isochore.volume)) {
         continue;
       }
-      if (!crystal && !same(point.condition("temperature"), temperature)) continue;
+      if (!crystal && !same(condition(point, &StatePoint::temperature), temperature)) continue;
       if (!point.done()) throw StateError(fmt::format("{}: {}", point.label(), point.message));
       if (crystal) {
-        isochore.cold_pressure = point.result("pressure").value;
-        isochore.cold_energy = point.result("specific_internal_energy").value;
+        const auto rest = read_as<ColdCurvePoint>(point);
+        isochore.cold_pressure = rest.pressure;
+        isochore.cold_energy = rest.specific_internal_energy;
         cold = true;
         continue;
       }
       constexpr double whole = 0.9;  // crystal fraction: a cavity or a fault involves more than a tenth
-      if (point.result("solid").value < 0.5 || point.result("crystal_share").value < whole) {
+      const auto state = read_as<StatePoint>(point);
+      if (!state.solid || state.crystal_share < whole) {
         throw StateError(fmt::format("{}: {}", point.label(), point.message));
       }
-      const Estimate pressure = point.result("pressure");
-      const Estimate energy = point.result("specific_internal_energy");
+      const Estimate &pressure = state.pressure, &energy = state.specific_internal_energy;
       isochore.states.push_back({temperature, pressure.value, pressure.error, energy.value, energy.error});
       found = true;
       break;

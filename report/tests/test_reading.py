@@ -20,7 +20,6 @@ from report.history import History
 from report.page import Page
 from report.run import Run
 from report.sections import Report
-from report.wall_speed import wall_speed
 
 
 def geometry(**more):
@@ -147,17 +146,3 @@ class Runs(unittest.TestCase):
             (path / "x.particles.hdf.series").write_text('{"files": [{"name": "x.hdf", "time": 0}]}')
             with self.assertRaisesRegex(NotARun, "analysis.h5.*whipple analyse"):
                 Run(folder)
-
-
-class WallSpeeds(unittest.TestCase):
-    def test_tracers_that_have_left_do_not_disturb_the_others(self):
-        names = ("w_1", "w_2", "w_3")
-        rows = ["time [s]," + ",".join(f"{name}.{axis} [m]" for name in names for axis in "xy")]
-        for step in range(8):
-            radius = 0.01 + 0.001 * step  # 1 km/s at all of them
-            gone = ("nan", "nan") if step > 1 else ("0.02", radius)
-            rows.append(",".join(map(str, (1e-6 * step, 0.04, radius, *gone, 0.0, radius))))
-        with tempfile.TemporaryDirectory() as folder:
-            path = pathlib.Path(folder) / "gauges.csv"
-            path.write_text("\n".join(rows) + "\n")
-            self.assertAlmostEqual(wall_speed(path, "w", 0.03, 0.004), 1000.0, delta=1e-6)

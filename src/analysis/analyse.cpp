@@ -16,6 +16,7 @@
 #include "src/analysis/fragments.hpp"
 #include "src/analysis/frame.hpp"
 #include "src/analysis/measures.hpp"
+#include "src/analysis/outcome.hpp"
 #include "src/analysis/outflow.hpp"
 #include "src/analysis/peaks.hpp"
 #include "src/analysis/radiograph.hpp"
@@ -48,9 +49,10 @@ struct Start {
   std::vector<Extent> extents;        ///< of each body, along the axis
   std::optional<std::size_t> target;  ///< the first body that the projectile hits
   double projectile_mass = 0.0, projectile_radius = 0.0, particle_mass = 0.0;
-  std::vector<std::optional<Wall>> walls;  ///< of the bodies that may be perforated
-  bool planar = false;                     ///< planar impact: there are no craters or holes
-  std::vector<std::uint64_t> near_axis;    ///< particles starting within a quarter of the projectile radius
+  std::vector<std::optional<Wall>> walls;    ///< of the bodies that may be perforated
+  std::vector<std::optional<Judge>> judges;  ///< of these
+  bool planar = false;                       ///< planar impact: there are no craters or holes
+  std::vector<std::uint64_t> near_axis;      ///< particles starting within a quarter of the projectile radius
 };
 
 /// Returns whether all bodies fill the cross-section of the domain, as in a planar impact.
@@ -83,6 +85,7 @@ Start start_of(const Run& run, const Snapshot& first, const Options& options) {
               .extents = {},
               .target = {},
               .walls = {},
+              .judges = {},
               .near_axis = {}};
   const Frame& frame = start.frame;
   for (std::size_t b = 0; b < run.bodies.size(); ++b) {
@@ -107,10 +110,13 @@ Start start_of(const Run& run, const Snapshot& first, const Options& options) {
   start.planar = is_planar(run, first, frame);
   // All following measures refer to the point hit by an oblique flight.
   if (start.target) start.frame = start.frame.at_face(start.extents[*start.target].lower);
+  start.walls.resize(run.bodies.size());  // judges refer to them
+  start.judges.resize(run.bodies.size());
   for (std::size_t b = 0; b < run.bodies.size(); ++b) {
-    start.walls.emplace_back();
     if (b == frame.projectile || frame.wall || start.planar || first.scalar("density") == nullptr) continue;
-    if (std::isfinite(start.extents[b].lower)) start.walls[b].emplace(run, first, start.frame, b);
+    if (!std::isfinite(start.extents[b].lower)) continue;
+    start.walls[b].emplace(run, first, start.frame, b);
+    start.judges[b].emplace(run, first, frame, *start.walls[b]);
   }
   return start;
 }
@@ -143,7 +149,9 @@ Quantities surface_measures(const Run& run, Start& start, const Snapshot& snapsh
     if (!start.walls[b]) continue;
     const std::string& name = run.bodies[b].name;
     const Extent& extent = start.walls[b]->extent();
-    const Quantities wall = start.walls[b]->measure(snapshot);
+    const Wall::Remains left = start.walls[b]->look(snapshot);
+    const Quantities wall = start.walls[b]->measure(snapshot, left);
+    start.judges[b]->add(snapshot, left);
     const bool open = wall.front().value == 1.0;
     if (b == *start.target) perforated = wall.front().value;
     const Crater crater = open ? Crater{.depth = nan, .radius = nan, .bulge = nan}
@@ -158,6 +166,7 @@ Quantities surface_measures(const Run& run, Start& start, const Snapshot& snapsh
                  measured("crater_depth_over_diameter", name, 0.5 * crater.depth / crater.radius, reason),
                  measured("bulge", name, crater.bulge)});
     append(row, wall);
+    append(row, start.judges[b]->measures());
   }
   if (!start.target || !start.walls[*start.target]) return row;
   const Frame& normal = start.walls[*start.target]->frame();

@@ -93,6 +93,8 @@ constexpr auto table = std::to_array<Measure>({
     {"hole_diameter.BODY", "m", "diameter about the line of flight within which less than half of the thickness is left, of a perforated body", "the body is not perforated"},
     {"damaged_area.BODY", "m^2", "area of the face where connected material keeps less than 0.9 of the thickness", "see perforated.BODY"},
     {"spall_mass.BODY", "kg", "mass of the body's material that has come off behind it, of a body that is not perforated", "see perforated.BODY"},
+    {"defeated.BODY", "1", "outcome of a struck wall: 1 perforated or with detached spall, 0 neither (shields.md); not a number as long as it is undecided", "see the reason given with the value"},
+    {"outcome_time.BODY", "s", "time at which its outcome was decided", "see defeated.BODY"},
     // Bars against a wall.
     {"length.BODY", "m", "length of a bar that flies at a wall: from its end at the wall to the far end", bar_gone},
     {"foot_diameter.BODY", "m", "diameter of a bar at its end at the wall, extrapolated from the three layers of a cell above it", bar_gone},

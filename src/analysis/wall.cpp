@@ -223,10 +223,8 @@ Wall::Remains Wall::remains(const Snapshot& snapshot) const {
   // Debris is not attached to the rim, from which only small pieces may originate.
   constexpr double much = 0.1;
   for (const Piece& piece : all) {
-    const auto from_rim = std::ranges::count_if(piece, [&](std::uint32_t i) {
-      const Vector3* place = place_of(snapshot.id[i]);
-      return place != nullptr && !columns_.inside(*place);
-    });
+    const auto from_rim =
+        std::ranges::count_if(piece, [&](std::uint32_t i) { return began_on_rim(snapshot.id[i]); });
     if (static_cast<double>(from_rim) >= much * rim_ || &piece == &all.front()) take(piece);
   }
   return result;
@@ -246,29 +244,41 @@ bool Wall::at_border(const Snapshot& snapshot, const Remains& remains) const {
   return false;
 }
 
+std::optional<std::size_t> Wall::cell_at(const Vector3& position, const Vector3& shift) const {
+  std::array<std::size_t, 2> at{};
+  for (std::size_t a = 0; a < 2; ++a) {
+    const int axis = frame_.transverse[a];
+    const double x = std::floor((position[axis] - shift[axis] - columns_.lower()[a]) / reach_);
+    if (!(x >= 0.0 && x < static_cast<double>(cells_[a]))) return std::nullopt;
+    at[a] = static_cast<std::size_t>(x);
+  }
+  return at[0] * cells_[1] + at[1];
+}
+
+double Wall::cell_area(std::size_t cell) const {
+  if (frame_.dimension == grid::Dimension::space) return frame_.copies() * reach_ * reach_;
+  const double inner = columns_.lower()[0] + static_cast<double>(cell / cells_[1]) * reach_;
+  return frame_.ring_area(inner, inner + reach_);
+}
+
+bool Wall::began_on_rim(std::uint64_t id) const {
+  const Vector3* place = place_of(id);
+  return place != nullptr && !columns_.inside(*place);
+}
+
 double Wall::spall_mass(const Snapshot& snapshot, const Remains& remains) const {
   // Rear surface of the remaining wall, by cells over the face; where nothing is left, the initial rear face of the
   // body.
-  std::vector<double> rear(cells_[0] * cells_[1], -std::numeric_limits<double>::infinity());
-  const auto cell_at = [&](std::size_t p) -> std::optional<std::size_t> {
-    std::array<std::size_t, 2> at{};
-    for (std::size_t a = 0; a < 2; ++a) {
-      const int axis = frame_.transverse[a];
-      const double x =
-          std::floor((snapshot.position[p][axis] - remains.shift[axis] - columns_.lower()[a]) / reach_);
-      if (!(x >= 0.0 && x < static_cast<double>(cells_[a]))) return std::nullopt;
-      at[a] = static_cast<std::size_t>(x);
-    }
-    return at[0] * cells_[1] + at[1];
-  };
+  std::vector<double> rear(face_cells(), -std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < snapshot.size(); ++i) {
     if (remains.wall[i] == 0) continue;
-    if (const auto cell = cell_at(i)) rear[*cell] = std::max(rear[*cell], frame_.axial(snapshot.position[i]));
+    if (const auto cell = cell_at(snapshot.position[i], remains.shift))
+      rear[*cell] = std::max(rear[*cell], frame_.axial(snapshot.position[i]));
   }
   double mass = 0.0;
   for (std::size_t i = 0; i < snapshot.size(); ++i) {
     if (snapshot.body[i] != body_ || remains.wall[i] != 0) continue;
-    const auto cell = cell_at(i);
+    const auto cell = cell_at(snapshot.position[i], remains.shift);
     const double own = cell ? rear[*cell] : -std::numeric_limits<double>::infinity();
     const double limit = std::isfinite(own) ? own : extent_.upper;
     if (frame_.axial(snapshot.position[i]) > limit + reach_) mass += frame_.copies() * snapshot.mass[i];
@@ -276,15 +286,23 @@ double Wall::spall_mass(const Snapshot& snapshot, const Remains& remains) const 
   return mass;
 }
 
-Quantities Wall::measure(const Snapshot& snapshot) {
-  const std::string& name = run_.bodies[body_].name;
-  std::string reason = undecided(snapshot);
+Wall::Remains Wall::look(const Snapshot& snapshot) {
   Remains left;
-  if (reason.empty()) {
-    left = remains(snapshot);
-    // A bulge that has left the domain looks like a hole; a hole found earlier remains one.
-    if (!perforated_ && at_border(snapshot, left)) reason = "the wall has come to the border of the domain";
+  left.undecided = undecided(snapshot);
+  if (!left.undecided.empty()) return left;
+  left = remains(snapshot);
+  // A bulge that has left the domain looks like a hole; a hole found earlier remains one.
+  if (!perforated_ && at_border(snapshot, left)) {
+    left.undecided = "the wall has come to the border of the domain";
+    return left;
   }
+  perforated_ = perforated_ || !left.closed;
+  return left;
+}
+
+Quantities Wall::measure(const Snapshot& snapshot, const Remains& left) const {
+  const std::string& name = run_.bodies[body_].name;
+  const std::string& reason = left.undecided;
   if (!reason.empty()) {
     Quantities row;
     for (const char* measure :
@@ -292,7 +310,6 @@ Quantities Wall::measure(const Snapshot& snapshot) {
       row.push_back(measured(measure, name, nan, reason));
     return row;
   }
-  perforated_ = perforated_ || !left.closed;
   const Hole hole = measure_hole(snapshot, frame_, left.wall, extent_.length(), run_.cell_size);
   const double diameter = left.closed || !(hole.diameter > 0.0) ? nan : hole.diameter;
   return {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,22 +25,39 @@ class Wall {
   /// Returns the extent of the body along that axis at the start.
   [[nodiscard]] const Extent& extent() const { return extent_; }
 
-  /// Measures perforation, remaining thickness and hole; values that cannot be decided are NaN with the reason.
-  /// Snapshots must be passed in order of time.
-  [[nodiscard]] Quantities measure(const Snapshot& snapshot);
-
- private:
-  /// Selects the remaining wall: the material that closes it, or, if perforated, the pieces attached to its rim.
+  /// Describes the remaining wall: the material that closes it, or, if perforated, the pieces attached to its rim.
   struct Remains {
+    std::string undecided;  ///< why nothing can be decided; empty: it can
     bool closed = false;
     std::vector<std::uint8_t> wall;   ///< 1: the particle belongs to it
     Vector3 shift = Vector3::Zero();  ///< displacement of the wall across the axis, m
   };
+  /// Finds the remaining wall. Snapshots must be passed in order of time.
+  [[nodiscard]] Remains look(const Snapshot& snapshot);
+
+  /// Measures perforation, remaining thickness and hole; values that cannot be decided are NaN with the reason.
+  [[nodiscard]] Quantities measure(const Snapshot& snapshot, const Remains& left) const;
+  /// Does both.
+  [[nodiscard]] Quantities measure(const Snapshot& snapshot) { return measure(snapshot, look(snapshot)); }
+
+  /// Returns the number of cells over the face.
+  [[nodiscard]] std::size_t face_cells() const { return cells_[0] * cells_[1]; }
+  /// Returns the cell over the face that a position (m) lies in, of a wall displaced by `shift`; nothing beyond them.
+  [[nodiscard]] std::optional<std::size_t> cell_at(const Vector3& position, const Vector3& shift) const;
+  /// Returns the area (m^2, of the full problem) of such a cell.
+  [[nodiscard]] double cell_area(std::size_t cell) const;
+  /// Returns the distance (m) within which particles of the body touch; edge of these cells.
+  [[nodiscard]] double reach() const { return reach_; }
+  /// Returns whether a particle began on the rim.
+  [[nodiscard]] bool began_on_rim(std::uint64_t id) const;
+  /// Returns where a particle began, nullptr if it did not exist.
+  [[nodiscard]] const Vector3* place_of(std::uint64_t id) const;
+  [[nodiscard]] std::size_t body() const { return body_; }
+
+ private:
   using Piece = std::vector<std::uint32_t>;
 
   [[nodiscard]] std::vector<Piece> pieces(const Snapshot& snapshot) const;
-  /// Returns the initial position of a particle, nullptr if it did not exist.
-  [[nodiscard]] const Vector3* place_of(std::uint64_t id) const;
   /// Returns the mean displacement of a piece across the axis, m.
   [[nodiscard]] Vector3 shift_of(const Snapshot& snapshot, const Piece& piece) const;
   [[nodiscard]] bool closes(const Snapshot& snapshot, const Piece& piece, const Vector3& shift) const;

@@ -23,6 +23,7 @@
 #include "src/material/material_schema.hpp"
 #include "src/material/reaction/catalogue.hpp"
 #include "src/material/strength/catalogue.hpp"
+#include "src/shields/shield.hpp"
 #include "src/sweep/study.hpp"
 
 namespace whipple::app {
@@ -76,6 +77,9 @@ const std::vector<Topic>& topics() {
       {"study", "Studies (`whipple sweep STUDY.toml`)",
        [](const std::string& name) { return single("study", name, sweep::describe_study()); },
        [] { return std::vector<std::string>(); }, &sweep::study_schema},
+      {"shield", "Shields (`whipple shield SHIELD.toml`)",
+       [](const std::string& name) { return single("shield", name, shields::describe_impact()); },
+       [] { return std::vector<std::string>(); }, &shields::impact_schema},
       {"element", "Constants of elements (`whipple fit --defaults FILE.toml`)",
        [](const std::string& name) { return single("element", name, elements::describe_elements()); },
        [] { return std::vector<std::string>(); }, nullptr},

@@ -28,9 +28,11 @@
 #include "src/app/import_command.hpp"
 #include "src/app/materials_command.hpp"
 #include "src/app/md_command.hpp"
+#include "src/app/measure_command.hpp"
 #include "src/app/monitor_command.hpp"
 #include "src/app/report_command.hpp"
 #include "src/app/run_command.hpp"
+#include "src/app/shield_command.hpp"
 #include "src/app/steer_command.hpp"
 #include "src/app/sweep_command.hpp"
 #include "src/app/units_command.hpp"
@@ -53,7 +55,8 @@ void wait_passively(char** arguments) {
 
 /// Returns whether a subcommand uses threads.
 bool has_threads(std::string_view command) {
-  constexpr std::array<std::string_view, 6> commands = {"run", "check", "analyse", "report", "view", "bench"};
+  constexpr std::array<std::string_view, 7> commands = {"run",  "check", "analyse", "report",
+                                                        "view", "bench", "shield"};
   return std::ranges::find(commands, command) != commands.end();
 }
 
@@ -71,6 +74,7 @@ int whipple_main(int argc, char** argv) {
   add_run_command(app);
   add_check_command(app);
   add_sweep_command(app);
+  add_shield_command(app);
   add_edit_command(app);
   add_status_command(app);
   add_steer_command(app);
@@ -80,6 +84,7 @@ int whipple_main(int argc, char** argv) {
   add_fit_command(app);
   add_compare_command(app);
   add_analyse_command(app);
+  add_measure_command(app);
   add_report_command(app);
   add_view_command(app);
   add_monitor_command(app);

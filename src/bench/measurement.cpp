@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <deque>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -54,7 +55,7 @@ struct Part {
   double particle_steps = 0.0;
   double at_rest = 0.0;                                          // inactive particle steps
   double nanoseconds = std::numeric_limits<double>::infinity();  // per particle and step
-  std::vector<solver::Profile::Stage> stages;
+  std::deque<solver::Profile::Stage> stages;
 };
 
 /// Advances `steps` steps (or to the end of the case) and times them.

@@ -14,10 +14,11 @@ namespace whipple::cases {
 ParameterTable<Stop> Stop::parameters() {
   return {
       choice("when", &Stop::when,
-             "a body is open along the flight, in a snapshot | the centre of mass of a body becomes slower "
+             "a body is open along the flight, in a snapshot | the outcome of a struck wall is decided, in a "
+             "snapshot (`defeated` of whipple analyse) | the centre of mass of a body becomes slower "
              "than `speed` | the kinetic energy of a body falls below `energy` | a column of history.csv "
              "changes less than `change` in the time `over` | the run has taken `wall_time`"),
-      text("body", &Stop::body, "body that is perforated, slow or without energy").optional(),
+      text("body", &Stop::body, "body that is perforated, decided, slow or without energy").optional(),
       real("speed", &Stop::speed, "m/s", range::positive(), "with speed_below; it was above before")
           .optional("none"),
       real("energy", &Stop::energy, "J", range::positive(),
@@ -43,8 +44,8 @@ void Stop::check(const Case& setup, const Faults& faults) const {
     faults.add(key, given ? fmt::format("'{}' does not belong to when = \"{}\"", key, word)
                           : fmt::format("when = \"{}\" needs '{}'", word, key));
   };
-  const bool of_body =
-      when == StopWhen::perforated || when == StopWhen::speed_below || when == StopWhen::energy_below;
+  const bool in_snapshots = when == StopWhen::perforated || when == StopWhen::decided;
+  const bool of_body = in_snapshots || when == StopWhen::speed_below || when == StopWhen::energy_below;
   expect("body", !body.empty(), of_body);
   expect("speed", speed != not_given, when == StopWhen::speed_below);
   expect("energy", energy != not_given, when == StopWhen::energy_below);
@@ -57,14 +58,16 @@ void Stop::check(const Case& setup, const Faults& faults) const {
     for (const Body& known : setup.bodies) names += (names.empty() ? "" : ", ") + known.name;
     faults.add("body", fmt::format("there is no body \"{}\" (accepted: {})", body, names));
   }
-  if (when == StopWhen::perforated && setup.output.snapshot_every == 0.0)
-    faults.add("when", "when = \"perforated\" is decided in snapshots: set output.snapshot_every");
+  if (in_snapshots && setup.output.snapshot_every == 0.0)
+    faults.add("when", fmt::format("when = \"{}\" is decided in snapshots: set output.snapshot_every", word));
 }
 
 std::string Stop::in_words() const {
   switch (when) {
     case StopWhen::perforated:
       return fmt::format("body \"{}\" is perforated", body);
+    case StopWhen::decided:
+      return fmt::format("the outcome of body \"{}\" is decided", body);
     case StopWhen::speed_below:
       return fmt::format("body \"{}\" is slower than {}", body, units::format_quantity(speed, "m/s"));
     case StopWhen::energy_below:

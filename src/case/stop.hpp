@@ -12,9 +12,10 @@
 namespace whipple::cases {
 
 /// Selects what ends a run before `time.end`.
-enum class StopWhen : std::uint8_t { perforated, speed_below, energy_below, settled, wall_time };
-constexpr std::array<Word<StopWhen>, 5> words(StopWhen) {
+enum class StopWhen : std::uint8_t { perforated, decided, speed_below, energy_below, settled, wall_time };
+constexpr std::array<Word<StopWhen>, 6> words(StopWhen) {
   return {{{StopWhen::perforated, "perforated"},
+           {StopWhen::decided, "decided"},
            {StopWhen::speed_below, "speed_below"},
            {StopWhen::energy_below, "energy_below"},
            {StopWhen::settled, "settled"},

@@ -41,17 +41,14 @@ void GridUpdate::complete_sums(BlockGrid& grid, BlockGrid::Part part) {
   grid.finish_sum_to_owners(part);
 }
 
-transfer::NodeEnergies GridUpdate::solve_momentum(BlockGrid& grid, double dt,
-                                                  const transfer::Relaxation& relaxation) {
+void GridUpdate::solve_momentum(BlockGrid& grid, double dt, const transfer::Relaxation& relaxation) {
   dt_ = dt;
   complete_sums(grid, BlockGrid::Part::both);
   mirror_contact_.lay_out(grid);
-  const transfer::NodeEnergies energies =
-      transfer::solve_momentum(grid, dt, relaxation, [&](std::size_t block) {
-        return grid.is_contact_block(block) || mirror_contact_.concerns_block(block);
-      });
+  transfer::solve_momentum(grid, dt, relaxation, [&](std::size_t block) {
+    return grid.is_contact_block(block) || mirror_contact_.concerns_block(block);
+  });
   mirror_contact_.remember(grid);
-  return energies;
 }
 
 Vector3 GridUpdate::share_step(BlockGrid& grid) {

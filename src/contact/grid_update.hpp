@@ -24,8 +24,7 @@ class GridUpdate {
   /// the contributions of all ranks, and solves m dv/dt = f (equation 3.4) at the nodes of this rank. Replaces NodeSums
   /// by NodeMotion. Contact between bodies may then change the increments of contact slots (grid::BlockGrid); there it
   /// must replace NodeMotion::mass_for_contact by the heat of the nodes. Collective.
-  transfer::NodeEnergies solve_momentum(grid::BlockGrid& grid, double dt,
-                                        const transfer::Relaxation& relaxation);
+  void solve_momentum(grid::BlockGrid& grid, double dt, const transfer::Relaxation& relaxation);
   /// Sends velocities and increments of the nodes to the ranks that use them, copies them to the nodes beyond the
   /// planes and applies contact with the images at the other planes. Ghost nodes (grid::BlockGrid::is_awaited) are
   /// completed by `receive`. Collective.

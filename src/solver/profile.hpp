@@ -2,9 +2,9 @@
 #pragma once
 
 #include <chrono>
+#include <deque>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace whipple::solver {
 
@@ -31,7 +31,7 @@ class Profile {
     ++stage(to).calls;
   }
 
-  [[nodiscard]] const std::vector<Stage>& stages() const { return stages_; }
+  [[nodiscard]] const std::deque<Stage>& stages() const { return stages_; }
   void clear() { stages_.clear(); }
 
  private:
@@ -55,11 +55,11 @@ class Profile {
     for (Stage& known : stages_) {
       if (known.name == name) return known;
     }
-    stages_.reserve(32);  // for all stages, so that references remain valid
     return stages_.emplace_back(Stage{std::string(name)});
   }
 
-  std::vector<Stage> stages_;
+  std::deque<Stage>
+      stages_;  // references to its elements stay valid while stages within one another are added
 };
 
 }  // namespace whipple::solver

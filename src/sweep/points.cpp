@@ -190,23 +190,26 @@ std::vector<std::string> keys_of(const Study& study, const std::string& variable
   return study.find && study.find->key == variable ? study.find->keys() : std::vector{variable};
 }
 
-/// Returns the keys that move the grid by a part of a cell.
+/// Returns the keys that move the grid by a part of a cell. Corners are given whole: those of a section have two
+/// components then, along its own directions, however many the case has.
 Changes moved_grid(const cases::Case& base, double cells, double cell_size) {
-  Changes changes;
   const std::array<grid::Boundary, 6> faces = base.domain.boundary.in_order();
   const std::size_t dimensions = base.domain.is_planar() ? 2 : 3;
+  std::vector<std::string> lower, upper;
+  bool moves = false;
   for (std::size_t a = 0; a < dimensions; ++a) {
     const bool is_radius = base.domain.dimension == grid::Dimension::axisymmetric && a == 1;
-    if (is_radius || faces[2 * a] != grid::Boundary::outflow || faces[2 * a + 1] != grid::Boundary::outflow)
-      continue;
+    const bool is_free =
+        !is_radius && faces[2 * a] == grid::Boundary::outflow && faces[2 * a + 1] == grid::Boundary::outflow;
+    const double by = is_free ? cells * cell_size : 0.0;
     const auto axis = static_cast<Eigen::Index>(a);
-    const double by = cells * cell_size;
-    changes.emplace_back(fmt::format("domain.lower.{}", a),
-                         fmt::format("{} m", base.domain.lower[axis] + by));
-    changes.emplace_back(fmt::format("domain.upper.{}", a),
-                         fmt::format("{} m", base.domain.upper[axis] + by));
+    lower.push_back(fmt::format("\"{} m\"", base.domain.lower[axis] + by));
+    upper.push_back(fmt::format("\"{} m\"", base.domain.upper[axis] + by));
+    moves = moves || is_free;
   }
-  return changes;
+  if (!moves) return {};
+  return {{"domain.lower", fmt::format("[{}]", fmt::join(lower, ", "))},
+          {"domain.upper", fmt::format("[{}]", fmt::join(upper, ", "))}};
 }
 
 /// Fills in changes and materials from the values of a point and its variant.

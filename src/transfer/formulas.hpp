@@ -9,12 +9,12 @@
 #include "src/core/base/vectors.hpp"
 
 /// Formulas of the symplectic scheme at one point and one of its nodes (docs/theory/mpm.md, 4). The kernels for registers
-/// and the plain loops sum over nodes in their own ways and take these formulas.
+/// and the plain loops sum over nodes in their own ways and use these formulas.
 /// @tparam Number  of one component: a number, or a register of numbers
 /// @tparam Vector  Triple<double>, or a register whose lanes 0 to 2 are a vector
 namespace whipple::transfer::formulas {
 
-/// One component of what a node changes at a point.
+/// One component of the change that a node makes at a point.
 template <class Number>
 struct NodeChange {
   Number velocity;  ///< d - beta D, m/s
@@ -44,7 +44,7 @@ template <class Number>
 template <class Number>
 struct FieldChange {
   Number field;   ///< 1/s
-  Number energy;  ///< J/kg, which it takes of the heat (4.5)
+  Number energy;  ///< J/kg, subtracted from the heat (4.5)
 };
 /// Returns the change of a component of the affine field (4.1, 4.3).
 /// @param moment       sum of N (d - beta D) r, m^2/s

@@ -105,21 +105,21 @@ template <bool affine, bool planar>
   const double viscous_work =
       -particles.artificial_viscosity[p] * (mean[0][0] + mean[1][1] + mean[2][2]) * volume_and_time;
   const double heat_of_contact = advance.increment.value[3];  // docs/theory/contact.md, 4.6
-  Booking booking{.heat = loss, .of_contact = heat_of_contact};
+  DividedLosses divided{.heat = loss, .of_contact = heat_of_contact};
   if (losses.become == LossesBecome::unresolved_energy) {
     const double divergence = l[0][0] + l[1][1] + l[2][2];
-    booking = book_losses(losses, particles, p, loss, heat_of_contact, viscous_work / mass, divergence, dt);
-    particles.unresolved_energy[p] += booking.kept - booking.returned;
-    particles.heat_allowance[p] = booking.allowance;
+    divided = divide_losses(losses, particles, p, loss, heat_of_contact, viscous_work / mass, divergence, dt);
+    particles.unresolved_energy[p] += divided.kept - divided.returned;
+    particles.heat_allowance[p] = divided.allowance;
     particles.closing_rate[p] = std::fmax(-divergence, 0.0);
   }
   particles.specific_internal_energy[p] +=
-      work / mass + booking.heat - booking.cooling + booking.returned + booking.of_contact;
+      work / mass + divided.heat - divided.cooling + divided.returned + divided.of_contact;
   TransferBalance balance{.work = work,
-                          .viscous_work = viscous_work - mass * booking.cooling,
-                          .heat = mass * booking.heat,
-                          .kept = mass * booking.kept,
-                          .returned = mass * booking.returned,
+                          .viscous_work = viscous_work - mass * divided.cooling,
+                          .heat = mass * divided.heat,
+                          .kept = mass * divided.kept,
+                          .returned = mass * divided.returned,
                           .squared_change = change};
   if (!acceleration.empty()) {
     balance.external_work =

@@ -23,13 +23,13 @@ struct ExactUpdate {
 };
 
 /// Updates the particles of a stretch by the advanced grid (docs/theory/mpm.md, section 4): velocity and affine field by
-/// the relaxed affine transfer, internal and unresolved energy by the exact work identity and what the transfer loses,
+/// the relaxed affine transfer, internal and unresolved energy by the exact work identity and the transfer dissipation,
 /// position with the grid's velocity. Leaves the velocity gradients of the advanced grid, which strain the material, and
 /// the sums of the slots in the stretch.
 void grid_to_particles(const ExactUpdate& update, Particles& particles, grid::BlockGrid& grid,
                        const Stretch& stretch);
 
-/// What a gather leaves in `Stretch::gradients`.
+/// Contents of `Stretch::gradients` after a gather.
 enum class Gradients : std::uint8_t {
   none,              ///< nothing
   of_grid_velocity,  ///< velocity gradients of the advanced grid

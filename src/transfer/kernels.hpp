@@ -7,11 +7,11 @@
 
 namespace whipple::transfer {
 
-/// The widest registers that a kernel is compiled for.
+/// Widest registers for which a kernel is compiled.
 enum class Widest { narrow, wide };
 
 /// Calls f(Kernels{}) with the set in use. Rows of nodes in a plane are too short for wide registers.
-/// @tparam widest  what the kernel gains by (docs/decisions/0022_the_step_as_a_sweep.md)
+/// @tparam widest  registers that make the kernel faster (docs/decisions/0022_the_step_as_a_sweep.md)
 template <class Shape, Widest widest = Widest::wide, class Function>
 void with_kernels(Function&& f) {
   if (kernel_set() == KernelSet::plain) return f(plain::Kernels{});

@@ -21,21 +21,22 @@ struct Losses {
   LossesBecome become = LossesBecome::heat;
   double heat_share = 0.0;  ///< f: of the work of the artificial viscosity that heats
   double allowance_length =
-      0.0;  ///< m, tau dx: the way of sound in which an allowance is forgotten; 0: at once
+      0.0;  ///< m, tau dx: distance that sound travels until an allowance has decayed; 0: at once
   double collision_rate =
       0.0;  ///< r: fraction of the unresolved energy per fraction of the volume that closes
   std::span<const double> initial_density;  ///< kg/m^3, of each body
 };
 
-using formulas::Booking;
+using formulas::DividedLosses;
 
-/// Divides the losses of a particle (formulas::book_losses).
-/// @param contact       J/kg, what contact of bodies and walls took
+/// Divides the losses of a particle (formulas::divide_losses).
+/// @param contact       J/kg, contact dissipation of bodies and walls
 /// @param viscous_work  J/kg, of the artificial viscosity in the step
 /// @param divergence    1/s, tr L of the step
-inline Booking book_losses(const Losses& losses, const Particles& particles, std::size_t p, double loss,
-                           double contact, double viscous_work, double divergence, double dt) {
-  return formulas::book_losses(
+inline DividedLosses divide_losses(const Losses& losses, const Particles& particles, std::size_t p,
+                                   double loss, double contact, double viscous_work, double divergence,
+                                   double dt) {
+  return formulas::divide_losses(
       {.heat_share = losses.heat_share,
        .allowance_length = losses.allowance_length,
        .collision_rate = losses.collision_rate,

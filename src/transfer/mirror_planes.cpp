@@ -23,8 +23,8 @@ Lanes reflection(const grid::MirrorPlane& plane, int first_lane) {
   return sign;
 }
 
-/// The image of a particle brings to node j what the particle brings to the mirror node of j, with the
-/// reflected vector. Real particles only were transferred, so what they brought beyond the plane is folded to
+/// Folds node j: the image of a particle contributes to j as the particle does to the mirror node of j, with the
+/// reflected vector. Only real particles were transferred, so their contributions beyond the plane are folded to
 /// the inside.
 void fold_node(Node& image, const Node& outside, Lanes sign, BlockGrid::Part part) {
   image.registers.first += sign * outside.registers.first;
@@ -61,7 +61,7 @@ void MirrorPlanes::find_nodes(const BlockGrid& grid) {
     nodes.push_back(2 * static_cast<std::uint64_t>(node) + only_image);
   };
   for (const grid::MirrorPlane& plane : grid.mirror_planes()) {
-    // Where material meets its image as another body it may not do so yet.
+    // Material in contact with its image as with another body may not touch it yet.
     for (const grid::MirrorPair& pair : plane.pairs_apart) add(pair.outside, 1);
     for (const std::uint32_t on_plane : plane.on_plane_apart) add(on_plane, 1);
     for (const grid::MirrorPair& pair : plane.pairs) add(pair.outside, 0);
@@ -69,7 +69,7 @@ void MirrorPlanes::find_nodes(const BlockGrid& grid) {
     for (const std::uint32_t near : plane.near) add(near, 1);
     for (const std::uint32_t on_plane : plane.on_plane) add(on_plane, 0);
   }
-  std::ranges::sort(nodes);  // what is more than an image comes first
+  std::ranges::sort(nodes);  // nodes that are more than an image come first
   nodes_.clear();
   may_be_unchanged_.clear();
   for (const std::uint64_t entry : nodes) {
@@ -88,7 +88,7 @@ void MirrorPlanes::remember(const BlockGrid& grid, Nodes which) {
   });
 }
 
-/// Folds every plane and restricts the nodes on it, where material is one with its image.
+/// Folds every plane and restricts the nodes on it, where material is continuous with its image.
 void MirrorPlanes::fold(BlockGrid& grid, Nodes which, BlockGrid::Part part) {
   const std::span<Node> nodes = grid.all_nodes();
   for (const grid::MirrorPlane& plane : grid.mirror_planes()) {

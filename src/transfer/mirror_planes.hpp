@@ -10,20 +10,20 @@
 namespace whipple::transfer {
 
 /// Nodes that an exchange between ranks divides: those that await results of other ranks
-/// (grid::BlockGrid::is_awaited), the others, or all.
-enum class Nodes : std::uint8_t { awaited, others, all };
+/// (grid::BlockGrid::is_awaited), and the others.
+enum class Nodes : std::uint8_t { awaited, others };
 
 /// Returns whether a node is among them; the same for a node and its mirror node.
 inline bool is_among(const grid::BlockGrid& grid, std::uint32_t node, Nodes nodes) {
-  return nodes == Nodes::all || grid.is_awaited(node) == (nodes == Nodes::awaited);
+  return grid.is_awaited(node) == (nodes == Nodes::awaited);
 }
 
-/// Mirror planes and walls where material is one with its image (docs/theory/mpm.md, 3): what particles brought beyond a
-/// plane is folded to the inside, and velocities are copied back. Elsewhere material meets its image in contact
-/// (contact::MirrorContact).
+/// Mirror planes and walls at which material is continuous with its image (docs/theory/mpm.md, 3): contributions of particles
+/// beyond a plane are folded to the inside, and velocities are copied back. Elsewhere material is in contact with its
+/// image (contact::MirrorContact).
 class MirrorPlanes {
  public:
-  /// Keeps what the particles of this rank brought to the nodes near the planes, before it is folded.
+  /// Stores the contributions of the particles of this rank to the nodes near the planes before they are folded.
   void remember(const grid::BlockGrid& grid, Nodes which);
   /// Folds every plane and restricts the nodes on it.
   static void fold(grid::BlockGrid& grid, Nodes which, grid::BlockGrid::Part part);
@@ -31,7 +31,7 @@ class MirrorPlanes {
   static void copy_back(grid::BlockGrid& grid, Nodes which);
   /// Returns the impulse (N s) that the planes gave to the particles of this rank in a step (3.6), after it.
   [[nodiscard]] Vector3 impulse(const grid::BlockGrid& grid, Nodes which, double dt) const;
-  /// Adds to a sum, node by node, the mass that particles brought times value(node).
+  /// Adds to a sum, node by node, the mass contributed by particles times value(node).
   template <class Value>
   void add_by_mass(const grid::BlockGrid& grid, Nodes which, const Value& value, double& sum) const {
     for (std::size_t i = 0; i < nodes_.size(); ++i) {

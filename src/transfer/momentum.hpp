@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <span>
-#include <vector>
 
 #include "src/core/base/vector_math.hpp"
 #include "src/core/parallel/threads.hpp"
@@ -18,21 +17,10 @@ constexpr double no_mass = 1e-300;  ///< kg; below it momentum / mass may overfl
 /// Rate at which a step relaxes the affine fields of the particles towards the grid velocity
 /// (docs/theory/mpm.md, 4).
 struct Relaxation {
-  /// beta = 1 - exp(-kappa c dt / dx) with the node's sound speed c; the same answer for every time step.
+  /// beta = 1 - exp(-kappa c dt / dx) with the node's sound speed c; the result is the same for every time step.
   double kappa = 0.2;
   /// beta itself, per step, instead: 0 is FLIP, 1 is APIC. Negative: use kappa.
   double fixed = -1.0;
-};
-
-/// Kinetic energy of the nodes of this rank, J.
-struct NodeEnergies {
-  double before = 0.0;  ///< of the momentum equation
-  double after = 0.0;   ///< of it, before contact
-  NodeEnergies& operator+=(const NodeEnergies& other) {
-    before += other.before;
-    after += other.after;
-    return *this;
-  }
 };
 
 /// Returns beta of the nodes of a block; 0 where there is no mass, and where nodes of elements made the sum of the sound
@@ -45,11 +33,10 @@ std::array<double, grid::nodes_per_block> relaxation_of(const grid::Node* nodes,
 /// after.
 /// @param keeps_mass  keeps_mass(block of nodes): contact follows, for which NodeMotion holds the mass in place of heat
 template <class KeepsMass>
-NodeEnergies solve_momentum(grid::BlockGrid& grid, double dt, const Relaxation& relaxation,
-                            const KeepsMass& keeps_mass) {
+void solve_momentum(grid::BlockGrid& grid, double dt, const Relaxation& relaxation,
+                    const KeepsMass& keeps_mass) {
   const std::span<grid::Node> nodes = grid.all_nodes();
   const double rate = relaxation.kappa * dt / grid.geometry().cell_size;
-  std::vector<NodeEnergies> of_block(grid.owned_blocks());
   parallel::for_each(grid.owned_blocks(), [&](std::size_t b) {
     const std::size_t block = grid.owned_block(b);
     const std::size_t first = block * grid::nodes_per_block;
@@ -68,15 +55,8 @@ NodeEnergies solve_momentum(grid::BlockGrid& grid, double dt, const Relaxation& 
       const Lanes v = {velocity[1], velocity[2], velocity[3], beta},
                   d = {increment[1], increment[2], increment[3], mass_kept * mass};
       node.motion = {v, d};
-      const Lanes advanced = v + d;
-      of_block[b] += NodeEnergies{0.5 * mass * sum3(v * v), 0.5 * mass * sum3(advanced * advanced)};
     }
   });
-  // Sums run in the order of the blocks, where empty blocks add zero: the same bits whatever blocks happen to
-  // be active.
-  NodeEnergies energy;
-  for (const NodeEnergies& part : of_block) energy += part;
-  return energy;
 }
 
 /// Divides momentum by mass in the first register of the nodes of this rank, whose sums are complete.

@@ -104,7 +104,7 @@ struct Momentum : OfParticles {
   }
 };
 
-/// Adds what the points of a region bring to the nodes.
+/// Adds the contributions of the points of a region to the nodes.
 template <class Shape, class What>
 void scatter_region(const What& what, grid::BlockGrid& grid, Region region, double slope_smoothing) {
   grid.for_each_apart(region, [&](std::size_t slot) {

@@ -38,7 +38,7 @@ inline double convect(Matrix3& c, const Matrix3& gradient, double dt) {
   return loss;
 }
 
-/// What a point takes of the advanced nodes in the symplectic scheme (4.1
+/// Gathers for a point from the advanced nodes in the symplectic scheme (4.1
 /// to 4.5, 4.8).
 template <bool affine>
 struct Transfer {
@@ -135,7 +135,7 @@ struct First {
 };
 
 /// The entries, as those of the kernels for registers
-/// (src/transfer/kernels/entries.inl).
+/// (src/transfer/register_kernels.hpp).
 struct Kernels {
   template <bool affine>
   using Transfer = plain::Transfer<affine>;
@@ -157,7 +157,7 @@ struct Kernels {
   }
 
  private:
-  /// Returns what each point of a slot takes from its nodes.
+  /// Returns the results of the points of a slot.
   template <class Sums, class Points>
   static std::vector<typename Sums::Result> sums_of_slot(const Functions& functions, const Points& points,
                                                          grid::BlockGrid& grid, grid::BlockGrid::Points kind,
@@ -178,7 +178,7 @@ struct Kernels {
     return results;
   }
 
-  /// Adds what the points of a slot bring to their nodes.
+  /// Adds the contributions of the points of a slot to their nodes.
   template <bool affine, class What>
   static void add_slot(const Functions& functions, const What& what, grid::BlockGrid& grid, std::size_t slot,
                        double slope_smoothing) {

@@ -14,7 +14,7 @@
 #include "src/transfer/kernels/scatter.hpp"
 
 /// The loops over points and their nodes for registers. A register of AVX2 (Narrow) holds half a node; one of AVX-512
-/// (Wide) holds a node when points bring something to it, and halves of two nodes when two points take something at a
+/// (Wide) holds a node in a scatter, and halves of two nodes in a gather, which handles two points at a
 /// time. Lane by lane both compute the same in the same order, so their results are the same bits.
 namespace whipple::transfer {
 
@@ -28,7 +28,7 @@ struct RegisterKernels {
   using Update = UpdateSums<Vector>;
   using First = FirstSums<Vector>;
 
-  /// Calls take(place, point, what it gets) for the points of a slot; `place` counts along its list.
+  /// Calls take(place, point, its result) for the points of a slot; `place` counts along its list.
   /// @param slope_smoothing  as of ShapeFunctions
   /// @param sums             Transfer, Update or First
   template <class Shape, class Sums, class Points, class Take>
@@ -74,7 +74,7 @@ struct RegisterKernels {
                 }
               };
               if constexpr (requires { typename Sums::Sum; }) {
-                // Stage by stage: what becomes of the sums is another long chain.
+                // Stage by stage: the formulas that follow the sums are another long chain.
                 std::array<PointsOfGroup<Vector>, ahead / at_a_time> point;
                 std::array<typename Sums::Sum, ahead / at_a_time> sum;
                 std::array<typename Sums::Result, ahead / at_a_time> result;
@@ -96,7 +96,7 @@ struct RegisterKernels {
     });
   }
 
-  /// Adds what the points of a slot bring to the nodes.
+  /// Adds the contributions of the points of a slot to the nodes.
   template <class Shape, class What>
   static void scatter(const What& what, grid::BlockGrid& grid, std::size_t slot, double slope_smoothing) {
     Registers::run([&]() WHIPPLE_INLINE {

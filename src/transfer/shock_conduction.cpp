@@ -35,7 +35,7 @@ class Exchange {
 
   [[nodiscard]] double heat_capacity(std::size_t p) const { return of_body(p).heat_capacity; }
 
-  /// Share chi of its difference to the nodes that a particle gives in the step (eq. 8).
+  /// Fraction chi of its difference to the nodes that a particle loses in the step (eq. 8).
   [[nodiscard]] double share(std::size_t p) const {
     const double closing = particles_.closing_rate[p] * cell_size_, sound_speed = particles_.sound_speed[p];
     const double above = closing - conduction_.onset * sound_speed;
@@ -142,7 +142,7 @@ double conduct_in_shocks(ShapeFunction shape, Particles& particles, BlockGrid& g
     if (!found) return 0.0;
     const std::vector<std::uint64_t>& taking_part = *found;
     std::vector<std::uint64_t> reached = around(grid, taking_part);
-    if (grid.is_shared()) std::ranges::fill(reached, 1U);  // whatever other ranks bring adds to zero
+    if (grid.is_shared()) std::ranges::fill(reached, 1U);  // contributions of other ranks are added to zero
     for_each_node(grid, reached, grid.slots(), [](Node& node) { node.scalars.sums = broadcast(0.0); });
     clear_beyond_planes(grid);
 

@@ -25,7 +25,7 @@ sys.path[0] = str(ROOT)
 from report.measured import Measures  # noqa: E402
 from report.pieces import masses_of_run  # noqa: E402
 from studies.fragment_statistics import weibull_exponent  # noqa: E402
-from report.detonation import particles_of  # noqa: E402
+from report.particles import particles_of  # noqa: E402
 from studies.commands import cell_size, compute  # noqa: E402
 from studies.crack_fragments import mott  # noqa: E402
 

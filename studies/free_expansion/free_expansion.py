@@ -19,7 +19,7 @@ import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[0] = str(ROOT)
-from report.detonation import particles_of  # noqa: E402
+from report.particles import particles_of  # noqa: E402
 from studies.commands import compute  # noqa: E402
 
 RADIUS, DENSITY, PRESSURE, RATIO = 5e-3, 1.0, 1e6, 1.4

@@ -32,7 +32,7 @@ import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[0] = str(ROOT)
-from report.detonation import particles_of  # noqa: E402
+from report.particles import particles_of  # noqa: E402
 from studies.commands import compute  # noqa: E402
 from studies.debris_grains import debris_grains  # noqa: E402
 from studies.spalled_layer import spalled_layer  # noqa: E402

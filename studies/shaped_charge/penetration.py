@@ -26,7 +26,8 @@ import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[0] = str(ROOT)
-from report.detonation import jet_speed, snapshot_at, particles_of  # noqa: E402
+from report import program  # noqa: E402
+from report.particles import snapshot_at, particles_of  # noqa: E402
 
 JET_DENSITY = 8930.0  # kg/m^3
 TIP = 0.005  # of the liner's mass is faster than what counts as the tip
@@ -65,7 +66,7 @@ def jet_of(run, slowest, steps=60):
     """Velocities (m/s), falling, and mean places (m) of the elements of a liner's jet at the last snapshot."""
     found = particles_of(run, "liner")
     speed = found["velocity"][:, 0]
-    edges = np.linspace(jet_speed(run, "liner", TIP), slowest, steps + 1)
+    edges = np.linspace(program.measure(run, f"jet_speed.liner fraction={TIP}"), slowest, steps + 1)
     v, x = [], []
     for upper, lower in zip(edges, edges[1:]):
         own = (speed <= upper) & (speed > lower)

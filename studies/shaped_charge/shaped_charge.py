@@ -25,7 +25,7 @@ import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[0] = str(ROOT)
-from report.detonation import particles_of  # noqa: E402
+from report.particles import particles_of  # noqa: E402
 
 CHARGE_RADIUS, BASE_RADIUS, WALL, LINER_DENSITY = 41.5e-3, 40.65e-3, 1.905e-3, 8930.0  # m, kg/m^3
 # Density, kg/m^3, D and sqrt(2E), m/s, p_CJ, Pa.

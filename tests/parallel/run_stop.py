@@ -103,6 +103,42 @@ def perforation():
     require(json.loads(done.stdout)["perforated.plate"]["value"] == 1.0, done)
 
 
+def outcome_of(folder):
+    done = subprocess.run([WHIPPLE, "shield", folder, "--outcome", "--body", "plate", "--json", "--quiet"], capture_output=True, text=True)
+    require(done.returncode == 0, done.stderr)
+    return json.loads(done.stdout)
+
+
+def outcome():
+    stop = '[[stop]]\nwhen = "decided"\nbody = "plate"\n'
+    faster = [('upper = ["4 mm", "4 mm", "4 mm"]', 'upper = ["4 mm", "4 mm", "8 mm"]'), ('end = "0.5 us"', 'end = "5 us"'),
+              ('snapshot_every = "0.02 us"', 'snapshot_every = "0.5 us"\nfields = ["density", "failed", "plastic_strain"]'),
+              ('checkpoint_every = "1 ms"', "")]
+    file = case("struck", "small_impact.toml", stop, faster)
+    for ranks in (1, 2):
+        folder, _ = run(file, f"struck{ranks}", "--ranks", str(ranks))
+        status, times = ending(folder)
+        require(status["ended_by"] == 'the outcome of body "plate" is decided' and times[-2] == 1e-6, (status, times[-2:]))
+        found = outcome_of(folder)
+        require(found["outcome"] == "perforated" and found["defeated"] and found["time"] == 1e-6, found)
+    # Slower the plate holds. That is known only after the past that a restart must not forget.
+    slower = [*faster, ("2 km/s", "0.2 km/s"), ('"8 mm"]', '"16 mm"]'), ('end = "5 us"', 'end = "200 us"'), ('"0.5 us"\nfields', '"5 us"\nfields')]
+    file = case("held", "small_impact.toml", stop, slower)
+    whole, _ = run(file, "held")
+    found = outcome_of(whole)
+    require(found["outcome"] in ("bulge", "whole") and not found["defeated"] and ending(whole)[0]["time"] < 200e-6, found)
+    part = FOLDER / "held_part"
+    command = [WHIPPLE, "run", file, "-o", part]
+    for stops in range(5):
+        limit = ["--wall-time", "0.3 s"] if stops < 3 else []
+        done = subprocess.run([*command, "--threads", "1", "--quiet", *limit], capture_output=True, text=True)
+        if done.returncode != 124:
+            break
+        command = [WHIPPLE, "run", "--restart", part]
+    require(done.returncode == 0 and stops > 0, f"{done.returncode} after {stops} stops: {done.stderr}")
+    require(ending(part)[0]["step"] == ending(whole)[0]["step"] and outcome_of(part) == found, "another end after restarts")
+
+
 def interrupted():
     text = """
 [[stop]]
@@ -163,6 +199,7 @@ def faults():
     for text, expected in (('when = "perforated"', "needs 'body'"), ('when = "speed_below"\nbody = "block"', "needs 'speed'"),
                            ('when = "wall_time"\nwall_time = "1 s"\nspeed = "1 m/s"', "does not belong"),
                            ('when = "perforated"\nbody = "block"', "output.snapshot_every"),
+                           ('when = "decided"\nbody = "block"', "output.snapshot_every"),
                            ('when = "perforated"\nbody = "blocks"', 'no body "blocks"'),
                            ('when = "settled"\ncolumn = "mas"\nchange = 0.1\nover = "1 us"', 'did you mean "mass"')):
         message = run(case("wrong", "thrown_block.toml", "[[stop]]\n" + text), "wrong", code=2)[1]
@@ -179,7 +216,7 @@ def faults():
 def main():
     shutil.rmtree(FOLDER, ignore_errors=True)
     FOLDER.mkdir(parents=True)
-    for test in (faults, conditions, restarted, perforation, interrupted):
+    for test in (faults, conditions, restarted, perforation, outcome, interrupted):
         test()
 
 

@@ -154,15 +154,15 @@ constexpr Losses losses{.become = LossesBecome::unresolved_energy,
 
 TEST(Losses, InTightMatterHeatAsFarAsTheViscosityThatHeatsDoesWork) {
   const Particles q = one_particle(1100.0, 1e9);
-  const Booking b = book_losses(losses, q, 0, 30.0, 7.0, 80.0, -5.0, 0.01);
+  const DividedLosses b = divide_losses(losses, q, 0, 30.0, 7.0, 80.0, -5.0, 0.01);
   EXPECT_DOUBLE_EQ(b.cooling, 60.0);  // three quarters of the work of the viscosity
   EXPECT_DOUBLE_EQ(b.heat, 2.0);      // a tenth of the quarter that heats
   EXPECT_DOUBLE_EQ(b.kept, 28.0 + 60.0);
   EXPECT_EQ(b.returned, 0.0);
   EXPECT_EQ(b.of_contact, 7.0);
-  const Booking small = book_losses(losses, q, 0, 1.5, 0.0, 80.0, -5.0, 0.01);
+  const DividedLosses small = divide_losses(losses, q, 0, 1.5, 0.0, 80.0, -5.0, 0.01);
   EXPECT_DOUBLE_EQ(small.heat, 1.5);
-  const Booking opening = book_losses(losses, q, 0, 30.0, 7.0, -3.0, 5.0, 0.01);
+  const DividedLosses opening = divide_losses(losses, q, 0, 30.0, 7.0, -3.0, 5.0, 0.01);
   EXPECT_EQ(opening.heat, 0.0);
   EXPECT_EQ(opening.cooling, 0.0);
   EXPECT_EQ(opening.kept, 30.0);
@@ -174,33 +174,33 @@ TEST(Losses, TakeWhatEarlierViscosityAllowedUntilItIsUsedUpOrForgotten) {
   with_memory.allowance_length = 4.0;  // m
   Particles q = one_particle(1100.0, 1e9);
   q.sound_speed[0] = 200.0;
-  const Booking shock = book_losses(with_memory, q, 0, 0.5, 0.0, 80.0, -5.0, 0.01);
+  const DividedLosses shock = divide_losses(with_memory, q, 0, 0.5, 0.0, 80.0, -5.0, 0.01);
   EXPECT_DOUBLE_EQ(shock.heat, 0.5);
   EXPECT_DOUBLE_EQ(shock.allowance, 1.5);
   q.heat_allowance[0] = shock.allowance;
   const double kept = std::exp(-200.0 * 0.01 / 4.0);
-  const Booking rest = book_losses(with_memory, q, 0, 0.5, 0.0, 0.0, -5.0, 0.01);
+  const DividedLosses rest = divide_losses(with_memory, q, 0, 0.5, 0.0, 0.0, -5.0, 0.01);
   EXPECT_DOUBLE_EQ(rest.heat, 0.5);
   EXPECT_DOUBLE_EQ(rest.allowance, 1.5 * kept - 0.5);
   EXPECT_EQ(rest.kept, 0.0);
-  const Booking too_much = book_losses(with_memory, q, 0, 30.0, 0.0, 0.0, -5.0, 0.01);
+  const DividedLosses too_much = divide_losses(with_memory, q, 0, 30.0, 0.0, 0.0, -5.0, 0.01);
   EXPECT_DOUBLE_EQ(too_much.heat, 1.5 * kept);
   EXPECT_EQ(too_much.allowance, 0.0);
-  const Booking without = book_losses(losses, q, 0, 0.5, 0.0, 0.0, -5.0, 0.01);
+  const DividedLosses without = divide_losses(losses, q, 0, 0.5, 0.0, 0.0, -5.0, 0.01);
   EXPECT_EQ(without.heat, 0.0);
   q.pressure[0] = -1e6;  // gaps that close have none
-  EXPECT_EQ(book_losses(with_memory, q, 0, 0.5, 0.0, 80.0, -5.0, 0.01).allowance, 0.0);
+  EXPECT_EQ(divide_losses(with_memory, q, 0, 0.5, 0.0, 80.0, -5.0, 0.01).allowance, 0.0);
 }
 
 TEST(Losses, WhereGapsCloseAllHeatsAndTheStoreReturnsWithTheVolume) {
   for (const bool thin : {true, false}) {
     Particles q = one_particle(thin ? 900.0 : 1100.0, thin ? 1e9 : -1e6);
-    const Booking b = book_losses(losses, q, 0, 30.0, 7.0, 80.0, -5.0, 0.01);
+    const DividedLosses b = divide_losses(losses, q, 0, 30.0, 7.0, 80.0, -5.0, 0.01);
     EXPECT_EQ(b.heat, 30.0);
     EXPECT_EQ(b.kept, 0.0);
     EXPECT_EQ(b.cooling, 0.0);
     EXPECT_DOUBLE_EQ(b.returned, 50.0 * -std::expm1(-0.05));
-    const Booking opens = book_losses(losses, q, 0, 30.0, 7.0, 0.0, 5.0, 0.01);
+    const DividedLosses opens = divide_losses(losses, q, 0, 30.0, 7.0, 0.0, 5.0, 0.01);
     EXPECT_EQ(opens.returned, 0.0);
     EXPECT_EQ(opens.kept, 37.0);
     EXPECT_EQ(opens.of_contact, 0.0);

@@ -60,16 +60,25 @@ inline void momentum_to_grid(ShapeFunction shape, const Particles& q, std::span<
   for (const Region region : scatter_order) momentum_to_grid(shape, q, velocity, grid, region);
 }
 
-/// Impulse and energies of an advance of the nodes.
-struct GridBalance : NodeEnergies {
-  Vector3 wall_impulse;
+/// Impulse of an advance of the nodes of one rank, and kinetic energy of the particles' share of the nodes (J).
+struct GridBalance {
+  Vector3 wall_impulse = Vector3::Zero();
+  double before = 0.0, after = 0.0;
 };
-/// Advances the nodes of all ranks, without contact of bodies.
+/// Advances the nodes of one rank, without contact of bodies. A node beyond a mirror plane moves as the image of its
+/// mirror node, so that the masses before the fold give the energies after it.
 inline GridBalance advance(contact::GridUpdate& update, grid::BlockGrid& grid, double dt,
                            const Relaxation& relaxation) {
-  GridBalance balance{update.solve_momentum(grid, dt, relaxation), Vector3::Zero()};
-  balance.wall_impulse = update.share_step(grid);
+  std::vector<double> mass;
+  for (const grid::Node& node : grid.all_nodes()) mass.push_back(node.sums.mass());
+  update.solve_momentum(grid, dt, relaxation);
+  GridBalance balance{.wall_impulse = update.share_step(grid)};
   balance.wall_impulse += update.receive(grid);
+  for (std::size_t i = 0; i < mass.size(); ++i) {
+    const grid::NodeMotion& motion = grid.all_nodes()[i].motion;
+    balance.before += 0.5 * mass[i] * motion.velocity().squaredNorm();
+    balance.after += 0.5 * mass[i] * (motion.velocity() + motion.increment()).squaredNorm();
+  }
   return balance;
 }
 inline GridBalance advance(grid::BlockGrid& grid, double dt, const Relaxation& relaxation) {

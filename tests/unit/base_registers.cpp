@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "src/core/base/vectors.hpp"
 
@@ -28,6 +29,32 @@ TEST(Registers, DoLaneByLaneWhatNumbersDo) {
   const double unit = 1.0 + 0x1p-30;
   EXPECT_EQ(multiply_add(broadcast(unit), broadcast(unit), broadcast(-1.0))[2], 0x1p-29 + 0x1p-60);
   EXPECT_EQ(multiply_add(unit, unit, -1.0), 0x1p-29 + 0x1p-60);
+}
+
+/// Whatever is not smaller (larger), NaN and the other zero included, gives the second argument.
+TEST(Registers, TreatNaNAndZerosAsNumbersDo) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const Lanes a = {nan, 1.0, 0.0, -0.0}, b = {1.0, nan, -0.0, 0.0};
+  const Lanes less = minimum(a, b), more = maximum(a, b);
+  const auto same = [](double x, double y) {
+    return std::isnan(x) ? std::isnan(y) : x == y && std::signbit(x) == std::signbit(y);
+  };
+  for (std::size_t l = 0; l < 4; ++l) {
+    EXPECT_TRUE(same(minimum(a[l], b[l]), b[l])) << l;
+    EXPECT_TRUE(same(maximum(a[l], b[l]), b[l])) << l;
+    EXPECT_TRUE(same(less[l], b[l])) << l;
+    EXPECT_TRUE(same(more[l], b[l])) << l;
+  }
+  if (kernel_set() != KernelSet::wide) return;
+  std::array<double, 8> wide_less, wide_more;
+  Wide::run([&]() WHIPPLE_INLINE {
+    store(wide_less.data(), minimum(join(a, a), join(b, b)));
+    store(wide_more.data(), maximum(join(a, a), join(b, b)));
+  });
+  for (std::size_t l = 0; l < 8; ++l) {
+    EXPECT_TRUE(same(wide_less[l], b[l % 4])) << l;
+    EXPECT_TRUE(same(wide_more[l], b[l % 4])) << l;
+  }
 }
 
 TEST(Registers, PartsOfARegisterLeaveTheRestAlone) {

@@ -10,8 +10,9 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <map>
 
-#include "md_fitting/data_set/data_set.hpp"
+#include "md_fitting/data_set/points.hpp"
 #include "md_fitting/data_set/store_order.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/hash.hpp"
@@ -269,6 +270,80 @@ TEST(Store, RefusesAnotherVersionByName) {
     }
   }
   EXPECT_EQ(bytes_of(path), before);
+}
+
+/// Returns whether a point of a store is what its record makes of it.
+template <class Point>
+void expect_same_entries(const PointRecord& stored) {
+  const auto point = read_as<Point>(stored);
+  EXPECT_EQ(conditions_of(point), stored.conditions) << stored.label();
+  const std::map<std::string, Estimate> results = results_of(point);
+  ASSERT_EQ(results.size(), stored.results.size()) << stored.label();
+  for (const auto& [name, estimate] : stored.results) {
+    ASSERT_TRUE(results.contains(name)) << name;
+    EXPECT_EQ(results.at(name).value, estimate.value) << name;
+    EXPECT_EQ(results.at(name).error, estimate.error) << name;
+  }
+}
+
+// The store was written before there were records (tests/data/md/copper_records.toml).
+TEST(Records, ReadStoresThatExist) {
+  const std::filesystem::path path(WHIPPLE_SOURCE_DIR "/tests/data/md/copper_records.md.h5");
+  const std::vector<PointRecord> points = read_store(path);
+  std::map<std::string, std::function<void(const PointRecord&)>> check = {
+      {"lattice", expect_same_entries<LatticePoint>},
+      {"zero_pressure_volume", expect_same_entries<ZeroPressurePoint>},
+      {"isochore", expect_same_entries<StatePoint>},
+      {"hugoniot", expect_same_entries<HugoniotPoint>},
+      {"cold_curve", expect_same_entries<ColdCurvePoint>},
+      {"elastic", expect_same_entries<ElasticPoint>},
+      {"quantum", expect_same_entries<QuantumPoint>}};
+  EXPECT_EQ(points.size(), check.size());
+  for (const PointRecord& point : points) {
+    ASSERT_TRUE(check.contains(point.protocol)) << point.protocol;
+    check.at(point.protocol)(point);
+  }
+  EXPECT_NEAR(select_as<LatticePoint>(points).at(0).lattice_constant.value, 3.615e-10, 1e-14);
+  const auto state = select_as<StatePoint>(points, "isochore").at(0);
+  EXPECT_NEAR(state.pressure.value, 11.6377e9, 1e5);
+  EXPECT_TRUE(state.solid);
+  EXPECT_EQ(state.temperature, 600.0);
+  const auto cold = select_as<ColdCurvePoint>(points).at(0);
+  EXPECT_FALSE(cold.fcc_pressure);
+  EXPECT_NEAR(*cold.hcp_axial_ratio, 1.631769, 1e-6);
+}
+
+TEST(Records, HaveTheUnitsOfTheStore) {
+  EXPECT_EQ(unit_of("shock_velocity"), "m/s");
+  EXPECT_EQ(unit_of("strain_rate"), "1/s");
+  EXPECT_EQ(unit_of("hcp_axial_ratio"), "");
+  EXPECT_EQ(unit_of("colour"), "");
+  EXPECT_TRUE(is_flag("liquid") && is_flag("solid") && is_flag("converged") && is_flag("elastic"));
+  EXPECT_FALSE(is_flag("pressure") || is_flag("colour"));
+  EXPECT_EQ(name_of(&HugoniotPoint::shock_velocity), "shock_velocity");
+  EXPECT_EQ(name_of(&HugoniostatPoint::imposed_pressure), "pressure");
+}
+
+TEST(Records, NameWhatAStoreLacks) {
+  PointRecord point = example("point");
+  const auto state = read_as<StatePoint>(point);
+  EXPECT_EQ(state.error_correlation, 0.0);  // as in stores of older versions
+  EXPECT_TRUE(state.solid);
+  EXPECT_TRUE(is_solid(point));
+  point.results["solid"] = {0.0, 0.0};
+  EXPECT_FALSE(read_as<StatePoint>(point).solid);
+  EXPECT_FALSE(is_solid(point));
+  for (const auto& call : {std::function<void()>([&] { read_as<HugoniotPoint>(point); }),
+                           std::function<void()>([&] { required(point, &StatePoint::error_correlation); }),
+                           std::function<void()>([&] { condition(point, &SpallPoint::strain_rate); })}) {
+    EXPECT_THROW(call(), InputError);
+  }
+}
+
+TEST(Records, TheListOfTheTheoryIsThatOfTheProgram) {
+  std::ifstream file(WHIPPLE_SOURCE_DIR "/docs/theory/molecular_dynamics.md");
+  const std::string page((std::istreambuf_iterator<char>(file)), {});
+  EXPECT_NE(page.find(describe_points()), std::string::npos) << describe_points();
 }
 
 TEST(PointRecord, NamesWhatIsMissing) {

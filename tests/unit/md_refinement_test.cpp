@@ -94,30 +94,31 @@ TEST(Replicas, RunsThatFailAreNamedAndLeftOut) {
   std::vector<std::int64_t> seeds;
   const auto with_failures = [&](std::int64_t wanted, const std::set<std::size_t>& failing) {
     seeds.clear();
-    return run_replicas(wanted, 5, [&](std::int64_t seed, std::string& transcript) -> ReplicaValues {
-      seeds.push_back(seed);
-      transcript += "run\n";
-      if (failing.contains(seeds.size())) {
-        if (seeds.size() % 2 == 0) throw LammpsError("LAMMPS: Lost atoms");
-        throw StateError("the melt froze");
-      }
-      return {{"pressure", static_cast<double>(seeds.size())}};
-    });
+    return run_replicas<LiquidVapourPoint>(
+        wanted, 5, [&](std::int64_t seed, std::string& transcript) -> LiquidVapourPoint {
+          seeds.push_back(seed);
+          transcript += "run\n";
+          if (failing.contains(seeds.size())) {
+            if (seeds.size() % 2 == 0) throw LammpsError("LAMMPS: Lost atoms");
+            throw StateError("the melt froze");
+          }
+          return {.vapour_pressure = {static_cast<double>(seeds.size()), 0.0}};
+        });
   };
-  const ReplicaSet all = with_failures(4, {});
-  EXPECT_EQ(all.values.at("pressure"), (std::vector<double>{1, 2, 3, 4}));
+  const ReplicaSet<LiquidVapourPoint> all = with_failures(4, {});
+  EXPECT_EQ(all.values(&LiquidVapourPoint::vapour_pressure), (std::vector<double>{1, 2, 3, 4}));
   EXPECT_EQ(all.remark, "");
   EXPECT_EQ(all.transcript, "run\nrun\nrun\nrun\n");
   EXPECT_EQ(std::set(seeds.begin(), seeds.end()).size(), 4U);
   const std::vector<std::int64_t> undisturbed = seeds;
 
-  const ReplicaSet rest = with_failures(4, {2});
+  const ReplicaSet<LiquidVapourPoint> rest = with_failures(4, {2});
   EXPECT_EQ(seeds, undisturbed);
   EXPECT_EQ(rest.remark, "1 of 4 runs left out: run 2: LAMMPS: Lost atoms");
-  const TaskResult result = to_result(rest);
+  const TaskResult result = to_result<LiquidVapourPoint>(rest);
   EXPECT_EQ(result.message, rest.remark);
-  EXPECT_EQ(result.blocks.at("pressure"), (std::vector<double>{1, 3, 4}));
-  EXPECT_NEAR(result.results.at("pressure").value, 8.0 / 3.0, 1e-12);
+  EXPECT_EQ(result.blocks.at("vapour_pressure"), (std::vector<double>{1, 3, 4}));
+  EXPECT_NEAR(result.results.at("vapour_pressure").value, 8.0 / 3.0, 1e-12);
 
   // More than half must be left, and two at least; it ends as soon as that cannot be.
   const auto message = [&](std::int64_t wanted, const std::set<std::size_t>& failing) -> std::string {

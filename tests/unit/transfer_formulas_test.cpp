@@ -19,40 +19,70 @@ Matrix3 random_matrix(std::mt19937& random, double scale) {
   return m;
 }
 
-/// The heat of a point is (4.5) with its eight terms.
-TEST(TransferFormulas, HeatIsThatOfTheTheory) {
+double first(double x) { return x; }
+double first(Lanes x) { return x[0]; }
+
+template <class Number>
+class FormulasOfAPoint : public testing::Test {};
+using Numbers = testing::Types<double, Lanes>;
+TYPED_TEST_SUITE(FormulasOfAPoint, Numbers);
+
+/// Velocity and affine field change by (4.1) and (4.3), and the heat has the eight terms of (4.5).
+TYPED_TEST(FormulasOfAPoint, AreThoseOfTheTheory) {
+  const auto number = [](double x) {
+    if constexpr (std::is_same_v<TypeParam, Lanes>)
+      return Lanes{x, 1.0, 17.0, -3.0};
+    else
+      return x;
+  };
   std::mt19937 random(7);
-  constexpr double inertia = 0.3;
-  constexpr std::array n = {0.1, 0.25, 0.3, 0.35};
-  double heat = 0.0, expected = 0.0;
-  Vector3 loss = Vector3::Zero(), change = loss, increment = loss, relaxed = loss;
-  Matrix3 moment = Matrix3::Zero(), d_r = moment, relaxed_r = moment;
-  for (const double weight : n) {
-    const Matrix3 some = random_matrix(random, 1.0);
-    const Vector3 difference = some.col(0), d = some.col(1), r = some.col(2);
-    const double beta = 0.5 + 0.5 * r[0];
-    for (int a = 0; a < 3; ++a) {
-      const auto by_node = formulas::change_by_node(difference[a], d[a], beta);
-      loss[a] += weight * by_node.loss;
-      change[a] += weight * by_node.velocity;
-      moment.row(a) += weight * by_node.velocity * r.transpose();
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  for (int trial = 0; trial < 100; ++trial) {
+    const double inertia = 0.3 + uniform(random);
+    std::array<double, 8> n;
+    double sum = 0.0;
+    for (double& weight : n) sum += weight = uniform(random);
+    std::array<TypeParam, 3> loss{}, change{};
+    std::array<std::array<TypeParam, 3>, 3> moment{};
+    double expected = 0.0;
+    Vector3 delta = Vector3::Zero(), b = delta;
+    Matrix3 dc = Matrix3::Zero(), bc = dc;
+    for (const double value : n) {
+      const double weight = value / sum, beta = uniform(random);
+      const Matrix3 some = random_matrix(random, 1.0);
+      const Vector3 difference = some.col(0), d = some.col(1), r = some.col(2);
+      for (std::size_t a = 0; a < 3; ++a) {
+        const auto i = static_cast<Eigen::Index>(a);
+        const auto by_node =
+            formulas::change_by_node<TypeParam>(number(difference[i]), number(d[i]), number(beta));
+        loss[a] += weight * by_node.loss;
+        change[a] += weight * by_node.velocity;
+        for (std::size_t c = 0; c < 3; ++c) {
+          moment[a][c] += weight * r[static_cast<Eigen::Index>(c)] * by_node.velocity;
+        }
+      }
+      delta += weight * d;
+      b += weight * beta * difference;
+      dc += weight * d * r.transpose() / inertia;
+      bc += weight * beta * difference * r.transpose() / inertia;
+      expected += weight * (0.5 * d.squaredNorm() + beta * difference.dot(difference - d));
     }
-    expected += weight * (0.5 * d.squaredNorm() + beta * difference.dot(difference - d));
-    increment += weight * d;
-    relaxed += weight * beta * difference;
-    d_r += weight * d * r.transpose() / inertia;
-    relaxed_r += weight * beta * difference * r.transpose() / inertia;
+    expected += -0.5 * delta.squaredNorm() + b.dot(delta) - 0.5 * b.squaredNorm();
+    expected += inertia * (-0.5 * dc.squaredNorm() + bc.cwiseProduct(dc).sum() - 0.5 * bc.squaredNorm());
+    double heat = 0.0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const auto i = static_cast<Eigen::Index>(a);
+      heat += first(formulas::heat_of_velocity<TypeParam>(loss[a], change[a]));
+      EXPECT_NEAR(first(change[a]), delta[i] - b[i], 1e-15);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const auto j = static_cast<Eigen::Index>(c);
+        const auto gained = formulas::change_of_field<TypeParam>(moment[a][c], number(1.0 / inertia));
+        heat -= first(gained.energy);
+        EXPECT_NEAR(first(gained.field), dc(i, j) - bc(i, j), 1e-14);
+      }
+    }
+    EXPECT_NEAR(heat, expected, 1e-14);
   }
-  expected += -0.5 * increment.squaredNorm() + relaxed.dot(increment) - 0.5 * relaxed.squaredNorm();
-  expected += inertia *
-              (-0.5 * d_r.squaredNorm() + relaxed_r.cwiseProduct(d_r).sum() - 0.5 * relaxed_r.squaredNorm());
-  for (int a = 0; a < 3; ++a) heat += formulas::heat_of_velocity(loss[a], change[a]);
-  for (int i = 0; i < 9; ++i) {
-    const auto gained = formulas::change_of_field(moment(i), 1.0 / inertia);
-    heat -= gained.energy;
-    EXPECT_NEAR(gained.field, d_r(i) - relaxed_r(i), 1e-15);
-  }
-  EXPECT_NEAR(heat, expected, 1e-14);
 }
 
 template <class Vector>
@@ -81,9 +111,6 @@ Matrix3 matrix_of(const std::array<Vector, 3>& columns) {
   }
   return m;
 }
-double first(double x) { return x; }
-double first(Lanes x) { return x[0]; }
-
 template <class Vector>
 class ConvectedField : public testing::Test {};
 using Vectors = testing::Types<Triple<double>, Lanes>;

@@ -88,7 +88,7 @@ TEST(StatedErrors, OfTheSolid) {
     runs["energy on an isochore"].push_back(state.specific_internal_energy);
 
     const ReferenceState reference{rest.specific_volume, rest.specific_internal_energy, 0.0,
-                                   rest.correlation};
+                                   rest.error_correlation};
     const double volume = 0.85 * potential.static_volume();
     NvtStateSource shock(potential, {.cells = 3, .equilibration_steps = 1000, .steps = 4000}, 1299709 * seed);
     HugoniotSearch search;
@@ -153,9 +153,9 @@ TEST(StatedErrors, OfTheSpallStrength) {
   const SpallPlan section{{293.0}, 1e11, 5, 0.6, {.cells = 3, .equilibration_steps = 800}};
   Runs runs;
   for (int seed = 1; seed <= seeds; ++seed) {
-    const ReplicaSet spall = measure_spall(foiles(), 293.0, section, 7919 * seed);
-    runs["strength"].push_back(spall.mean("spall_strength"));
-    runs["temperature"].push_back(spall.mean("spall_temperature"));
+    const ReplicaSet<SpallPoint> spall = measure_spall(foiles(), 293.0, section, 7919 * seed);
+    runs["strength"].push_back(spall.mean(&SpallPoint::spall_strength));
+    runs["temperature"].push_back(spall.mean(&SpallPoint::spall_temperature));
   }
   runs.expect_honest();
 }
@@ -170,9 +170,10 @@ TEST(StatedErrors, OfTheMeltingPoint) {
   section.size = {.cells = 4, .equilibration_steps = 6000, .steps = 4000};
   Runs runs;
   for (int seed = 1; seed <= seeds; ++seed) {
-    const ReplicaSet melting = measure_coexistence(foiles(), 0.0, 1275.0, section, 7919 * seed);
+    const ReplicaSet<CoexistencePoint> melting =
+        measure_coexistence(foiles(), 0.0, 1275.0, section, 7919 * seed);
     if (!melting.remark.empty()) std::printf("  seed %d: %s\n", seed, melting.remark.c_str());
-    for (const auto& [name, values] : melting.values) runs[name].push_back(replica_mean(values));
+    for (const auto& [name, mean] : to_result<CoexistencePoint>(melting).results) runs[name].push_back(mean);
   }
   runs.expect_honest();
 }
@@ -182,9 +183,9 @@ TEST(StatedErrors, OfFilmAndVapour) {
   LiquidVapourPlan section{{}, 3.0, 4, {.cells = 4, .equilibration_steps = 12000, .steps = 8000}};
   Runs runs;
   for (int seed = 1; seed <= seeds; ++seed) {
-    const ReplicaSet film = measure_liquid_vapour(foiles(), 5100.0, section, 7919 * seed);
+    const ReplicaSet<FilmRun> film = measure_liquid_vapour(foiles(), 5100.0, section, 7919 * seed);
     if (!film.remark.empty()) std::printf("  seed %d: %s\n", seed, film.remark.c_str());
-    for (const auto& [name, values] : film.values) runs[name].push_back(replica_mean(values));
+    for (const auto& [name, mean] : to_result<LiquidVapourPoint>(film).results) runs[name].push_back(mean);
   }
   runs.expect_honest();
 }

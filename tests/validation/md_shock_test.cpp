@@ -57,16 +57,16 @@ TEST(Hugoniostat, AgreesWithTheRootOfTheHugoniotFunction) {
 TEST(Piston, ElasticFrontsAreFlaggedAndStrongOnesLieOnTheHugoniot) {
   const PistonPlan section{{}, 30, {.cells = 5, .equilibration_steps = 400}};
   const PistonResult elastic = measure_piston(universal(), room_temperature(), 293.0, 500.0, section, 3);
-  EXPECT_TRUE(elastic.elastic());
+  EXPECT_TRUE(elastic.elastic);
   EXPECT_GT(elastic.shock_velocity.value, 1.02 * (3900.0 + 1.32 * 500.0));
   EXPECT_GT(elastic.shear_stress_share, 0.08);
   const PistonResult strong = measure_piston(universal(), room_temperature(), 293.0, 3500.0, section, 3);
-  EXPECT_FALSE(strong.elastic());
+  EXPECT_FALSE(strong.elastic);
   EXPECT_NEAR(strong.shock_velocity.value / (3900.0 + 1.32 * 3500.0), 1.0, 0.02);
   EXPECT_LT(std::abs(strong.shear_stress_share), 0.06);
   for (const auto& [shock, velocity] : {std::pair{elastic, 500.0}, std::pair{strong, 3500.0}}) {
     const double us = shock.shock_velocity.value;
-    EXPECT_NEAR(shock.sample_density * 1.13515e-4 / (us / (us - velocity)), 1.0, 0.02) << velocity;
+    EXPECT_NEAR(shock.density * 1.13515e-4 / (us / (us - velocity)), 1.0, 0.02) << velocity;
     EXPECT_LT(shock.shock_velocity.error, 0.02 * us);
   }
 }
@@ -86,14 +86,15 @@ TEST(Spall, LiesBelowTheStrengthOfTheStaticCrystal) {
   section.replicas = 2;
   section.size.cells = 4;
   section.size.equilibration_steps = 1000;
-  const ReplicaSet cold = measure_spall(universal(), 293.0, section, 3);
-  const ReplicaSet hot = measure_spall(universal(), 900.0, section, 3);
-  const double strength = cold.mean("spall_strength").value;
+  const ReplicaSet<SpallPoint> cold = measure_spall(universal(), 293.0, section, 3);
+  const ReplicaSet<SpallPoint> hot = measure_spall(universal(), 900.0, section, 3);
+  const double strength = cold.mean(&SpallPoint::spall_strength).value;
   EXPECT_LT(strength, static_strength);
   EXPECT_GT(strength, 0.7 * static_strength);
-  EXPECT_LT(hot.mean("spall_strength").value, 0.9 * strength);
-  EXPECT_LT(cold.mean("spall_temperature").value, 250.0);
-  EXPECT_GT(cold.mean("spall_specific_volume").value, 1.2 * cold.mean("specific_volume").value);
+  EXPECT_LT(hot.mean(&SpallPoint::spall_strength).value, 0.9 * strength);
+  EXPECT_LT(cold.mean(&SpallPoint::spall_temperature).value, 250.0);
+  EXPECT_GT(cold.mean(&SpallPoint::spall_specific_volume).value,
+            1.2 * cold.mean(&SpallPoint::specific_volume).value);
   // The crystal does not fail within two per cent.
   section.largest_strain = 0.05;
   EXPECT_THROW(measure_spall(universal(), 293.0, section, 3), StateError);
@@ -130,19 +131,21 @@ TEST(Liquid, IsProvedByItsStructure) {
 // vapour is thinner by a multiple, and the surface energy has become small.
 TEST(LiquidVapour, IsMeasuredWhereBothPhasesAre) {
   LiquidVapourPlan section{{}, 2.0, 2, {.cells = 4, .equilibration_steps = 16000, .steps = 8000}};
-  const ReplicaSet film = measure_liquid_vapour(universal(), 5000.0, section, 3);
+  const ReplicaSet<FilmRun> film = measure_liquid_vapour(universal(), 5000.0, section, 3);
   std::string transcript;
   const Phase melt =
-      measure_phase(universal(), true, std::fmax(0.0, film.mean("vapour_pressure").value), 5000.0,
-                    {.cells = 4, .equilibration_steps = 1000, .steps = 3000}, 1e-3, 3, transcript);
+      measure_phase(universal(), true, std::fmax(0.0, film.mean(&LiquidVapourPoint::vapour_pressure).value),
+                    5000.0, {.cells = 4, .equilibration_steps = 1000, .steps = 3000}, 1e-3, 3, transcript);
   const double density = 1.0 / metal::specific_volume(melt.volume.value, universal().mass());
-  EXPECT_NEAR(film.mean("liquid_density").value / density, 1.0, 0.10);
-  EXPECT_LT(film.mean("vapour_density").value, 0.2 * film.mean("liquid_density").value);
-  EXPECT_GT(film.mean("vapour_density").value, 0.0);
-  EXPECT_GT(film.mean("surface_energy").value, -3.0 * film.mean("surface_energy").error);
+  EXPECT_NEAR(film.mean(&LiquidVapourPoint::liquid_density).value / density, 1.0, 0.10);
+  EXPECT_LT(film.mean(&LiquidVapourPoint::vapour_density).value,
+            0.2 * film.mean(&LiquidVapourPoint::liquid_density).value);
+  EXPECT_GT(film.mean(&LiquidVapourPoint::vapour_density).value, 0.0);
+  EXPECT_GT(film.mean(&LiquidVapourPoint::surface_energy).value,
+            -3.0 * film.mean(&LiquidVapourPoint::surface_energy).error);
   // So close to the critical point it is a small part of that of liquid copper at its melting point, 1.3
   // J/m^2.
-  EXPECT_LT(film.mean("surface_energy").value, 0.4);
+  EXPECT_LT(film.mean(&LiquidVapourPoint::surface_energy).value, 0.4);
   section.size = {.cells = 4, .equilibration_steps = 1000, .steps = 3200};
   const auto refusal_at = [&](double temperature) -> std::string {
     try {

@@ -3,7 +3,6 @@
 
 #include <immintrin.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -108,8 +107,8 @@ inline Triple<Lanes> load_vectors(const double* from) {
 
 // A number.
 inline double multiply_add(double a, double b, double c) { return std::fma(a, b, c); }
-inline double minimum(double a, double b) { return std::min(a, b); }
-inline double maximum(double a, double b) { return std::max(a, b); }
+inline double minimum(double a, double b) { return a < b ? a : b; }  // as the instruction: b if one is NaN
+inline double maximum(double a, double b) { return a > b ? a : b; }
 inline bool any(bool mask) { return mask; }
 inline bool all_positive(double x) { return x > 0.0; }
 inline double select(bool mask, double a, double b) { return mask ? a : b; }

@@ -22,7 +22,7 @@ int run_script(const std::string& script, const std::vector<std::string>& argume
   // -E: a PYTHONPATH of the user, or modules in a visited folder, must not shadow numpy.
   std::vector<std::string> command = {python, "-E", find_data(script).string()};
   command.insert(command.end(), arguments.begin(), arguments.end());
-  return run_process(command);
+  return run_process(command, {{"WHIPPLE_PROGRAM", (own_executable().parent_path() / "whipple").string()}});
 }
 
 void draw_with(const std::string& script, const std::vector<std::string>& arguments) {

@@ -10,6 +10,7 @@ namespace whipple::process {
 /// Runs a Python script ("scripts/plot_fit.py") or package ("report") of the project. The interpreter is
 /// $WHIPPLE_PYTHON, else /usr/bin/python3 (that of Debian, which has numpy, h5py and matplotlib), else python3 from the
 /// path.
+/// $WHIPPLE_PROGRAM of the script is the program whipple beside this one.
 /// @returns its exit code
 int run_script(const std::string& script, const std::vector<std::string>& arguments);
 

@@ -33,6 +33,14 @@ class Binomial {
   std::array<double, 8> c_;
 };
 
+/// Constants of the law in a step.
+struct Constants {
+  double A, B;         ///< Pa
+  double C, exponent;  ///< exponent: n
+  double least;        ///< increment of the plastic strain at the reference rate
+  double per_least;    ///< 1 / least
+};
+
 /// Holds the work arrays of the solution for unfinished points.
 struct Work {
   std::size_t size = 0;
@@ -97,6 +105,153 @@ void drop_solved(Work& w, YieldingPoints& points) {
   keep(w.lower), keep(w.upper), keep(w.x);
 }
 
+/// Takes over the points: trial stresses, strains with their powers, and solid fractions times 1 - T*^m.
+void take_over(Work& w, const JohnsonCook& law, const YieldingPoints& points) {
+  const std::size_t n = w.size = points.size;
+  BatchValues thermal;
+  const double per_span = 1.0 / (law.melting_temperature - law.reference_temperature);
+  for (std::size_t k = 0; k < n; ++k) {
+    const double homologous = (points.temperature[k] - law.reference_temperature) * per_span;
+    thermal[k] = homologous > 0.0 ? std::min(homologous, 1.0) : 1.0;
+  }
+  logarithms(thermal.data(), n);
+  for (std::size_t k = 0; k < n; ++k) thermal[k] *= law.thermal_exponent;
+  exponentials(thermal.data(), n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const bool warm = points.temperature[k] > law.reference_temperature;
+    w.softening[k] = points.solid[k] * (warm ? 1.0 - thermal[k] : 1.0);
+    w.power[k] = w.strain[k] = std::max(points.plastic_strain[k], 0.0);
+    w.trial[k] = points.trial[k];
+    w.point[k] = k;
+  }
+  if (law.hardening_coefficient > 0.0) {
+    raise(w.power, n, law.hardening_exponent);
+  } else {
+    std::fill_n(w.power.begin(), n, 0.0);
+  }
+}
+
+/// Linear hardening with rate effect: x is the root of S x + a ln(x/l) = b with b = q - w Y(ep, 0, T), a = C w Y and l
+/// the increment at the reference rate, x = z a/S with z + ln z = b/a - ln(a/(S l)).
+struct LinearHardening {
+  BatchValues slope;  ///< S, Pa
+  BatchValues scale;  ///< a/S
+  BatchValues ratio;  ///< b/a
+};
+
+/// Brackets the roots; x becomes the root for linear hardening without rate effect.
+void bracket(Work& w, LinearHardening& linear, const Constants& law, const YieldingPoints& points) {
+  for (std::size_t k = 0; k < w.size; ++k) {
+    const double yield = w.softening[k] * (law.A + law.B * w.power[k]);
+    const double excess = w.trial[k] - yield;
+    const bool yields = excess > 0.0;
+    w.stiffness[k] = 3.0 * points.modulus[k];
+    w.active[k] = yields ? 1 : 0;
+    w.lower[k] = 0.0;
+    w.upper[k] = excess / w.stiffness[k];
+    linear.slope[k] = w.stiffness[k] + w.softening[k] * (law.B * law.exponent) * w.power[k] /
+                                           std::max(w.strain[k], w.upper[k]);
+    w.x[k] = yields ? excess / linear.slope[k] : 0.0;
+    const double a = std::max(law.C * yield, 1e-9 * excess);
+    linear.scale[k] = yields ? a / linear.slope[k] : 1.0;
+    linear.ratio[k] = yields ? excess / a : 1.0;
+  }
+}
+
+/// Returns the root of z + ln z = K by the asymptotic series of Wright's omega function (R. M. Corless and D. J.
+/// Jeffrey, LNCS 2385 (2002) 76), approximately for K < 1, and one step of fourth order (F. N. Fritsch, R. E. Shafer
+/// and W. P. Crowley, Commun. ACM 16 (1973) 123).
+/// @param exponential  exp(min(K, 1))
+double omega(double argument, double exponential) {
+  const double K = std::max(argument, 1.0), ln_K = rough_log(K), inverse = 1.0 / K;
+  double z = argument < 1.0 ? exponential / (1.0 + exponential)
+                            : K - ln_K + ln_K * inverse * (1.0 + (0.5 * ln_K - 1.0) * inverse);
+  z = std::max(z, std::numeric_limits<double>::min());
+  const double miss = argument - z - rough_log(z), after = 1.0 + z,
+               q = 2.0 * after * (after + (2.0 / 3.0) * miss);
+  return z + z * (miss * (q - miss)) / (after * (q - 2.0 * miss));
+}
+
+/// Replaces x by the root with the rate effect for linear hardening, corrected for the contribution of the rate to the
+/// hardening.
+void include_rate(Work& w, const LinearHardening& linear, const Constants& law) {
+  BatchValues logarithm, argument, start;
+  for (std::size_t k = 0; k < w.size; ++k) {
+    logarithm[k] = rough_log(linear.scale[k] * law.per_least);
+    argument[k] = linear.ratio[k] - logarithm[k];
+    start[k] = std::min(argument[k], 1.0);
+  }
+  exponentials(start.data(), w.size);
+  for (std::size_t k = 0; k < w.size; ++k) {
+    double z = omega(argument[k], start[k]);
+    const double rate_logarithm = argument[k] - z + logarithm[k];
+    z -=
+        z * z / (1.0 + z) * ((linear.slope[k] - w.stiffness[k]) / linear.slope[k] * (law.C * rate_logarithm));
+    w.x[k] = std::min(w.x[k], std::max(linear.scale[k] * z, law.least));
+  }
+}
+
+/// Computes hardening and rate of the current increments.
+void evaluate(Work& w, const Constants& law, const Binomial& binomial) {
+  if (law.B > 0.0) {
+    raise_strains(w, law.exponent, binomial);
+  } else {
+    std::fill_n(w.raised.begin(), w.size, 0.0);
+  }
+  for (std::size_t k = 0; k < w.size; ++k) w.rate[k] = std::max(w.x[k] * law.per_least, 1.0);
+  if (law.C > 0.0) logarithms(w.rate.data(), w.size);
+}
+
+/// Increments that an iteration offers.
+struct Candidates {
+  BatchValues halley;  ///< of Halley's method
+  BatchValues newton;  ///< change of ln x by Newton's method
+};
+
+/// Narrows the brackets by the residuals of the current increments and computes the next ones. Points whose residual
+/// has vanished are no longer active.
+void iterate(Work& w, Candidates& next, const Constants& law) {
+  for (std::size_t k = 0; k < w.size; ++k) {
+    const double x = w.x[k], strain = w.strain[k] + x, raised = w.raised[k];
+    const double rate_factor = law.C > 0.0 ? 1.0 + law.C * w.rate[k] : 1.0;
+    const double hardening = law.A + law.B * raised;
+    const double residual = w.trial[k] - w.stiffness[k] * x - w.softening[k] * hardening * rate_factor;
+    const bool open = std::abs(residual) > 1e-11 * w.trial[k], left = residual > 0.0;
+    w.lower[k] = open && left ? x : w.lower[k];
+    w.upper[k] = open && !left ? x : w.upper[k];
+    const double inverse = 1.0 / (strain * x), per_strain = inverse * x, per_x = inverse * strain;
+    const double work_hardening = (law.B * law.exponent) * raised * per_strain;
+    const double rate_hardening = x > law.least ? law.C * per_x : 0.0;
+    const double steepness =
+        w.stiffness[k] + w.softening[k] * (work_hardening * rate_factor + hardening * rate_hardening);
+    const double curvature =
+        w.softening[k] * ((law.exponent - 1.0) * per_strain * work_hardening * rate_factor +
+                          rate_hardening * (2.0 * work_hardening - hardening * per_x));
+    next.newton[k] = residual / (steepness * x);
+    next.halley[k] = x + 2.0 * residual * steepness / (2.0 * steepness * steepness + residual * curvature);
+    w.active[k] = open ? 1 : 0;
+  }
+}
+
+/// Takes the step of Halley's method where it stays inside the bracket, otherwise one of Newton's method in ln x, or
+/// half of the bracket. Points whose next residual would vanish are no longer active.
+void advance(Work& w, Candidates& next) {
+  std::uint64_t left_bracket = 0;
+  for (std::size_t k = 0; k < w.size; ++k) {
+    const bool inside = next.halley[k] > w.lower[k] && next.halley[k] < w.upper[k];
+    left_bracket |= inside ? 0 : w.active[k];
+  }
+  if (left_bracket != 0) exponentials(next.newton.data(), w.size);
+  for (std::size_t k = 0; k < w.size; ++k) {
+    const bool open = w.active[k] != 0, inside = next.halley[k] > w.lower[k] && next.halley[k] < w.upper[k];
+    const double instead = w.lower[k] > 0.0 ? 0.5 * (w.lower[k] + w.upper[k]) : w.x[k] * next.newton[k];
+    // The error after a step of Halley's method is at most about a third of the cube of the previous one.
+    const bool near = inside && std::abs(next.halley[k] - w.x[k]) <= 3e-4 * w.x[k];
+    w.x[k] = open ? (inside ? next.halley[k] : instead) : w.x[k];
+    w.active[k] = open && !near && w.upper[k] - w.lower[k] > 1e-15 * w.upper[k] ? 1 : 0;
+  }
+}
+
 }  // namespace
 
 /// Solves f(x) = q - 3 G x - w Y(ep + x, x/dt, T) = 0. f decreases monotonically from f(0) > 0 to f((q - w Y(ep, 0, T))
@@ -105,123 +260,23 @@ void drop_solved(Work& w, YieldingPoints& points) {
 /// from the right, and by bisection at the kink of the reference rate. Usually one evaluation suffices. The iteration
 /// of a point does not depend on the other points.
 WHIPPLE_KERNEL void JohnsonCook::solve(YieldingPoints& points, double dt) const {
-  const std::size_t n = points.size;
-  const double A = yield_stress, B = hardening_coefficient, C = rate_coefficient,
-               exponent = hardening_exponent;
-  const double least = reference_rate * dt, per_least = 1.0 / least;
+  const double least = reference_rate * dt;
+  const Constants law = {yield_stress, hardening_coefficient, rate_coefficient, hardening_exponent, least,
+                         1.0 / least};
   Work w;
-  w.size = n;
-  // 1 - T*^m
-  BatchValues thermal;
-  const double per_span = 1.0 / (melting_temperature - reference_temperature);
-  for (std::size_t k = 0; k < n; ++k) {
-    const double homologous = (points.temperature[k] - reference_temperature) * per_span;
-    thermal[k] = homologous > 0.0 ? std::min(homologous, 1.0) : 1.0;
-  }
-  logarithms(thermal.data(), n);
-  for (std::size_t k = 0; k < n; ++k) thermal[k] *= thermal_exponent;
-  exponentials(thermal.data(), n);
-  for (std::size_t k = 0; k < n; ++k) {
-    const bool warm = points.temperature[k] > reference_temperature;
-    w.softening[k] = points.solid[k] * (warm ? 1.0 - thermal[k] : 1.0);
-    w.power[k] = w.strain[k] = std::max(points.plastic_strain[k], 0.0);
-    w.trial[k] = points.trial[k];
-    w.point[k] = k;
-  }
-  if (B > 0.0) {
-    raise(w.power, n, exponent);
-  } else {
-    std::fill_n(w.power.begin(), n, 0.0);
-  }
-  // Bracket, and the root without rate effect. With it, for linear hardening, x is the root of S x + a ln(x/l) = b, b =
-  // q - w Y(ep, 0, T) and a = C w Y: z + ln z = K with z = S x/a.
-  BatchValues slope, logarithmic, logarithm, argument;
-  for (std::size_t k = 0; k < n; ++k) {
-    const double yield = w.softening[k] * (A + B * w.power[k]);
-    const double excess = w.trial[k] - yield;
-    const bool yields = excess > 0.0;
-    w.stiffness[k] = 3.0 * points.modulus[k];
-    w.active[k] = yields ? 1 : 0;
-    w.lower[k] = 0.0;
-    w.upper[k] = excess / w.stiffness[k];
-    slope[k] =
-        w.stiffness[k] + w.softening[k] * (B * exponent) * w.power[k] / std::max(w.strain[k], w.upper[k]);
-    w.x[k] = yields ? excess / slope[k] : 0.0;
-    const double a = std::max(C * yield, 1e-9 * excess);
-    logarithmic[k] = yields ? a / slope[k] : 1.0;
-    argument[k] = yields ? excess / a : 1.0;
-  }
-  if (C > 0.0) {
-    // z by the asymptotic series of Wright's omega function (R. M. Corless and D. J. Jeffrey, LNCS 2385 (2002) 76),
-    // approximately for K < 1, and one step of fourth order (F. N. Fritsch, R. E. Shafer and W. P. Crowley, Commun. ACM
-    // 16 (1973) 123); then the contribution of the rate to the hardening.
-    BatchValues start;
-    for (std::size_t k = 0; k < n; ++k) {
-      logarithm[k] = rough_log(logarithmic[k] * per_least);
-      argument[k] -= logarithm[k];
-      start[k] = std::min(argument[k], 1.0);
-    }
-    exponentials(start.data(), n);
-    for (std::size_t k = 0; k < n; ++k) {
-      const double K = std::max(argument[k], 1.0), ln_K = rough_log(K), inverse = 1.0 / K;
-      double z = argument[k] < 1.0 ? start[k] / (1.0 + start[k])
-                                   : K - ln_K + ln_K * inverse * (1.0 + (0.5 * ln_K - 1.0) * inverse);
-      z = std::max(z, std::numeric_limits<double>::min());
-      const double miss = argument[k] - z - rough_log(z), after = 1.0 + z,
-                   q = 2.0 * after * (after + (2.0 / 3.0) * miss);
-      z += z * (miss * (q - miss)) / (after * (q - 2.0 * miss));
-      const double rate_logarithm = argument[k] - z + logarithm[k];
-      z -= z * z / (1.0 + z) * ((slope[k] - w.stiffness[k]) / slope[k] * (C * rate_logarithm));
-      w.x[k] = std::min(w.x[k], std::max(logarithmic[k] * z, least));
-    }
-  }
-  for (std::size_t k = 0; k < n; ++k) w.x[k] = w.active[k] != 0 ? w.x[k] : 0.0;
+  take_over(w, *this, points);
+  LinearHardening linear;
+  bracket(w, linear, law, points);
+  if (law.C > 0.0) include_rate(w, linear, law);
+  for (std::size_t k = 0; k < w.size; ++k) w.x[k] = w.active[k] != 0 ? w.x[k] : 0.0;
   drop_solved(w, points);
 
-  const Binomial binomial(exponent);
+  const Binomial binomial(law.exponent);
   for (int iteration = 0; iteration < 30 && w.size > 0; ++iteration) {
-    if (B > 0.0) {
-      raise_strains(w, exponent, binomial);
-    } else {
-      std::fill_n(w.raised.begin(), w.size, 0.0);
-    }
-    for (std::size_t k = 0; k < w.size; ++k) w.rate[k] = std::max(w.x[k] * per_least, 1.0);
-    if (C > 0.0) logarithms(w.rate.data(), w.size);
-    BatchValues next, newton;
-    std::uint64_t left_bracket = 0;
-    for (std::size_t k = 0; k < w.size; ++k) {
-      const double x = w.x[k], strain = w.strain[k] + x, raised = w.raised[k];
-      const double rate_factor = C > 0.0 ? 1.0 + C * w.rate[k] : 1.0;
-      const double hardening = A + B * raised;
-      const double residual = w.trial[k] - w.stiffness[k] * x - w.softening[k] * hardening * rate_factor;
-      const bool open = std::abs(residual) > 1e-11 * w.trial[k], left = residual > 0.0;
-      w.lower[k] = open && left ? x : w.lower[k];
-      w.upper[k] = open && !left ? x : w.upper[k];
-      const double inverse = 1.0 / (strain * x), per_strain = inverse * x, per_x = inverse * strain;
-      const double work_hardening = (B * exponent) * raised * per_strain;
-      const double rate_hardening = x > least ? C * per_x : 0.0;
-      const double steepness =
-          w.stiffness[k] + w.softening[k] * (work_hardening * rate_factor + hardening * rate_hardening);
-      const double curvature =
-          w.softening[k] * ((exponent - 1.0) * per_strain * work_hardening * rate_factor +
-                            rate_hardening * (2.0 * work_hardening - hardening * per_x));
-      newton[k] = residual / (steepness * x);
-      next[k] = x + 2.0 * residual * steepness / (2.0 * steepness * steepness + residual * curvature);
-      w.active[k] = open ? 1 : 0;
-    }
-    for (std::size_t k = 0; k < w.size; ++k) {
-      const bool inside = next[k] > w.lower[k] && next[k] < w.upper[k];
-      left_bracket |= inside ? 0 : w.active[k];
-    }
-    if (left_bracket != 0) exponentials(newton.data(), w.size);
-    for (std::size_t k = 0; k < w.size; ++k) {
-      const bool open = w.active[k] != 0, inside = next[k] > w.lower[k] && next[k] < w.upper[k];
-      const double instead = w.lower[k] > 0.0 ? 0.5 * (w.lower[k] + w.upper[k]) : w.x[k] * newton[k];
-      // The error after a step of Halley's method is at most about a third of the cube of the previous one.
-      const bool near = inside && std::abs(next[k] - w.x[k]) <= 3e-4 * w.x[k];
-      w.x[k] = open ? (inside ? next[k] : instead) : w.x[k];
-      w.active[k] = open && !near && w.upper[k] - w.lower[k] > 1e-15 * w.upper[k] ? 1 : 0;
-    }
+    evaluate(w, law, binomial);
+    Candidates next;
+    iterate(w, next, law);
+    advance(w, next);
     drop_solved(w, points);
   }
 }

@@ -29,6 +29,11 @@ std::string identity(const cases::Stop& stop) {
   return fmt::format("{} after {} s\n", stop.in_words(), stop.after);
 }
 
+/// Returns whether a condition is looked at in snapshots.
+bool is_of_wall(const cases::Stop& stop) {
+  return stop.when == cases::StopWhen::perforated || stop.when == cases::StopWhen::decided;
+}
+
 }  // namespace
 
 void require_known_columns(const cases::Case& setup,
@@ -58,7 +63,8 @@ StopConditions::StopConditions(const cases::Case& setup, const io::RunDirectory&
       snapshots_(snapshots),
       ranks_(ranks),
       seen_(setup.stops.size()),
-      walls_(setup.stops.size()) {
+      walls_(setup.stops.size()),
+      judges_(setup.stops.size()) {
   for (HistoryColumn& column : history_columns(setup)) {
     for (std::size_t s = 0; s < seen_.size(); ++s)
       if (setup.stops[s].column == column.name) seen_[s].column = column;
@@ -126,9 +132,8 @@ void StopConditions::look_at_sums(const Moment& moment) {
 
 void StopConditions::look(const Moment& moment) {
   if (moment.is_due(static_cast<double>(steps_between_looks))) look_at_sums(moment);
-  const bool asks_for_walls = std::ranges::any_of(setup_.stops, [&](const cases::Stop& stop) {
-    return stop.when == cases::StopWhen::perforated && moment.time() >= stop.after;
-  });
+  const bool asks_for_walls = std::ranges::any_of(
+      setup_.stops, [&](const cases::Stop& stop) { return is_of_wall(stop) && moment.time() >= stop.after; });
   if (!asks_for_walls) return;
   const std::int64_t last = snapshots_.complete_last();
   if (last == judged_ || last < 0) return;
@@ -162,6 +167,7 @@ bool StopConditions::holds(const cases::Stop& stop, Seen& seen, const Moment& mo
     case cases::StopWhen::settled:
       return has_settled(stop, seen, moment.time(), seen.column->value(HistorySource(moment.simulation)));
     case cases::StopWhen::perforated:
+    case cases::StopWhen::decided:
     case cases::StopWhen::wall_time:
       break;
   }
@@ -183,25 +189,38 @@ bool StopConditions::has_settled(const cases::Stop& stop, Seen& seen, double tim
   return most - least <= stop.change * seen.largest;
 }
 
-/// Judges the last snapshot, on the first rank.
+/// Sets up the walls by the first snapshot.
+void StopConditions::begin_walls() {
+  const analysis::Snapshot first = analysis::read_snapshot(run_->snapshots.front());
+  const analysis::Frame frame = analysis::find_frame(*run_, first);
+  for (std::size_t s = 0; s < walls_.size(); ++s) {
+    if (!is_of_wall(setup_.stops[s])) continue;
+    walls_[s].emplace(*run_, first, frame, body_of(setup_.stops[s]));
+    const std::string reason = walls_[s]->look(first).undecided;
+    if (!reason.empty()) log::warning("whether {} cannot be decided: {}", setup_.stops[s].in_words(), reason);
+    if (setup_.stops[s].when == cases::StopWhen::decided) judges_[s].emplace(*run_, first, frame, *walls_[s]);
+  }
+}
+
+/// Judges the last snapshot, on the first rank; outcomes, which depend on the past, with all that were not judged yet.
 void StopConditions::look_at_walls() {
-  analysis::Run run = analysis::read_run(folder_);
+  const analysis::Run run = analysis::read_run(folder_);
   if (!run_) {
     run_ = run;
-    const analysis::Snapshot first = analysis::read_snapshot(run_->snapshots.front());
-    const analysis::Frame frame = analysis::find_frame(*run_, first);
-    for (std::size_t s = 0; s < walls_.size(); ++s) {
-      if (setup_.stops[s].when != cases::StopWhen::perforated) continue;
-      walls_[s].emplace(*run_, first, frame, body_of(setup_.stops[s]));
-      const analysis::Quantities start = walls_[s]->measure(first);
-      if (!start.front().reason.empty())
-        log::warning("whether {} cannot be decided: {}", setup_.stops[s].in_words(), start.front().reason);
-    }
+    begin_walls();
   }
-  const analysis::Snapshot now = analysis::read_snapshot(run.snapshots.back());
-  for (std::size_t s = 0; s < walls_.size() && found_ == 0; ++s) {
-    if (walls_[s] && now.time >= setup_.stops[s].after && walls_[s]->measure(now).front().value == 1.0)
-      found_ = static_cast<int>(s) + 1;
+  const bool past_matters = std::ranges::any_of(judges_, [](const auto& judge) { return judge.has_value(); });
+  const std::size_t from = past_matters ? fed_ : run.snapshots.size() - 1;
+  fed_ = run.snapshots.size();
+  for (std::size_t k = from; k < run.snapshots.size() && found_ == 0; ++k) {
+    const analysis::Snapshot now = analysis::read_snapshot(run.snapshots[k]);
+    for (std::size_t s = 0; s < walls_.size() && found_ == 0; ++s) {
+      if (!walls_[s]) continue;
+      const analysis::Wall::Remains left = walls_[s]->look(now);
+      if (judges_[s]) judges_[s]->add(now, left);
+      const bool holds = judges_[s] ? judges_[s]->decided() : left.undecided.empty() && !left.closed;
+      if (holds && now.time >= setup_.stops[s].after) found_ = static_cast<int>(s) + 1;
+    }
   }
 }
 

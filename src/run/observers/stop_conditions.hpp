@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "src/analysis/outcome.hpp"
 #include "src/analysis/wall.hpp"
 #include "src/io/ranks.hpp"
 #include "src/io/run_directory.hpp"
@@ -20,7 +21,7 @@
 namespace whipple::run {
 
 /// Ends a run where a condition of its case holds ([[stop]]), one step after it was found: speeds, energies and columns
-/// are looked at every tenth step, perforation in each snapshot, by the measure of `whipple analyse`.
+/// are looked at every tenth step, perforation and outcomes in each snapshot, by the measures of `whipple analyse`.
 class StopConditions : public RunObserver {
  public:
   /// @param snapshots  of the run, called before this observer; must outlive it
@@ -56,6 +57,7 @@ class StopConditions : public RunObserver {
   void look_at_sums(const Moment& moment);
   [[nodiscard]] bool holds(const cases::Stop& stop, Seen& seen, const Moment& moment);
   [[nodiscard]] bool has_settled(const cases::Stop& stop, Seen& seen, double time, double value) const;
+  void begin_walls();
   void look_at_walls();
   [[nodiscard]] static Motion motion_of(const solver::Simulation& simulation, std::size_t body);
   [[nodiscard]] std::size_t body_of(const cases::Stop& stop) const;
@@ -70,7 +72,9 @@ class StopConditions : public RunObserver {
   std::vector<Seen> seen_;            // of each condition
   std::optional<analysis::Run> run_;  // on the first rank, for the walls
   std::vector<std::optional<analysis::Wall>> walls_;
-  std::int64_t judged_ = -1;         // step of the last snapshot that was judged
+  std::vector<std::optional<analysis::Judge>> judges_;  // of conditions on outcomes
+  std::size_t fed_ = 0;                                 // number of snapshots that the judges have seen
+  std::int64_t judged_ = -1;                            // step of the last snapshot that was judged
   double before_ = 0.0, now_ = 0.0;  // s of wall time, before the last restart and up to now
   int found_ = 0;                    // number of the condition that holds, from 1
   int ended_ = 0;                    // number of the condition by which the run ends with this step

@@ -7,7 +7,7 @@
 #include "src/transfer/formulas.hpp"
 #include "src/transfer/kernels/stencil_sums.hpp"
 
-/// What points take from their nodes.
+/// Gathers of points from their nodes.
 namespace whipple::transfer {
 
 /// D = a_p(x_i) - v_i is the difference of the particle's affine field and the grid's velocity at node i.
@@ -93,7 +93,7 @@ WHIPPLE_INLINE inline ValueAndGradient<Vector> sums_of(const Group& group, const
 /// present, computes the new values of the points from the sums.
 ///
 /// Velocity and affine field (4.3), transfer dissipation (4.5).
-/// @tparam affine  whether the points carry an affine field; what becomes of it is no other kernel, but a
+/// @tparam affine  whether the points carry an affine field; its update is not another kernel but a
 ///                 branch that always goes the same way
 template <class Vector, bool affine>
 struct TransferSums {
@@ -160,7 +160,7 @@ struct TransferSums {
   }
 };
 
-/// New velocity of the grid, and what of it the step brought.
+/// New velocity of the grid, and its increment in the step.
 template <class Vector>
 struct UpdateSums {
   using Content = grid::Node;

@@ -10,7 +10,7 @@
 /// Both registers of a node, of which one WideLanes holds all and Lanes a half.
 namespace whipple::transfer {
 
-/// Points that take something at a time: one per vector that a register holds.
+/// Points that are gathered at a time: one per vector that a register holds.
 template <class Vector>
 constexpr std::size_t points_of = width<Vector> / 4;
 

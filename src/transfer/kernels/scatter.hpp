@@ -12,7 +12,7 @@
 #include "src/transfer/point_values.hpp"
 #include "src/transfer/shape_weights.hpp"
 
-/// What points bring to their nodes.
+/// Contributions of points to their nodes.
 namespace whipple::transfer {
 
 /// Points whose weights are computed together.
@@ -62,7 +62,7 @@ WHIPPLE_INLINE inline std::array<Both, n> shares(const std::array<Both, n>& weig
   return share;
 }
 
-/// Adds what a point brings to its nodes (equation 4.1 and the forces): node += N P_0 + sum over directions
+/// Adds the contributions of a point to its nodes (equation 4.1 and the forces): node += N P_0 + sum over directions
 /// of S_a P_a, with S_a = N r_a in the first register and the slope of N in the second.
 template <class Vector, class Shape, class Stencil>
 WHIPPLE_INLINE inline void add_payload(const Payload& load, const Weights<Shape::count>& w,

@@ -14,7 +14,7 @@
 /// Sums over the nodes of a stencil, built up direction by direction.
 namespace whipple::transfer {
 
-/// Points that take something at a time; if there are fewer, the last stands for the others.
+/// Points that are gathered at a time; if there are fewer, the last is repeated.
 template <class Vector>
 using PointsOfGroup = std::array<std::uint32_t, points_of<Vector>>;
 

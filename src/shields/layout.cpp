@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/shields/layout.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "src/core/base/error.hpp"
+
+namespace whipple::shields {
+namespace {
+
+constexpr double cells_per_sphere = 12.0, cells_per_bumper = 4.0, cells_per_wall = 6.0, least_cells = 2.0;
+constexpr double cone = 0.5;  // tangent of the half-angle of the cone of debris that the wall covers
+
+/// Chooses the cell size: the coarsest that gives sphere, bumpers and wall their cells, but not finer than the cap.
+void choose_cells(const Impact& impact, const CaseOptions& options, Layout& layout) {
+  const double d = impact.projectile.diameter;
+  if (options.cell_size) {
+    layout.cell_size = *options.cell_size;
+    layout.chosen_by = "given";
+    return;
+  }
+  layout.cell_size = d / cells_per_sphere;
+  layout.chosen_by = fmt::format("{} cells across the sphere", cells_per_sphere);
+  const auto need = [&](double thickness, double cells, const std::string& name) {
+    if (!(thickness / cells < layout.cell_size)) return;
+    layout.cell_size = thickness / cells;
+    layout.chosen_by = fmt::format("{} cells across the {}", cells, name);
+  };
+  for (const Bumper& bumper : impact.shield.bumpers) need(bumper.sheet.thickness, cells_per_bumper, "bumper");
+  need(impact.shield.wall.thickness, cells_per_wall, "wall");
+  if (layout.cell_size < d / options.most_across) {
+    layout.chosen_by =
+        fmt::format("cap of {} cells across the sphere instead of {}", options.most_across, layout.chosen_by);
+    layout.cell_size = d / options.most_across;
+  }
+}
+
+/// Places the sheets: a bumper of three diameters and ten thicknesses about the point of impact, further sheets as wide
+/// as the cone of debris from the first.
+void place_sheets(const Impact& impact, Layout& layout) {
+  const double d = impact.projectile.diameter, tangent = std::tan(impact.projectile.angle);
+  const double across = d / std::cos(impact.projectile.angle);  // of the trace of the sphere on a sheet
+  double front = 0.0;
+  const auto place = [&](const std::string& name, double thickness, double reach) {
+    Plate plate{.name = name, .front = front, .thickness = thickness, .radius = reach};
+    plate.along = {-reach, reach + front * tangent + (tangent > 0.0 ? across : 0.0)};
+    plate.cells = thickness / layout.cell_size;
+    plate.resolved = plate.cells >= least_cells * (1.0 - 1e-9);
+    layout.plates.push_back(plate);
+  };
+  const auto reach_of = [&](double thickness) {
+    return front > 0.0 ? 0.5 * d + cone * front + thickness : 3.0 * d + 10.0 * thickness;
+  };
+  const std::vector<Bumper>& bumpers = impact.shield.bumpers;
+  for (std::size_t k = 0; k < bumpers.size(); ++k) {
+    const double thickness = bumpers[k].sheet.thickness;
+    place(bumpers.size() == 1 ? "bumper" : fmt::format("bumper_{}", k + 1), thickness, reach_of(thickness));
+    front += thickness + bumpers[k].spacing;
+  }
+  place("wall", impact.shield.wall.thickness, reach_of(impact.shield.wall.thickness));
+}
+
+void place_domain(const Impact& impact, Layout& layout) {
+  const double d = impact.projectile.diameter, h = layout.cell_size, margin = 4.0 * h;
+  const Plate& wall = layout.plates.back();
+  const bool oblique = impact.projectile.angle > 0.0;
+  double lower = 0.0, upper = 0.0, side = 0.0;
+  for (const Plate& plate : layout.plates) {
+    lower = std::min(lower, plate.along[0]);
+    upper = std::max(upper, plate.along[1]);
+    side = std::max(side, plate.radius);
+  }
+  const auto to_cells = [h](double x) { return std::ceil(x / h - 1e-9) * h; };
+  layout.lower = {oblique ? -to_cells(margin - lower) : 0.0, 0.0, -to_cells(4.0 * d)};
+  const double behind = std::max(5.0 * wall.thickness, 4.0 * d);
+  layout.upper = {to_cells(upper + margin), to_cells(side + margin),
+                  to_cells(wall.front + wall.thickness + behind)};
+}
+
+/// Chooses the times: debris at a quarter of the impact speed has arrived, and the wall has then had the time in which
+/// 66 m/s cover a diameter of the sphere; a snapshot in each time in which 1.5 km/s do.
+void choose_times(const Impact& impact, Layout& layout) {
+  const double d = impact.projectile.diameter;
+  const double normal_speed = impact.projectile.velocity * std::cos(impact.projectile.angle);
+  layout.end = layout.plates.back().front / (0.25 * normal_speed) + d / 66.0;
+  layout.snapshot_every = d / 1500.0;
+}
+
+void count_particles(const Impact& impact, Layout& layout) {
+  const double spacing = 0.5 * layout.cell_size, r = 0.5 * impact.projectile.diameter;
+  const bool oblique = impact.projectile.angle > 0.0;
+  double volume = 0.0;
+  if (layout.model == Model::section) {
+    volume = 0.5 * std::numbers::pi * r * r;
+    for (const Plate& plate : layout.plates) volume += plate.radius * plate.thickness;
+    layout.particles = volume / (spacing * spacing);
+    return;
+  }
+  const double copies = oblique ? 2.0 : 4.0;
+  volume = 4.0 / 3.0 * std::numbers::pi * r * r * r / copies;
+  for (const Plate& plate : layout.plates) {
+    const double face = oblique ? (plate.along[1] - plate.along[0]) * plate.radius
+                                : std::numbers::pi * plate.radius * plate.radius / copies;
+    volume += face * plate.thickness;
+  }
+  layout.particles = volume / (spacing * spacing * spacing);
+}
+
+}  // namespace
+
+Layout layout_of(const Impact& impact, const CaseOptions& options) {
+  if (options.model == Model::section && impact.projectile.angle > 0.0)
+    throw InputError(
+        fmt::format("{}: a section is for normal impact, the angle is {:.4g} degrees: use --model space",
+                    impact.name, impact.projectile.angle * 180.0 / std::numbers::pi));
+  if (impact.shield.stuffing.areal_density > 0.0 || impact.shield.foam.density > 0.0)
+    throw InputError(fmt::format("{}: no case is made of {}, which only the equations know", impact.name,
+                                 impact.shield.foam.density > 0.0 ? "foam" : "stuffing"));
+  Layout layout;
+  layout.model = options.model;
+  choose_cells(impact, options, layout);
+  layout.cells_across = impact.projectile.diameter / layout.cell_size;
+  place_sheets(impact, layout);
+  place_domain(impact, layout);
+  choose_times(impact, layout);
+  count_particles(impact, layout);
+  return layout;
+}
+
+std::string not_resolved(const Layout& layout) {
+  std::string text;
+  for (const Plate& plate : layout.plates) {
+    if (!plate.resolved)
+      text += fmt::format("{}{} ({:.3g} cells)", text.empty() ? "" : ", ", plate.name, plate.cells);
+  }
+  return text;
+}
+
+}  // namespace whipple::shields

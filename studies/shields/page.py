@@ -1,0 +1,203 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""How often are ballistic limit equations right about measured shots on Whipple shields, and how often are runs?
+
+Usage: python3 -m studies.shields.page [--whipple PROGRAM] [--outcomes FILE.csv] [--output PAGE.md]
+
+Reads studies/shields/shots.csv with the critical diameters of `whipple shield --json`, the outcomes of runs
+(studies/shields/outcomes.csv, written by studies/shields/run_shots.py) and the shots that were used to choose constants
+(calibrating.csv), which no score of runs contains. Without outcomes it states the scores of the equations alone.
+"""
+import argparse
+import csv
+import dataclasses
+import json
+import pathlib
+import sys
+
+from studies import commands
+from studies.shields import scores
+
+HERE = pathlib.Path(__file__).resolve().parent
+EQUATIONS = {"nno_1993": "NNO (1993)", "nno_2001": "modified NNO (2001)", "jsc_2011": "thin bumpers (2011)"}
+NEAR = 0.75, 4 / 3  # diameter over the critical one
+SPEEDS = (0, 3, 4.5, 6, 7.5, 20)  # km/s
+THICKNESSES = (0, 0.05, 0.1, 0.2, 0.4, 100)  # bumper over sphere
+REFERENCE = "nno_1993"  # whose critical diameter says how far a shot is from the limit
+DEFEATS = {"perforated", "detached spall"}
+
+
+@dataclasses.dataclass
+class Run:
+    """An outcome of outcomes.csv."""
+    outcome: str
+    resolved: bool
+    hours: float
+    revision: str
+    reason: str
+
+
+@dataclasses.dataclass
+class Shot:
+    """A measured shot, what equations say, and the outcome of its run."""
+    name: str
+    failed: bool
+    speed: float       # km/s
+    angle: float       # rad
+    thickness: float   # of the bumper over the diameter
+    alloy: str         # of the wall
+    sizes: dict        # diameter over the critical one, by equation
+    runnable: bool
+    resolved: bool     # of the case that would be made
+    run: Run | None = None
+
+    def equation(self, name):
+        return None if self.sizes[name] is None else self.sizes[name] > 1
+
+    def is_near(self, name=REFERENCE):
+        return self.sizes[name] is not None and NEAR[0] <= self.sizes[name] <= NEAR[1]
+
+    def defeated(self):
+        return None if self.run is None or self.run.outcome == "undecided" else self.run.outcome in DEFEATS
+
+    def perforated(self):
+        return None if self.defeated() is None else self.run.outcome == "perforated"
+
+
+def read_csv(file):
+    if not file.exists():
+        return []
+    lines = [line for line in file.read_text(encoding="utf-8").splitlines() if line and not line.startswith("#")]
+    return list(csv.DictReader(lines))
+
+
+def shot_of(entry):
+    diameter = entry["sphere"]["diameter"]
+    limits = {name: entry["equations"][name]["critical_diameter"] for name in EQUATIONS}
+    return Shot(name=f"{entry['source']}/{entry['name']}", failed=entry["result"] == "P",
+                speed=entry["sphere"]["velocity"] / 1e3, angle=entry["sphere"]["angle"],
+                thickness=entry["bumpers"][0]["thickness"] / diameter, alloy=entry["wall"]["alloy"],
+                sizes={name: diameter / limit if limit else None for name, limit in limits.items()},
+                runnable="refused" not in entry["case"], resolved=entry["case"].get("resolved", False))
+
+
+def read_shots(whipple, table):
+    entries = json.loads(commands.call([whipple, "shield", table, "--model", "space", "--json", "--quiet"]).stdout)
+    return [shot_of(entry) for entry in entries]
+
+
+def add_runs(shots, rows):
+    """Attaches the last outcome of each shot. @throws SystemExit for a shot that the table does not have"""
+    by_name = {shot.name: shot for shot in shots}
+    for row in rows:
+        if row["shot"] not in by_name:
+            sys.exit(f"outcomes of a shot that is not in the table: {row['shot']}")
+        by_name[row["shot"]].run = Run(outcome=row["outcome"], resolved=row["resolved"] == "yes",
+                                       hours=float(row["core hours"]), revision=row["revision"], reason=row["reason"])
+
+
+def table(head, rows):
+    return ["| " + " | ".join(head) + " |", "|" + " --- |" * len(head),
+            *("| " + " | ".join(map(str, row)) + " |" for row in rows), ""]
+
+
+def equation_section(shots):
+    groups = {"all": shots, "normal": [s for s in shots if s.angle == 0], "oblique": [s for s in shots if s.angle > 0]}
+    rows = []
+    for name, title in EQUATIONS.items():
+        for group, members in [*groups.items(), ("normal, near", [s for s in groups["normal"] if s.is_near(name)])]:
+            result = scores.confusion(members, lambda shot, name=name: shot.equation(name))
+            rows.append([title, group, f"{result.right}/{result.count}", scores.percent(result.right, result.count),
+                         result.unsafe, f"{100 * result.majority / result.count:.1f} %" if result.count else "-"])
+    return ["## Equations", "", "Right predictions of P or NP with their interval of 95 %; unsafe: perforated or spalled, predicted to hold;",
+            f"near: the sphere has {NEAR[0]} to {NEAR[1]:.2f} of the critical diameter of the same equation; majority: always the more frequent result.", "",
+            *table(["equation", "shots", "right", "accuracy", "unsafe", "majority"], rows)]
+
+
+def bands(edges, unit):
+    return [(f"{low:g} to {high:g}{unit}", low, high) for low, high in zip(edges, edges[1:])]
+
+
+def groups_of(scored):
+    """Named groups of scored shots: all, near the limit, by speed, thickness of the bumper, alloy of the wall."""
+    yield "all", scored
+    yield "near the limit", [s for s in scored if s.is_near()]
+    yield "normal", [s for s in scored if s.angle == 0]
+    yield "oblique", [s for s in scored if s.angle > 0]
+    for title, low, high in bands(SPEEDS, " km/s"):
+        yield title, [s for s in scored if low <= s.speed < high]
+    for title, low, high in bands(THICKNESSES, " bumper over sphere"):
+        yield title, [s for s in scored if low <= s.thickness < high]
+    for alloy in sorted({s.alloy for s in scored}):
+        yield f"wall {alloy}", [s for s in scored if s.alloy == alloy]
+
+
+def confusion_rows(scored, prediction):
+    for title, members in groups_of(scored):
+        result = scores.confusion(members, prediction)
+        if result.count:
+            yield [title, result.hit, result.unsafe, result.alarm, result.held, scores.percent(result.right, result.count)]
+
+
+def paired_rows(scored):
+    for group, members in (("all", scored), ("near the limit", [s for s in scored if s.is_near()])):
+        for name, title in EQUATIONS.items():
+            both, run, equation, neither = scores.paired(members, Shot.defeated, lambda shot, name=name: shot.equation(name))
+            if both + run + equation + neither:
+                yield [group, title, both, run, equation, neither, f"{scores.mcnemar(run, equation):.3g}"]
+
+
+def run_section(shots, calibrating):
+    runs = [s for s in shots if s.run is not None]
+    left = [s for s in shots if s.run is None and s.runnable and s.resolved and s.name not in calibrating]
+    scored = [s for s in runs if s.run.resolved and s.defeated() is not None and s.name not in calibrating]
+    lines = ["## Runs", "",
+             f"Of {len(shots)} shots {sum(s.runnable for s in shots)} have materials in the library and {sum(s.runnable and s.resolved for s in shots)} of "
+             f"these are resolved (two cells through every sheet). Runs: {len(runs)}, of these {sum(s.name in calibrating for s in runs)} calibrating, "
+             f"{sum(not s.run.resolved for s in runs)} not resolved, {sum(s.defeated() is None for s in runs)} undecided; scored: {len(scored)}. "
+             f"Resolved shots without a run: {len(left)}, {sum(s.is_near() for s in left)} of them near the limit of {EQUATIONS[REFERENCE]}.", ""]
+    if not scored:
+        return [*lines, "**No shot has been scored: there is no accuracy of runs.**", ""]
+    head = ["shots", "P, defeated", "P, held (unsafe)", "NP, defeated", "NP, held", "accuracy"]
+    lines += [f"Scored revisions: {', '.join(sorted({s.run.revision for s in scored}))}.", "",
+              "### Detached spall counts as defeat", "", *table(head, confusion_rows(scored, Shot.defeated)),
+              "### Perforation alone counts", "", *table(head, confusion_rows(scored, Shot.perforated)),
+              "### Beside the equations, on the same shots", "",
+              "p: two-sided probability of McNemar that equally good predictions differ so much.", "",
+              *table(["shots", "equation", "both right", "run alone", "equation alone", "neither", "p"], paired_rows(scored))]
+    unsafe = [s for s in scored if s.failed and not s.defeated()]
+    lines += ["### Unsafe misses", ""]
+    lines += table(["shot", "outcome", "reason"], [[s.name, s.run.outcome, s.run.reason] for s in unsafe]) if unsafe else ["None.", ""]
+    undecided = [s for s in runs if s.defeated() is None]
+    if undecided:
+        lines += ["### Undecided", "", *table(["shot", "reason"], [[s.name, s.run.reason] for s in undecided])]
+    hours = sorted(s.run.hours for s in runs)
+    lines += ["### Cost", "", f"Core hours per run: {hours[0]:.2g} to {hours[-1]:.2g}, median {hours[len(hours) // 2]:.2g}, sum {sum(hours):.3g}.", ""]
+    return lines
+
+
+def page(shots, calibrating):
+    named = [f"- {name}: {why}" for name, why in calibrating.items()]
+    return "\n".join(["# Shields: predictions and shots", "",
+                      "Written by `python3 -m studies.shields.page`. Shots and their sources: `studies/shields/shots.csv`; equations:",
+                      "[theory](../theory/ballistic_limits.md); outcome of a run: [shields](../manual/shields.md).", "",
+                      *equation_section(shots), *run_section(shots, calibrating),
+                      "## Calibrating shots", "", "In no score of runs:", "", *named, ""])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--whipple", default=commands.ROOT / "build" / "release" / "bin" / "whipple")
+    parser.add_argument("--outcomes", type=pathlib.Path, default=HERE / "outcomes.csv")
+    parser.add_argument("--output", type=pathlib.Path, default=commands.ROOT / "docs" / "generated" / "shields.md")
+    arguments = parser.parse_args()
+    shots = read_shots(arguments.whipple, HERE / "shots.csv")
+    add_runs(shots, read_csv(arguments.outcomes))
+    calibrating = {row["shot"]: row["why"] for row in read_csv(HERE / "calibrating.csv")}
+    text = page(shots, calibrating)
+    arguments.output.write_text(text, encoding="utf-8")
+    print(text)
+
+
+if __name__ == "__main__":
+    main()
