@@ -131,8 +131,8 @@ WORDS_ALLOWED = {
     "src/monitor/handler.cpp": "header fields of HTTP",
     "src/monitor/folder.cpp": "endings of file names",
     "src/run/directory_control.cpp": "endings of file names",
+    "src/sweep/quantities.cpp": "the unit 1",
     "src/app/shield_command.cpp": "endings of file names",
-    "src/sweep/points.cpp": "the unit 1",
     "src/sweep/results.cpp": "the unit 1",
     "src/run/run.cpp": "the file name case.toml",
 }

@@ -5,12 +5,15 @@ import json
 import math
 import pathlib
 import re
+import signal
 import sys
 
-import matplotlib
+signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C ends it at once
+
+import matplotlib  # noqa: E402
 
 matplotlib.use("Agg")
-import matplotlib.pyplot as plt
+import matplotlib.pyplot as plt  # noqa: E402
 
 # The modules of the project are imported from its root.
 sys.path[0] = str(pathlib.Path(__file__).resolve().parents[1])

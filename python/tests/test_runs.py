@@ -81,6 +81,9 @@ class Runs(unittest.TestCase):
         watched = whipple.Run(self.folder / "run")
         self.assertTrue(watched.is_running)
         watched.end()
+        with self.assertRaises(whipple.RunError) as stopped:
+            watched.wait()
+        self.assertIn("is stopped", str(stopped.exception))
         self.assertEqual(watched.status["state"], "stopped")
         self.assertGreater(len(run.results.times), 1)
         with self.assertRaises(whipple.RunError):

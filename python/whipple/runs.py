@@ -39,7 +39,8 @@ def program() -> str:
 
 
 class RunError(RuntimeError):
-    """Report a program that failed: `code` is its exit code (2 input, 3 physics or resources, 4 defect)."""
+    """Report a program that failed: `code` is its exit code (2 input, 3 physics or resources, 4 defect; 1 if it is not known,
+    because another process computed the run)."""
 
     def __init__(self, message: str, code: int):
         super().__init__(message)
@@ -184,6 +185,10 @@ class Run:
                 if deadline is not None and time.monotonic() > deadline:
                     raise TimeoutError(f"{self.folder} still runs")
                 time.sleep(0.1)
+            status = self.status
+            if status is not None and status["state"] != "done":
+                code = 3 if status["state"] == "failed" else 1
+                raise RunError(f"{self.folder} is {status['state']}: {status['message']}", code)
             return self.results
         try:
             message = self._process.communicate(timeout=timeout)[1]

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,7 @@
 #include "src/core/base/log.hpp"
 #include "src/core/base/text.hpp"
 #include "src/core/process/paths.hpp"
+#include "src/core/process/process.hpp"
 #include "src/sweep/report.hpp"
 
 namespace whipple::app {
@@ -39,24 +42,33 @@ fs::path folder_of(const SweepArguments& arguments) {
                                   : fs::path(arguments.output);
 }
 
+fs::path owner_file(const fs::path& folder) { return folder / "study.txt"; }
+
+std::string owner_text(const fs::path& study) { return fs::canonical(study).string() + "\n"; }
+
+/// Checks that a folder is not that of another study.
+/// @throws InputError naming the other study
+void require_owner(const fs::path& folder, const fs::path& study) {
+  const fs::path owner = owner_file(folder);
+  if (!fs::exists(owner)) return;
+  const std::string other = read_text(owner);
+  if (other == owner_text(study)) return;
+  throw InputError(fmt::format("{} is the folder of the study {}: give another one with -o", folder.string(),
+                               other.substr(0, other.find('\n'))));
+}
+
 /// Checks that a folder is new, or that of this study, and notes whose it is.
 /// @throws InputError if it is the folder of another study or holds other files
 void claim_folder(const fs::path& folder, const fs::path& study) {
-  const fs::path owner = folder / "study.txt";
-  const std::string text = fs::canonical(study).string() + "\n";
-  if (fs::exists(owner)) {
-    const std::string other = read_text(owner);
-    if (other == text) return;
-    throw InputError(fmt::format("{} is the folder of the study {}: give another one with -o",
-                                 folder.string(), other.substr(0, other.find('\n'))));
-  }
+  require_owner(folder, study);
+  if (fs::exists(owner_file(folder))) return;
   const bool is_empty = std::ranges::all_of(
       fs::directory_iterator(folder),
       [](const fs::directory_entry& entry) { return entry.path().filename() == lock_name; });
   if (!is_empty)
     throw InputError(
         fmt::format("{} is not empty and no folder of a study: give another one with -o", folder.string()));
-  write_text_atomically(owner, text);
+  write_text_atomically(owner_file(folder), owner_text(study));
 }
 
 /// Returns a text as one word of a shell.
@@ -98,33 +110,76 @@ void print_plan(const sweep::Plan& plan, const sweep::Computer& computer) {
             format_bytes(plan.most_memory));
 }
 
-int run_study(const SweepArguments& arguments) {
+/// Tells the user that a signal ended the study. @returns the exit code
+int ended_by(int signal) {
+  log::warning("ended by signal {}: the same command goes on", signal);
+  return 128 + signal;
+}
+
+/// Computes one point, as a task of a job array: others compute other points in the same folder.
+int compute_point(const SweepArguments& arguments, const sweep::Plan& plan, sweep::Computer& computer,
+                  const process::Pool& pool) {
+  if (arguments.point >= static_cast<int>(plan.points.size()))
+    throw InputError(
+        fmt::format("--point {}: the study has the points 0 to {}", arguments.point, plan.points.size() - 1));
+  const sweep::Point& point = plan.points[static_cast<std::size_t>(arguments.point)];
+  const bool complete = computer.compute({&point, 1});
+  if (!complete) return ended_by(pool.stopped_by());
+  for (const sweep::Elsewhere& other : computer.elsewhere())
+    throw InputError(fmt::format("--point {}: {} is being computed by {}", arguments.point,
+                                 computer.run_folder(point).string(), other.holder));
+  const sweep::Record record = computer.record(point);
+  return record.state == sweep::State::missing ? ended_from_outside : record.exit_code;
+}
+
+/// Tells the user which points have no results yet. @returns the exit code
+int tell_missing(std::span<const sweep::Point> points, const sweep::Computer& computer) {
+  std::vector<std::string> elsewhere;
+  for (const sweep::Elsewhere& other : computer.elsewhere()) {
+    elsewhere.push_back(other.name);
+    log::warning("{} is being computed by {}", other.name, other.holder);
+  }
+  const auto is_stopped = [&](const sweep::Point& point) {
+    return computer.record(point).state == sweep::State::missing &&
+           std::ranges::count(elsewhere, point.name()) == 0;
+  };
+  const auto stopped = std::ranges::count_if(points, is_stopped);
+  if (stopped > 0) log::warning("{} points were ended from outside: the same command goes on", stopped);
+  if (!elsewhere.empty())
+    log::warning("{} points are being computed elsewhere: the same command collects them later",
+                 elsewhere.size());
+  return stopped > 0 || !elsewhere.empty() ? ended_from_outside : 0;
+}
+
+/// Tells what a study came to, before its figures.
+struct Outcome {
+  int exit_code = 0;
+  bool has_tables = false;
+};
+
+Outcome compute_study(const SweepArguments& arguments, const fs::path& folder) {
   process::Pool pool;  // before any thread
-  const sweep::Plan plan = sweep::make_plan(arguments.study);
-  const fs::path folder = folder_of(arguments);
+  const auto is_asked_to_end = [&pool] { return pool.is_asked_to_end(); };
+  const std::optional<sweep::Plan> prepared = sweep::make_plan(arguments.study, is_asked_to_end);
+  if (!prepared) return {ended_by(pool.stopped_by())};
+  const sweep::Plan& plan = *prepared;
   sweep::Computer computer(plan, folder, pool, {.retry = arguments.retry});
   if (arguments.dry_run) {
     print_plan(plan, computer);
-    return 0;
+    return {};
   }
   require_no_file(folder);
   make_folder(folder);
-  if (arguments.point >= 0) {  // a task of a job array: others compute other points in the same folder
-    if (arguments.point >= static_cast<int>(plan.points.size()))
-      throw InputError(fmt::format("--point {}: the study has the points 0 to {}", arguments.point,
-                                   plan.points.size() - 1));
-    const sweep::Point& point = plan.points[static_cast<std::size_t>(arguments.point)];
-    const bool complete = computer.compute({&point, 1});
-    if (!complete) return 128 + pool.stopped_by();
-    const sweep::Record record = computer.record(point);
-    return record.state == sweep::State::missing ? ended_from_outside : record.exit_code;
+  if (arguments.point >= 0) {
+    require_owner(folder, arguments.study);
+    return {compute_point(arguments, plan, computer, pool)};
   }
   const FileLock lock(folder / lock_name, fmt::format("the folder of the study {}", folder.string()),
                       FileLock::IfHeld::refuse);
   claim_folder(folder, arguments.study);
   if (!arguments.slurm.empty()) {
     write_slurm(arguments, plan, folder);
-    return 0;
+    return {};
   }
   std::vector<sweep::Point> points = plan.points;
   bool complete = computer.compute(points);
@@ -132,26 +187,32 @@ int run_study(const SweepArguments& arguments) {
   const sweep::Results results = sweep::collect(plan, computer, points);
   sweep::write_tables(results, folder);
   if (arguments.json) fmt::print("{}", sweep::as_json(results));
-  if (!complete) {
-    log::warning("ended by signal {}: the same command goes on", pool.stopped_by());
-    return 128 + pool.stopped_by();
-  }
+  if (!complete) return {ended_by(pool.stopped_by())};
   if (!arguments.json) fmt::print("{}", sweep::summary(results));
   log::info("wrote {}: {} points, {} of them computed now", (folder / "points.csv").string(), points.size(),
             computer.computed());
-  if (!arguments.no_figures) {
-    try {
-      sweep::draw_figures(folder);
-    } catch (const InputError& error) {  // the tables are complete
-      log::warning("no figures: {}", error.what());
-    }
+  return {tell_missing(points, computer), true};
+}
+
+/// Draws the figures, after the pool has given the signals back: they end the drawing.
+/// @returns the exit code if one has ended it, else 0
+int draw(const fs::path& folder) {
+  try {
+    sweep::draw_figures(folder);
+  } catch (const InputError& error) {  // the tables are complete
+    const int signal = process::last_signal();
+    if (signal == SIGINT || signal == SIGTERM) return ended_by(signal);
+    log::warning("no figures: {}", error.what());
   }
-  const auto is_missing = [&](const sweep::Point& point) {
-    return computer.record(point).state == sweep::State::missing;
-  };
-  const auto missing = std::ranges::count_if(points, is_missing);
-  if (missing > 0) log::warning("{} points were ended from outside: the same command goes on", missing);
-  return missing > 0 ? ended_from_outside : 0;
+  return 0;
+}
+
+int run_study(const SweepArguments& arguments) {
+  const fs::path folder = folder_of(arguments);
+  const Outcome outcome = compute_study(arguments, folder);
+  if (!outcome.has_tables || arguments.no_figures) return outcome.exit_code;
+  const int drawn = draw(folder);
+  return drawn == 0 ? outcome.exit_code : drawn;
 }
 
 }  // namespace
@@ -179,7 +240,8 @@ void add_sweep_command(CLI::App& app) {
       "Interrupted, the same command goes on: finished points are found by the digest of their input.\n"
       "whipple describe study lists the keys. Exit codes: 0 all points are finished (failed ones are "
       "listed),\n"
-      "  2 wrong input, 3 a point was ended from outside, 128 + signal when stopped");
+      "  2 wrong input, 3 a point was ended from outside or is computed elsewhere, 128 + signal when "
+      "stopped");
   command->callback([arguments] {
     const int code = run_study(*arguments);
     if (code != 0) throw CLI::RuntimeError(code);

@@ -174,7 +174,8 @@ bool has_covariance(const Material& material) {
 }
 
 MaterialSamples sample_material(const std::filesystem::path& path, int count, std::uint64_t seed,
-                                ErrorTier tier, const std::filesystem::path& beside) {
+                                ErrorTier tier, const std::filesystem::path& beside,
+                                const std::function<bool()>& is_asked_to_end) {
   const std::filesystem::path file = find_material(path, beside);
   const Errors errors = read_errors(file, tier);
   if (over_potentials(tier) && !errors.spread) {
@@ -199,7 +200,7 @@ MaterialSamples sample_material(const std::filesystem::path& path, int count, st
     return values_of(read_material(file), covariance);
   };
   NormalSamples distribution(central(), covariance.matrix, seed);
-  while (static_cast<int>(samples.materials.size()) < count) {
+  while (static_cast<int>(samples.materials.size()) < count && !is_asked_to_end()) {
     const Eigen::VectorXd values = distribution.draw();
     std::vector<std::pair<std::string, std::string>> changes;
     for (std::size_t k = 0; k < covariance.names.size(); ++k) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <utility>
@@ -31,12 +32,15 @@ bool has_covariance(const Material& material);
 /// of the matrix for each name; [default_errors] holds an error for each name) and draws its constants from the normal
 /// distribution about their values in [eos]. Equal warnings of several draws are combined in one warning with their
 /// number.
-/// @param tier          errors to include: of the fit (with those of the defaults), over the potentials, or both
-/// @param path, beside  as in read_material
+/// @param tier             errors to include: of the fit (with those of the defaults), over the potentials, or both
+/// @param path, beside     as in read_material
+/// @param is_asked_to_end  called between two draws; the samples end where it returns true
 /// @throws InputError if the file lacks a table that the tier requires, a table is invalid, or four of five draws are
 /// refused
-MaterialSamples sample_material(const std::filesystem::path& path, int count, std::uint64_t seed,
-                                ErrorTier tier = ErrorTier::fit, const std::filesystem::path& beside = {});
+MaterialSamples sample_material(
+    const std::filesystem::path& path, int count, std::uint64_t seed, ErrorTier tier = ErrorTier::fit,
+    const std::filesystem::path& beside = {},
+    const std::function<bool()>& is_asked_to_end = [] { return false; });
 
 /// Reads a material file with some keys changed, such as ("eos.gruneisen", "1.9").
 /// @throws InputError as read_material

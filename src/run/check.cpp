@@ -69,7 +69,7 @@ CaseCheck examine_case(const RunOptions& options, bool with_forecast, MPI_Comm c
   CaseCheck found;
   found.setup = cases::read_case(options.case_file, options.overrides);
   cases::Case& setup = found.setup;
-  require_known_columns(setup);
+  require_known_columns(setup, options.overrides);
   require_memory(setup, communicator);
   found.expected_memory = cases::expected_memory(setup);
   cases::tabulate_materials(setup, io::Ranks(communicator));

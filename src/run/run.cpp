@@ -13,6 +13,7 @@
 
 #include "src/case/build/tables.hpp"
 #include "src/case/remarks.hpp"
+#include "src/core/base/error.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/base/text.hpp"
 #include "src/core/parallel/mpi.hpp"
@@ -36,6 +37,7 @@
 #include "src/run/restart.hpp"
 #include "src/run/runner.hpp"
 #include "src/run/signal_control.hpp"
+#include "src/run/status.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple::run {
@@ -132,7 +134,7 @@ int begin(const RunOptions& options, MPI_Comm communicator) {
   std::optional<ReplayControl> replay;
   if (!options.replay.empty()) replay.emplace(options.replay);  // on every rank: all raise its errors
   cases::Case setup = cases::read_case(options.case_file, options.overrides);
-  require_known_columns(setup);
+  require_known_columns(setup, options.overrides);
   require_memory(setup, communicator);
   cases::tabulate_materials(setup, ranks);
   const io::RunDirectory directory =
@@ -147,15 +149,36 @@ int begin(const RunOptions& options, MPI_Comm communicator) {
   return run_with_controls(runner, directory, ranks, replay ? &*replay : nullptr);
 }
 
+/// Returns whether a run has written everything at its end, its status last. Collective.
+bool is_complete(const fs::path& folder, const io::Ranks& ranks) {
+  bool complete = false;
+  ranks.on_root([&] {
+    try {
+      complete = read_status(folder).state == Activity::done;
+    } catch (const InputError&) {  // without its status it is not
+    }
+  });
+  return ranks.broadcast(complete ? "complete" : "") == "complete";
+}
+
 /// Continues a run from its latest checkpoint. @returns the exit code
 int go_on(const RunOptions& options, MPI_Comm communicator) {
   const io::Ranks ranks(communicator);
   std::shared_ptr<const FileLock> lock;  // before reading anything that another run may write
   ranks.on_root([&] { lock = io::lock_run(options.output_directory); });
   cases::Case setup = cases::read_case(options.output_directory / "run.toml", options.overrides);
-  cases::tabulate_materials(setup, ranks);
+  require_known_columns(setup, options.overrides);
   io::Checkpoint checkpoint =
       io::read_latest_checkpoint(options.output_directory / "checkpoint", communicator);
+  const int ended_by = StopConditions::ended_by(setup, checkpoint.values);
+  if (ended_by > 0 && is_complete(options.output_directory, ranks)) {
+    static_cast<void>(require_same_input(setup, checkpoint.values));
+    log::info("{} has ended because {}: nothing to do; --set stop='[]' goes on without conditions",
+              options.output_directory.string(),
+              setup.stops[static_cast<std::size_t>(ended_by - 1)].in_words());
+    return 0;
+  }
+  cases::tabulate_materials(setup, ranks);
   const io::RunDirectory directory =
       io::RunDirectory::open(options.output_directory, checkpoint.values.text("run_name"));
   if (ranks.is_root()) log::set_file(directory.log_file());
@@ -169,7 +192,7 @@ int go_on(const RunOptions& options, MPI_Comm communicator) {
   }
   require_disk(simulation, directory, 1, ranks);
   Runner runner(simulation, observers_of(simulation, directory, options, ranks), options.wall_time);
-  runner.resume(checkpoint.values);
+  runner.resume(checkpoint.values, ended_by);
   log::info("restarted from {} at step {}, t = {:.6g} s", checkpoint.path.string(), simulation.state().step,
             simulation.state().time);
   return run_with_controls(runner, directory, ranks);

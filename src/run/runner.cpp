@@ -55,7 +55,9 @@ void Runner::begin() {
   for (const auto& observer : observers_) observer->begin(now());
 }
 
-void Runner::resume(const io::CheckpointValues& values) {
+void Runner::resume(const io::CheckpointValues& values, int ended_by) {
+  requests_.condition = ended_by;
+  if (ended_by > 0) schedule_.end = simulation_.state().time;
   for (const auto& observer : observers_) observer->resume(now(), values);
 }
 

@@ -20,7 +20,8 @@ class Runner {
   /// Calls the observers in the initial state.
   void begin();
   /// Calls the observers in the state of a checkpoint.
-  void resume(const io::CheckpointValues& values);
+  /// @param ended_by  condition of the case, from 1, that had ended the run: no step is made; 0: none
+  void resume(const io::CheckpointValues& values, int ended_by = 0);
 
   /// Advances to the end of the schedule, until a condition of the case holds, or until a control requests
   /// the end.

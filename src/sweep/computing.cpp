@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <csignal>
 #include <deque>
-#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <system_error>
 
 #include "src/core/base/error.hpp"
@@ -27,7 +29,19 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr double usable_memory = 0.8;  // of the machine; the rest is of the system and of other programs
-constexpr int was_stopped = 124;       // this exit code and higher ones: the run can go on
+/// Exit codes of a run that was asked to end, or had reached its limit of wall time: it can go on.
+constexpr std::array was_stopped = {124, 128 + SIGHUP, 128 + SIGINT, 128 + SIGKILL, 128 + SIGTERM};
+/// Exit codes of the shell and the dynamic linker for a program that they could not start.
+constexpr std::array not_started = {126, 127};
+
+/// Names a signal by which a program that is at fault ends; all others come from outside.
+struct Crash {
+  int signal;
+  const char* name;
+};
+constexpr std::array crashes = {Crash{SIGSEGV, "SIGSEGV"}, Crash{SIGABRT, "SIGABRT"},
+                                Crash{SIGBUS, "SIGBUS"},   Crash{SIGFPE, "SIGFPE"},
+                                Crash{SIGILL, "SIGILL"},   Crash{SIGSYS, "SIGSYS"}};
 
 /// Returns the status of the run of a point; nothing if it has none.
 std::optional<run::RunStatus> status_of(const fs::path& folder) {
@@ -92,7 +106,11 @@ Record Computer::record(const Point& point) const {
     const Json json = parse_ordered_json(read_text(file));
     const std::optional<State> state = value_of<State>(json.at("state").get<std::string>());
     if (!state || json.at("digest") != point.digest) throw InputError("not of this point");
-    return {*state, json.at("exit_code"), json.at("message"), json.at("wall_time")};
+    Record record = {*state, json.at("exit_code"), json.at("message"), json.at("wall_time"), {}};
+    const auto measured = json.find("measured");  // records of earlier versions tell nothing: measured again
+    if (measured != json.end() && !measured->is_null())
+      record.measured = measured->get<std::vector<std::string>>();
+    return record;
   } catch (const std::exception& error) {
     throw InputError(
         fmt::format("{}: error: is no record of a point ({}): remove it to compute the point again",
@@ -103,15 +121,21 @@ Record Computer::record(const Point& point) const {
 void Computer::finish(const Point& point, Record record) {
   Json changes = Json::object();
   for (std::size_t v = 0; v < plan_.variables.size(); ++v) changes[plan_.variables[v].name] = point.texts[v];
-  const Json json = {{"digest", point.digest},         {"values", changes},
-                     {"cell_size", point.cell_size},   {"offset", point.offset},
-                     {"state", word_of(record.state)}, {"exit_code", record.exit_code},
-                     {"message", record.message},      {"wall_time", record.wall_time}};
+  const Json json = {{"digest", point.digest},
+                     {"values", changes},
+                     {"cell_size", point.cell_size},
+                     {"offset", point.offset},
+                     {"state", word_of(record.state)},
+                     {"exit_code", record.exit_code},
+                     {"message", record.message},
+                     {"wall_time", record.wall_time},
+                     {"measured", record.measured ? Json(*record.measured) : Json(nullptr)}};
   if (plan_.study.computing.keep == Keep::tables) remove_large_files(run_folder(point));
   replace_durably(record_file(point), record_file(point).string() + ".partial", json_text(json, 2) + "\n");
   std::error_code ignored;
   if (record.state == State::done) fs::remove(log_file(point), ignored);
-  ++computed_;
+  unmeasured_.erase(point.name());
+  locks_.erase(point.name());
 }
 
 std::string Computer::last_words(const Point& point) const {
@@ -126,112 +150,187 @@ std::string Computer::last_words(const Point& point) const {
   return text.size() > most ? text.substr(text.size() - most) : text;
 }
 
-/// Starts the program of a task. @returns false if another process still holds the run
-bool Computer::start(std::size_t tag, Task& task) {
-  const fs::path run = run_folder(*task.point);
-  if (fs::exists(run) && io::is_running(run)) return false;
-  const std::optional<run::RunStatus> status = status_of(run);
-  if (task.stage == Stage::run && status && status->state == run::Activity::done) task.stage = Stage::analyse;
-  std::vector<std::string> program = {program_.string()};
-  const std::string threads = std::to_string(plan_.study.computing.threads);
-  if (task.stage == Stage::analyse) {
-    program.insert(program.end(), {"analyse", run.string(), "--quiet"});
-    program.insert(program.end(), plan_.study.computing.analyse.begin(), plan_.study.computing.analyse.end());
-  } else if (!io::list_checkpoints(run / "checkpoint").empty() && status &&
-             status->state != run::Activity::failed) {
-    program.insert(program.end(), {"run", "--restart", run.string(), "--threads", threads, "--quiet"});
-  } else {
-    program.insert(program.end(),
-                   {"run", plan_.base.file.string(), "-o", run.string(), "--threads", threads, "--quiet"});
-    if (fs::exists(run)) program.emplace_back("--force");
-    make_folder(folder_ / "materials");
-    for (const auto& [key, value] : changes_in(*task.point, folder_ / "materials"))
-      program.insert(program.end(), {"--set", key + "=" + value});
-  }
-  pool_.start(tag, program, log_file(*task.point));
-  return true;
+std::string Computer::unmeasured(const Point& point) const {
+  const auto found = unmeasured_.find(point.name());
+  return found == unmeasured_.end() ? "" : found->second;
 }
 
-bool Computer::ended(Task& task, int code) {
+/// Tells from which program on a point is to be computed.
+Computer::Need Computer::need_of(const Record& record) const {
+  switch (record.state) {
+    case State::missing:
+      return Need::run;
+    case State::failed: {
+      const bool in_other_measures = record.measured && !(measures_ && is_measured(record));
+      return options_.retry || in_other_measures ? Need::run : Need::nothing;
+    }
+    case State::done:
+      break;
+  }
+  return measures_ && !is_measured(record) ? Need::measures : Need::nothing;
+}
+
+/// Starts the program of a task, or finishes its point if the run is all that it needs.
+Computer::Start Computer::start(std::size_t tag, Task& task) {
   const Point& point = *task.point;
-  if (code >= was_stopped) {  // goes on when the study is started again
+  const fs::path run = run_folder(point);
+  std::unique_ptr<const FileLock>& lock = locks_[point.name()];
+  if (!lock) {
+    const fs::path file = folder_ / "points" / (point.name() + ".lock");
+    lock = FileLock::if_free(file, fmt::format("the point {}", run.string()));
+    if (!lock) {
+      elsewhere_.push_back({point.name(), FileLock::last_holder(file)});
+      locks_.erase(point.name());
+      return Start::is_elsewhere;
+    }
+    task.need = need_of(record(point));  // the former holder may have finished it
+  }
+  if (task.need == Need::nothing) {
+    locks_.erase(point.name());
+    return Start::finished;
+  }
+  if (fs::exists(run) && io::is_running(run)) {
+    locks_.erase(point.name());
+    return Start::run_is_held;
+  }
+  const std::optional<run::RunStatus> status = status_of(run);
+  if (task.need == Need::run && status && status->state == run::Activity::done) {
+    task.need = Need::measures;
+    if (!measures_) {
+      finish(point, {State::done, 0, status->ended_by, status->wall_time, {}});
+      return Start::finished;
+    }
+  }
+  const std::vector<std::string>& options = plan_.study.computing.analyse;
+  std::vector<std::string> program = {program_.string(), "analyse", run.string(), "--quiet"};
+  program.insert(program.end(), options.begin(), options.end());
+  pool_.start(tag, task.need == Need::run ? run_program(point, status) : program, log_file(point));
+  return Start::running;
+}
+
+/// Returns the command that computes the run of a point, from its checkpoint if it has one.
+std::vector<std::string> Computer::run_program(const Point& point,
+                                               const std::optional<run::RunStatus>& status) const {
+  const fs::path run = run_folder(point);
+  const std::string threads = std::to_string(plan_.study.computing.threads);
+  if (!io::list_checkpoints(run / "checkpoint").empty() && status && status->state != run::Activity::failed)
+    return {program_.string(), "run", "--restart", run.string(), "--threads", threads, "--quiet"};
+  std::vector<std::string> program = {
+      program_.string(), "run",    plan_.base.file.string(), "-o", run.string(), "--threads",
+      threads,           "--quiet"};
+  if (fs::exists(run)) program.emplace_back("--force");
+  make_folder(folder_ / "materials");
+  for (const auto& [key, value] : changes_in(point, folder_ / "materials"))
+    program.insert(program.end(), {"--set", key + "=" + value});
+  return program;
+}
+
+/// Stores what the end of a program says about a point.
+Computer::End Computer::ended(const Task& task, const process::Pool::Ended& end) {
+  const Point& point = *task.point;
+  const auto crash = std::ranges::find(crashes, end.signal, &Crash::signal);
+  const bool crashed = end.signal != 0 && crash != crashes.end();
+  if (end.signal == 0 && std::ranges::count(not_started, end.code) > 0)
+    throw InputError(fmt::format("{} could not be started: {}", program_.string(), last_words(point)));
+  if (!crashed && (end.signal != 0 || std::ranges::count(was_stopped, end.code) > 0)) {
     if (pool_.stopped_by() == 0)
       log::warning("{} was stopped from outside: {}", run_folder(point).string(), last_words(point));
-    return false;
+    return End::unfinished;  // goes on when the study is started again
+  }
+  const std::string last = last_words(point);
+  const std::string words =
+      crashed ? fmt::format("crashed by {}{}{}", crash->name, last.empty() ? "" : ": ", last) : last;
+  if (task.need == Need::measures) return measured(point, words, end.code);
+  const std::optional<run::RunStatus> status = status_of(run_folder(point));
+  const double seconds = status ? status->wall_time : 0.0;
+  ++computed_;
+  if (end.code != 0) {
+    const bool tells = status && status->state == run::Activity::failed;
+    finish(point, {State::failed, end.code, tells ? status->message : words, seconds, {}});
+    return End::finished;
+  }
+  if (measures_) return End::needs_measures;
+  finish(point, {State::done, 0, status ? status->ended_by : "", seconds, {}});
+  return End::finished;
+}
+
+/// Stores the result of an analysis. Where it fails, a point that was finished before remains so.
+Computer::End Computer::measured(const Point& point, const std::string& fault, int code) {
+  if (code != 0 && record(point).state == State::done) {
+    unmeasured_[point.name()] = fault;
+    log::warning(
+        "{} cannot be measured with the options of the study, its run remains: {}\n  to compute it again, "
+        "remove "
+        "the folder and {}",
+        run_folder(point).string(), fault, record_file(point).string());
+    return End::finished;
   }
   const std::optional<run::RunStatus> status = status_of(run_folder(point));
   const double seconds = status ? status->wall_time : 0.0;
-  if (task.stage == Stage::analyse) {
-    finish(point, code == 0 ? Record{State::done, 0, status ? status->ended_by : "", seconds}
-                            : Record{State::failed, code, "measures: " + last_words(point), seconds});
-    return false;
-  }
+  const std::vector<std::string>& options = plan_.study.computing.analyse;
   if (code != 0) {
-    const bool tells = status && status->state == run::Activity::failed;
-    finish(point, {State::failed, code, tells ? status->message : last_words(point), seconds});
-    return false;
+    finish(point, {State::failed, code, "measures: " + fault, seconds, options});
+  } else {
+    finish(point, {State::done, 0, status ? status->ended_by : "", seconds, options});
   }
-  if (measures_) {
-    task.stage = Stage::analyse;
-    return true;
-  }
-  finish(point, {State::done, 0, status ? status->ended_by : "", seconds});
-  return false;
+  return End::finished;
+}
+
+void Computer::tell(const Point& point, std::size_t finished, std::size_t total) const {
+  const Record result = record(point);
+  log::info("{}/{}{}: {}{}", finished, total, failed_ > 0 ? fmt::format(", {} failed", failed_) : "",
+            fmt::join(point.texts, ", "),
+            result.state == State::failed ? ": " + result.message.substr(0, result.message.find('\n')) : "");
 }
 
 bool Computer::compute(std::span<const Point> points) {
   make_folder(folder_ / "points");
   std::deque<Task> waiting;
-  std::size_t failed = 0;
-  std::map<std::string, int> taken;
+  std::set<std::string> taken;
+  std::size_t to_measure = 0;
   for (const Point& point : points) {
-    const State state = record(point).state;
-    if (state == State::done || (state == State::failed && !options_.retry)) continue;
-    if (taken[point.digest]++ == 0) waiting.push_back({&point, Stage::run});
+    const Need need = need_of(record(point));
+    if (need == Need::nothing || !taken.insert(point.digest).second) continue;
+    waiting.push_back({&point, need});
+    to_measure += need == Need::measures ? 1 : 0;
   }
   const std::size_t total = waiting.size();
-  if (total < points.size() && total > 0)
-    log::info("{} of {} points are finished: {} to compute", points.size() - total, points.size(), total);
-  std::vector<Task> under_way;
-  std::vector<bool> free;
-  std::size_t finished = 0;
+  if (total < points.size() && total > to_measure)
+    log::info("{} of {} points are finished: {} to compute", points.size() - total + to_measure,
+              points.size(), total - to_measure);
+  if (to_measure > 0) log::info("{} finished points are measured with other options than before", to_measure);
+  std::map<std::size_t, Task> under_way;
+  std::size_t tag = 0, finished = 0;
+  failed_ = 0;
   bool told = false;
-  while ((!waiting.empty() || pool_.running() > 0)) {
+  const auto is_finished = [&](const Point& point) {
+    failed_ += record(point).state == State::failed ? 1 : 0;
+    tell(point, ++finished, total);
+  };
+  while (!waiting.empty() || pool_.running() > 0) {
     while (!waiting.empty() && pool_.running() < jobs_ && pool_.stopped_by() == 0) {
       Task task = waiting.front();
       waiting.pop_front();
-      const auto slot = static_cast<std::size_t>(std::ranges::find(free, true) - free.begin());
-      if (slot == free.size()) {
-        free.push_back(true);
-        under_way.push_back(task);
-      }
-      if (!start(slot, task)) {
-        if (!told)
-          log::info("{} is held by another process: waiting for it", run_folder(*task.point).string());
-        told = true;
-        waiting.push_back(task);
-        break;
-      }
-      free[slot] = false;
-      under_way[slot] = task;
+      const Start begun = start(++tag, task);
+      if (begun == Start::running) under_way.insert_or_assign(tag, task);
+      if (begun == Start::finished) is_finished(*task.point);
+      if (begun != Start::run_is_held) continue;
+      if (!told) log::info("{} is held by another process: waiting for it", run_folder(*task.point).string());
+      told = true;
+      waiting.push_back(task);
+      break;
     }
     if (pool_.stopped_by() != 0 && pool_.running() == 0) return false;
     const std::optional<process::Pool::Ended> end = pool_.wait();
     if (!end) continue;
-    Task& task = under_way[end->tag];
-    if (ended(task, end->code) && pool_.stopped_by() == 0) {
-      if (start(end->tag, task)) continue;
-      waiting.push_front(task);
+    Task task = under_way.extract(end->tag).mapped();
+    const End how = ended(task, *end);
+    if (how == End::needs_measures) {
+      waiting.push_front({task.point, Need::measures});
+      continue;
     }
-    free[end->tag] = true;
-    const Record result = record(*task.point);
-    if (result.state == State::missing) continue;
-    ++finished;
-    failed += result.state == State::failed ? 1 : 0;
-    log::info(
-        "{}/{}{}: {}{}", finished, total, failed > 0 ? fmt::format(", {} failed", failed) : "",
-        fmt::join(task.point->texts, ", "),
-        result.state == State::failed ? ": " + result.message.substr(0, result.message.find('\n')) : "");
+    locks_.erase(task.point->name());
+    if (how == End::finished) is_finished(*task.point);
   }
   return pool_.stopped_by() == 0;
 }

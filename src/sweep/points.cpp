@@ -8,12 +8,12 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <set>
 #include <string_view>
 #include <system_error>
 
-#include "src/analysis/measures.hpp"
 #include "src/case/build/placement.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
@@ -25,7 +25,7 @@
 #include "src/core/input/document.hpp"
 #include "src/material/material_file.hpp"
 #include "src/material/material_samples.hpp"
-#include "src/run/observers/history_columns.hpp"
+#include "src/sweep/quantities.hpp"
 #include "src/sweep/sampling.hpp"
 
 namespace whipple::sweep {
@@ -111,11 +111,14 @@ Values listed(const Vary& vary) {
 }
 
 /// Draws the constants of a fitted material.
-Values drawn(const Vary& vary, const Study& study, const cases::Case& base) {
+Values drawn(const Vary& vary, const Study& study, const cases::Case& base,
+             const std::function<bool()>& is_asked_to_end) {
   const std::size_t body = body_of(base, vary.key);
   const MaterialSamples samples =
       sample_material(base.bodies[body].material, static_cast<int>(study.sample.count),
-                      static_cast<std::uint64_t>(study.sample.seed), ErrorTier::fit, base.file.parent_path());
+                      static_cast<std::uint64_t>(study.sample.seed), ErrorTier::fit, base.file.parent_path(),
+                      is_asked_to_end);
+  if (is_asked_to_end()) return {};
   Values all;
   for (const auto& [key, value] : samples.changes.front()) {
     const std::optional<Number> number = Number::of(value);
@@ -149,7 +152,8 @@ std::vector<std::vector<std::string>> product(
 }
 
 /// Returns the values of all sampled ranges and covariances, sample by sample.
-std::vector<Values> sampled(const Study& study, const cases::Case& base) {
+std::vector<Values> sampled(const Study& study, const cases::Case& base,
+                            const std::function<bool()>& is_asked_to_end) {
   std::vector<const Vary*> ranges;
   for (const Vary& vary : study.varied)
     if (vary.kind() == Vary::Kind::sampled) ranges.push_back(&vary);
@@ -168,7 +172,7 @@ std::vector<Values> sampled(const Study& study, const cases::Case& base) {
       values.texts.push_back({in_range(*ranges[r], shares[i][r]).text()});
   }
   for (const Vary& vary : study.varied)
-    if (vary.kind() == Vary::Kind::covariance) all.push_back(drawn(vary, study, base));
+    if (vary.kind() == Vary::Kind::covariance) all.push_back(drawn(vary, study, base, is_asked_to_end));
   return all;
 }
 
@@ -251,70 +255,96 @@ std::string digest_of(const cases::Case& setup) {
   return sha256(cases::to_toml(setup, of_body));
 }
 
+/// Returns where the study names the key of a variable.
+std::string where_of(const Study& study, const std::string& variable) {
+  for (const Vary& vary : study.varied) {
+    if (vary.key == variable || (vary.covariance && variable.starts_with(vary.key + "."))) return vary.where;
+  }
+  return study.find ? study.find->where : study.file.string();
+}
+
+/// Returns whether one key is the other or contains it.
+bool are_related(std::string_view one, std::string_view other) {
+  const std::string_view shorter = one.size() < other.size() ? one : other;
+  const std::string_view longer = one.size() < other.size() ? other : one;
+  return longer.starts_with(shorter) &&
+         (shorter.empty() || shorter.size() == longer.size() || longer[shorter.size()] == '.');
+}
+
+/// Returns a line per variable that sets a key at, above or below the one at fault.
+/// @param file  to which the key belongs, for the message
+std::string lines_of(const Plan& plan, const Point& point, const std::string& key, const std::string& file,
+                     const std::string& text) {
+  std::string lines;
+  for (std::size_t v = 0; v < plan.variables.size(); ++v) {
+    const std::string& variable = plan.variables[v].name;
+    const std::vector<std::string> keys = keys_of(plan.study, variable);
+    if (std::ranges::none_of(keys, [&](const std::string& own) { return are_related(own, key); })) continue;
+    lines += fmt::format("{}: error: '{}' = {}, in {}: {}\n", where_of(plan.study, variable), variable,
+                         toml_string(point.texts[v]), file, text);
+  }
+  return lines;
+}
+
+/// Returns the faults of a point: file, line and key of the study that set what is wrong, and the file that it changes.
+/// @param error    of its case
+/// @param scratch  folder of its materials, which the reader knows nothing of
+std::string faults_of(const Plan& plan, const Point& point, const InputError& error,
+                      const std::filesystem::path& scratch) {
+  std::string lines;
+  std::set<std::string> told;
+  for (const auto& [key, value] : point.changes) {
+    if (!value.starts_with(folder_mark)) continue;
+    const std::filesystem::path copy = scratch / value.substr(folder_mark.size());
+    if (!std::filesystem::exists(copy) || !told.insert(copy.string()).second) continue;
+    const std::filesystem::path base =
+        find_material(plan.base.bodies[body_of(plan.base, key)].material, plan.base.file.parent_path());
+    try {
+      require_usable(read_material(copy));
+    } catch (const InputError& of_material) {
+      for (const InputFault& fault : of_material.faults()) {
+        const std::string below = fault.key.empty() ? key : key + "." + fault.key;
+        const std::string copied = copy.string() + ": error: ";
+        const std::string text =
+            fault.text.starts_with(copied) ? fault.text.substr(copied.size()) : fault.text;
+        lines += lines_of(plan, point, below, base.string(), text);
+      }
+    }
+  }
+  if (lines.empty()) {
+    for (const InputFault& fault : error.faults())
+      if (!fault.key.empty()) lines += lines_of(plan, point, fault.key, plan.base.file.string(), fault.text);
+  }
+  if (!lines.empty()) return lines.substr(0, lines.size() - 1);
+  std::string values;
+  for (std::size_t v = 0; v < plan.variables.size(); ++v)
+    values += fmt::format("{}{} = {}", v == 0 ? "" : ", ", plan.variables[v].name, point.texts[v]);
+  return fmt::format("{}: error: at {}:\n{}", plan.study.file.string(), values, error.what());
+}
+
 /// Reads the case of a point: sets its digest. @returns the memory that it is expected to take, bytes
 double settle(const Plan& plan, Point& point, const std::filesystem::path& scratch) {
-  set_changes(plan, point);
   try {
+    set_changes(plan, point);
     const log::WarningsAside aside;  // each point's own run repeats them
     const cases::Case setup = cases::read_case(plan.base.file, changes_in(point, scratch));
     point.digest = digest_of(setup);
     return cases::expected_memory(setup);
   } catch (const InputError& error) {
-    std::string values;
-    for (std::size_t v = 0; v < plan.variables.size(); ++v)
-      values += fmt::format("{}{} = {}", v == 0 ? "" : ", ", plan.variables[v].name, point.texts[v]);
-    throw InputError(fmt::format("{}: error: at {}:\n{}", plan.study.file.string(), values, error.what()));
+    throw InputError(faults_of(plan, point, error, scratch));
   }
 }
 
-/// Checks the names of the wanted results.
-void check_names(const Plan& plan) {
-  std::vector<std::string> history, bodies, gauges;
-  for (const run::HistoryColumn& column : run::history_columns(plan.base))
-    history.push_back("history." + column.name);
-  for (const cases::Body& body : plan.base.bodies) bodies.push_back(body.name);
-  for (const cases::Gauge& gauge : plan.base.all_gauges()) gauges.push_back(gauge.name);
-  for (const Wanted& wanted : plan.study.wanted()) {
-    const auto refuse = [&](const std::vector<std::string>& accepted, const char* what) {
-      throw InputError(fmt::format("{}: error: '{}' is no {}{}", plan.study.file.string(), wanted.name, what,
-                                   did_you_mean(wanted.name, accepted)));
-    };
-    if (wanted.name.starts_with("history.")) {
-      if (std::ranges::count(history, wanted.name) == 0) refuse(history, "column of history.csv");
-    } else if (wanted.is_column()) {
-      const bool known = std::ranges::any_of(
-          gauges, [&](const std::string& gauge) { return wanted.name.starts_with("gauge." + gauge + "."); });
-      if (!known) refuse(gauges, "column of a gauge of the case, gauge.NAME.COLUMN");
-    } else {
-      std::vector<std::string> names;
-      for (const analysis::Measure& measure : analysis::measures()) {
-        const std::string name(measure.name);
-        if (!name.ends_with(".BODY")) names.push_back(name);
-        for (const std::string& body : bodies)
-          if (name.ends_with(".BODY")) names.push_back(name.substr(0, name.size() - 4) + body);
-      }
-      if (std::ranges::count(names, wanted.name) == 0) refuse(names, "measure of whipple analyse");
+/// Checks that no key is set by two variables: constants drawn from a covariance may be varied as well.
+void check_single(const Plan& plan) {
+  std::map<std::string, std::string> known;
+  for (const Variable& variable : plan.variables) {
+    for (const std::string& key : keys_of(plan.study, variable.name)) {
+      const auto [first, is_new] = known.emplace(key, variable.name);
+      if (!is_new)
+        throw InputError(fmt::format("{}: error: '{}' varies twice, as '{}' and as '{}'",
+                                     plan.study.file.string(), key, first->second, variable.name));
     }
-  }
-}
-
-/// Checks the unit of the threshold of a limit, where the unit of the quantity is known before a run.
-void check_threshold(const Plan& plan) {
-  if (!plan.study.find) return;
-  const std::string& name = plan.study.find->quantity;
-  std::optional<std::string> unit;
-  for (const run::HistoryColumn& column : run::history_columns(plan.base))
-    if ("history." + column.name == name) unit = column.unit;
-  for (const analysis::Measure& measure : analysis::measures()) {
-    const std::string known(measure.name);
-    const bool of_body = known.ends_with(".BODY") && name.starts_with(known.substr(0, known.size() - 4));
-    if (known == name || of_body) unit = measure.unit;
-  }
-  if (!unit) return;
-  try {
-    static_cast<void>(units::parse_quantity(plan.study.find->crosses, *unit == "1" ? "" : *unit));
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: error: 'find.crosses': {}", plan.study.file.string(), error.what()));
   }
 }
 
@@ -331,11 +361,11 @@ std::vector<std::string> scan_of(const Study& study) {
 }
 
 double number_of(const Variable& variable, const std::string& text) {
-  return variable.is_number ? Number::of(text)->value : analysis::nan;
+  return variable.is_number ? Number::of(text)->value : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Lists the values of all variables but the sought one, in the order of the groups.
-std::vector<std::vector<std::string>> groups_of(Plan& plan) {
+/// Lists the values of all variables but the sought one, in the order of the groups; none if it is asked to end.
+std::vector<std::vector<std::string>> groups_of(Plan& plan, const std::function<bool()>& is_asked_to_end) {
   std::vector<std::vector<std::vector<std::string>>> lists;
   for (const Vary& vary : plan.study.varied) {
     if (vary.kind() != Vary::Kind::list && vary.kind() != Vary::Kind::steps) continue;
@@ -343,7 +373,8 @@ std::vector<std::vector<std::string>> groups_of(Plan& plan) {
     plan.variables.insert(plan.variables.end(), values.variables.begin(), values.variables.end());
     lists.push_back(values.texts);
   }
-  const std::vector<Values> samples = sampled(plan.study, plan.base);
+  const std::vector<Values> samples = sampled(plan.study, plan.base, is_asked_to_end);
+  if (is_asked_to_end()) return {};
   if (!samples.empty()) {
     std::vector<std::vector<std::string>> together(static_cast<std::size_t>(plan.study.sample.count));
     for (const Values& values : samples) {
@@ -369,15 +400,17 @@ std::vector<std::pair<std::string, std::string>> changes_in(const Point& point,
   return changes;
 }
 
-Plan make_plan(const std::filesystem::path& file) {
+std::optional<Plan> make_plan(const std::filesystem::path& file,
+                              const std::function<bool()>& is_asked_to_end) {
   Plan plan{.study = read_study(file), .base = {}, .variables = {}, .points = {}};
   const Study& study = plan.study;
   plan.base = cases::read_case(study.case_path(), {});
-  check_names(plan);
-  check_threshold(plan);
-  const std::vector<std::vector<std::string>> groups = groups_of(plan);
+  check_quantities(plan);
+  const std::vector<std::vector<std::string>> groups = groups_of(plan, is_asked_to_end);
+  if (is_asked_to_end()) return std::nullopt;
   if (study.find)
     plan.variables.push_back({.name = study.find->key, .unit = Number::of(study.find->between[0])->unit});
+  check_single(plan);
   const std::vector<std::string> cells =
       study.bands.cell_sizes.empty() ? std::vector<std::string>{""} : study.bands.cell_sizes;
   const std::vector<double> offsets = study.bands.offsets.empty() ? std::vector{0.0} : study.bands.offsets;
@@ -387,6 +420,7 @@ Plan make_plan(const std::filesystem::path& file) {
     for (const std::string& cell : cells) {
       for (const double offset : offsets) {
         for (const std::string& sought : scan_of(study)) {
+          if (is_asked_to_end()) return std::nullopt;
           Point point;
           point.group = group;
           point.cell_size = cell;

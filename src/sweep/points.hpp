@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,8 +47,11 @@ struct Plan {
 };
 
 /// Reads a study and prepares all points: their cases are read and checked.
+/// @param is_asked_to_end  called between two points
+/// @returns nothing if it was asked to end
 /// @throws InputError with the faults of the study, its case, and its points
-Plan make_plan(const std::filesystem::path& study);
+std::optional<Plan> make_plan(const std::filesystem::path& study,
+                              const std::function<bool()>& is_asked_to_end);
 
 /// Returns a point of the study with another value of the key that is sought.
 /// @throws InputError if its case is at fault

@@ -124,7 +124,8 @@ void make_points(const Plan& plan, const Computer& computer, std::span<const Poi
   table.columns.push_back(words("state", "done, failed, or missing"));
   table.columns.push_back({"exit_code", "", "of the program that ended the point", {}, {}});
   table.columns.push_back({"wall_time", "s", "of the run", {}, {}});
-  table.columns.push_back(words("message", "why it failed, or what ended it before its end time"));
+  table.columns.push_back(
+      words("message", "why it failed or was not measured, or what ended it before its end time"));
   const std::size_t first = table.columns.size();
   for (const Wanted& wanted : plan.study.wanted())
     table.columns.push_back({wanted.title(), "", "result", {}, {}});
@@ -140,9 +141,11 @@ void make_points(const Plan& plan, const Computer& computer, std::span<const Poi
     table.columns[own + 3].words.emplace_back(word_of(record.state));
     table.columns[own + 4].numbers.push_back(record.exit_code);
     table.columns[own + 5].numbers.push_back(record.wall_time);
-    table.columns[own + 6].words.push_back(record.message.substr(0, record.message.find('\n')));
+    const std::string unmeasured = computer.unmeasured(point);
+    const std::string message = unmeasured.empty() ? record.message : "not measured: " + unmeasured;
+    table.columns[own + 6].words.push_back(message.substr(0, message.find('\n')));
     if (record.state == State::done) {
-      for (const Result& result : read_results(computer.run_folder(point), wanted)) {
+      for (const Result& result : read_results(computer, point, record, wanted)) {
         auto column = std::ranges::find(table.columns.begin() + static_cast<std::ptrdiff_t>(first),
                                         table.columns.end(), result.name, &Column::name);
         if (column == table.columns.end()) {
@@ -286,10 +289,12 @@ void make_limits(const Plan& plan, const Computer& computer, std::span<const Poi
 
 }  // namespace
 
-std::vector<Result> read_results(const fs::path& run, std::span<const Wanted> wanted) {
+std::vector<Result> read_results(const Computer& computer, const Point& point, const Record& record,
+                                 std::span<const Wanted> wanted) {
+  const fs::path run = computer.run_folder(point);
   const fs::path measures = run / "report" / "quantities.csv";
   std::vector<Result> all;
-  if (fs::exists(measures)) {
+  if (computer.is_measured(record) && fs::exists(measures)) {
     for (const analysis::Quantity& q : analysis::read_quantities(measures.parent_path()))
       all.push_back({q.name, q.unit, q.value});
   }
@@ -316,10 +321,11 @@ std::vector<Result> read_results(const fs::path& run, std::span<const Wanted> wa
 }
 
 Verdict verdict_of(const Plan& plan, const Computer& computer, const Point& point) {
-  if (computer.record(point).state != State::done) return Verdict::undecided;
+  const Record record = computer.record(point);
+  if (record.state != State::done) return Verdict::undecided;
   const Find& find = *plan.study.find;
   const std::vector<Wanted> wanted = {find.wanted()};
-  const std::vector<Result> results = read_results(computer.run_folder(point), wanted);
+  const std::vector<Result> results = read_results(computer, point, record, wanted);
   if (results.empty() || std::isnan(results.front().value)) return Verdict::undecided;
   const std::string& unit = results.front().unit;
   const double threshold = units::parse_quantity(find.crosses, unit == "1" ? "" : unit);
@@ -329,7 +335,8 @@ Verdict verdict_of(const Plan& plan, const Computer& computer, const Point& poin
 bool search(const Plan& plan, Computer& computer, std::vector<Point>& points) {
   const Number width = *Number::of(plan.study.find->tolerance);
   const double tolerance = units::convert(width.value, width.unit, plan.variables.back().unit);
-  for (;;) {
+  const auto is_missing = [&](const Point& point) { return computer.record(point).state == State::missing; };
+  while (std::ranges::none_of(points, is_missing)) {
     std::map<std::tuple<std::size_t, std::string, double>, std::vector<std::size_t>> searches;
     for (std::size_t i = 0; i < points.size(); ++i)
       searches[{points[i].group, points[i].cell_size, points[i].offset}].push_back(i);
@@ -347,6 +354,7 @@ bool search(const Plan& plan, Computer& computer, std::vector<Point>& points) {
     points.insert(points.end(), next.begin(), next.end());
     if (!complete) return false;
   }
+  return true;
 }
 
 Results collect(const Plan& plan, const Computer& computer, std::span<const Point> points) {

@@ -19,9 +19,11 @@ struct Result {
   double value;
 };
 
-/// Reads the results of a finished point: the wanted ones, or all measures. Missing ones are left out.
+/// Reads the results of a finished point: the wanted ones, or all measures. Missing ones are left out, as are measures
+/// that were made with other options than those of the study.
 /// @throws InputError if a table of the run is damaged
-std::vector<Result> read_results(const std::filesystem::path& run, std::span<const Wanted> wanted);
+std::vector<Result> read_results(const Computer& computer, const Point& point, const Record& record,
+                                 std::span<const Wanted> wanted);
 
 /// Holds a table of a study; a column holds numbers or words.
 struct Column {
@@ -52,7 +54,8 @@ struct Results {
 Verdict verdict_of(const Plan& plan, const Computer& computer, const Point& point);
 
 /// Searches the limits: computes the middles of all changes of verdicts, of all groups and variants together, until
-/// each is narrower than the tolerance.
+/// each is narrower than the tolerance. It waits for points that were ended from outside or are computed elsewhere: it
+/// goes on when it is called again.
 /// @param points  those of the plan; the computed ones are added
 /// @returns false if a signal ended it before
 bool search(const Plan& plan, Computer& computer, std::vector<Point>& points);

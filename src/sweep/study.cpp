@@ -33,6 +33,31 @@ void check_range(const std::vector<std::string>& range, const char* key, const F
   }
 }
 
+/// Adds faults for keys that are set twice: the same key, or one of a table that varies as a whole. A material drawn from
+/// its covariance may have further keys.
+void check_keys(const Study& study, const Faults& faults) {
+  struct Key {
+    std::string name, place;  // place in the study
+    bool is_whole;
+  };
+  std::vector<Key> all;
+  for (std::size_t v = 0; v < study.varied.size(); ++v) {
+    for (const std::string& key : study.varied[v].keys())
+      all.push_back({key, fmt::format("vary.{}.key", v), !study.varied[v].covariance});
+  }
+  if (study.find)
+    for (const std::string& key : study.find->keys()) all.push_back({key, "find.key", true});
+  for (auto one = all.begin(); one != all.end(); ++one) {
+    for (auto other = all.begin(); other != all.end(); ++other) {
+      if (other < one && other->name == one->name)
+        faults.add(one->place, fmt::format("'{}' varies twice", one->name));
+      if (other->is_whole && one->name.starts_with(other->name + "."))
+        faults.add(one->place,
+                   fmt::format("'{}' lies in '{}', which varies as a whole", one->name, other->name));
+    }
+  }
+}
+
 }  // namespace
 
 std::optional<Number> Number::of(const std::string& text) {
@@ -92,8 +117,6 @@ void Vary::check(const Study& study, const Faults& faults) const {
     faults.add("", fmt::format("'{}' is sampled: set [sample] count", key));
   if (covariance && !key.ends_with(".material"))
     faults.add("key", "'covariance' draws materials: expected the key of one, \"body.0.material\"");
-  const auto first = std::ranges::find(study.varied, key, &Vary::key);
-  if (first != study.varied.end() && &*first < this) faults.add("key", fmt::format("'{}' varies twice", key));
 }
 
 ParameterTable<Sample> Sample::parameters() {
@@ -165,8 +188,6 @@ void Find::check(const Study& study, const Faults& faults) const {
       faults.add("tolerance", fmt::format("'tolerance': {}", error.what()));
     }
   }
-  if (std::ranges::count(study.varied, key, &Vary::key) > 0)
-    faults.add("key", fmt::format("'{}' is varied as well: it cannot be sought", key));
 }
 
 ParameterTable<Bands> Bands::parameters() {
@@ -189,7 +210,7 @@ void Bands::check(const Study& study, const Faults& faults) const {
   }
   const std::vector<std::string> keys = study.keys();
   for (const std::string& key : keys) {
-    if (!offsets.empty() && key.starts_with("domain."))
+    if (!offsets.empty() && (key + ".").starts_with("domain."))
       faults.add("offsets", fmt::format("'offsets' move the domain, which '{}' changes", key));
   }
   if (!cell_sizes.empty() && std::ranges::count(keys, "domain.cell_size") > 0)
@@ -251,13 +272,7 @@ void Study::check(const Study& /*study*/, const Faults& faults) const {
     if (std::ranges::count(quantities.begin(), one, one->title(), &Wanted::title) > 0)
       faults.add("quantity", fmt::format("the quantity '{}' is wanted twice", one->title()));
   }
-  const std::vector<std::string> all = keys();
-  for (const Vary& vary : varied) {
-    for (const std::string& other : all) {
-      if (!vary.covariance && other.starts_with(vary.key + "."))
-        faults.add("vary", fmt::format("'{}' lies in '{}', which varies as a whole", other, vary.key));
-    }
-  }
+  check_keys(*this, faults);
 }
 
 std::filesystem::path Study::case_path() const { return file.parent_path() / case_file; }

@@ -39,7 +39,9 @@ struct Vary {
   std::vector<std::string> range;   ///< first and last value
   std::int64_t count = 0;           ///< of equal steps over the range; 0: sampled
   bool covariance = false;          ///< materials drawn from the covariance of the one that `key` names
+  std::string where;                ///< of the key in the study, "study.toml:3:7"
 
+  void read_rest(input::Table& table) { where = table.where("key"); }
   static ParameterTable<Vary> parameters();
   void check(const Study& study, const Faults& faults) const;
   [[nodiscard]] Kind kind() const;
@@ -88,7 +90,9 @@ struct Find {
   std::string crosses = "0.5";
   std::string tolerance;
   std::int64_t scan = 2;  ///< points over the range before the first halving
+  std::string where;      ///< of the key in the study
 
+  void read_rest(input::Table& table) { where = table.where("key"); }
   static ParameterTable<Find> parameters();
   void check(const Study& study, const Faults& faults) const;
   [[nodiscard]] Wanted wanted() const { return {quantity, take}; }

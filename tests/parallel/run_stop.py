@@ -168,6 +168,33 @@ speed = "40 m/s"
     print(f"{stops} restarts")
 
 
+def restarted():
+    """A run that a condition ended has ended, unless the case no longer has that condition."""
+    block = '[[stop]]\nwhen = "speed_below"\nbody = "block"\nspeed = "100 m/s"\n'
+    clock = '[[stop]]\nwhen = "wall_time"\nwall_time = "1 ms"\n'
+    for name, text, words in (("again", block, "slower than 100 m/s"), ("again_clock", clock, "has taken")):
+        folder, _ = run(case(name, "thrown_block.toml", text), name)
+        before = {path: (path.stat().st_mtime_ns, path.read_bytes()) for path in folder.rglob("*") if path.is_file()}
+        for ranks in ([], ["--ranks", "2"]):
+            again = subprocess.run([WHIPPLE, "run", "--restart", folder, *ranks], capture_output=True, text=True, timeout=60)
+            require(again.returncode == 0 and "has ended because" in again.stderr and words in again.stderr, again)
+            now = {path: (path.stat().st_mtime_ns, path.read_bytes()) for path in folder.rglob("*") if path.is_file()}
+            require(now == before, "the restart has written something")
+    # Killed after its last checkpoint, before its last status: the restart makes no step and completes the outputs.
+    folder, reason = FOLDER / "again", json.loads((FOLDER / "again/status.json").read_text())
+    (folder / "status.json").write_text(json.dumps({**reason, "state": "running", "ended_by": "", "message": ""}))
+    subprocess.run([WHIPPLE, "run", "--restart", folder, "--quiet"], check=True, timeout=60)
+    status = ending(folder)[0]
+    require((status["step"], status["ended_by"]) == (reason["step"], reason["ended_by"]), status)
+    # Another condition, or none, lets it go on.
+    words = ["--set", "stop.0.speed=50 m/s"]
+    subprocess.run([WHIPPLE, "run", "--restart", folder, "--quiet", *words], check=True, timeout=60)
+    on_time("changed", folder, 1.5e-6, 'body "block" is slower than 50 m/s')
+    subprocess.run([WHIPPLE, "run", "--restart", folder, "--quiet", "--set", "stop=[]"], check=True, timeout=60)
+    status = json.loads((folder / "status.json").read_text())
+    require((status["state"], status["ended_by"], status["time"]) == ("done", "", 3e-6), status)
+
+
 def faults():
     for text, expected in (('when = "perforated"', "needs 'body'"), ('when = "speed_below"\nbody = "block"', "needs 'speed'"),
                            ('when = "wall_time"\nwall_time = "1 s"\nspeed = "1 m/s"', "does not belong"),
@@ -177,12 +204,19 @@ def faults():
                            ('when = "settled"\ncolumn = "mas"\nchange = 0.1\nover = "1 us"', 'did you mean "mass"')):
         message = run(case("wrong", "thrown_block.toml", "[[stop]]\n" + text), "wrong", code=2)[1]
         require(expected in message and not (FOLDER / "wrong").exists(), f"{text}: {message}")
+    # The column is at fault where it stands; all columns are listed.
+    lines = len((FOLDER / "wrong.toml").read_text().splitlines())
+    place = f"{FOLDER / 'wrong.toml'}:{lines - 2}:10: error: 'column'"
+    require(message.startswith(place) and "accepted: step, time, dt," in message, message)
+    found = subprocess.run([WHIPPLE, "check", FOLDER / "wrong.toml", "--json"], capture_output=True, text=True)
+    [fault] = json.loads(found.stdout)["faults"]
+    require(found.returncode == 2 and (fault["key"], fault["line"]) == ("stop.0.column", lines - 2), fault)
 
 
 def main():
     shutil.rmtree(FOLDER, ignore_errors=True)
     FOLDER.mkdir(parents=True)
-    for test in (faults, conditions, perforation, outcome, interrupted):
+    for test in (faults, conditions, restarted, perforation, outcome, interrupted):
         test()
 
 

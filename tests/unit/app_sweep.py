@@ -3,11 +3,12 @@
 """Studies by the program: a study killed at random moments ends with the table of the undisturbed one, and computes no
 finished point again; failed points are listed and stop nothing; one study at a time in a folder; limits with known answers.
 
-Usage: app_sweep.py WHIPPLE CASE.toml FOLDER [POINTS]
+Usage: app_sweep.py WHIPPLE CASE.toml FOLDER [POINTS [TEST ...]]
 """
 import csv
 import json
 import math
+import os
 import pathlib
 import random
 import shutil
@@ -186,6 +187,19 @@ def inputs():
         folder = FOLDER / "wrong"
         message = sweep(study("wrong", text), folder, code=2).stderr
         require(expected in message and not folder.exists(), f"{text}: {message}")
+    # Faults of a point name the key in the study and the file that it changes, which is no temporary one.
+    for key, value, expected in (("body.0.material.eos.gruneisen", "-1 kg", "copper_ofhc_mie_gruneisen.toml"),
+                                 ("body.0.material.eos.gruneise", "2", "unknown key"),
+                                 ("body.0.velocity.1", "2 kg", "thrown_block.toml")):
+        file = study("wrong", f'[[vary]]\nkey = "time.end"\nvalues = ["1 us"]\n[[vary]]\nkey = "{key}"\nvalues = ["{value}"]\n')
+        message = sweep(file, folder, code=2).stderr
+        require(message.startswith(f"{file}:6:7: error: '{key}' = ") and expected in message and "/whipple_" not in message
+                and message.count("error") == 1, message)
+    material = '[[vary]]\nkey = "body.0.material"\nvalues = ["copper", "aluminium_1100"]\n'
+    for text, expected in ((material + '[[vary]]\nkey = "body.0.material.eos.gruneisen"\nvalues = ["2"]\n', "which varies as a whole"),
+                           ('[[vary]]\nkey = "domain.upper.0"\nvalues = ["2 mm"]\n[bands]\noffsets = [0, 0.5]\n', "domain.upper.0")):
+        message = sweep(study("wrong", text), folder, code=2).stderr
+        require(expected in message and not folder.exists(), message)
     file = study("samples", """
 [[vary]]
 key = "body.0.velocity.1"
@@ -213,10 +227,182 @@ count = 6
         require(done.returncode == 2 and "did you mean" in done.stderr and "sweep" in done.stderr, f"{words}: {done}")
 
 
+def children(process):
+    """Processes that a process has started, and their arguments."""
+    for file in pathlib.Path(f"/proc/{process.pid}/task").glob("*/children"):
+        for pid in file.read_text().split():
+            yield int(pid), pathlib.Path(f"/proc/{pid}/cmdline").read_bytes().split(b"\0")
+
+
+def child(process, word, other_than=0):
+    """Wait for a child with a word among its arguments, and return its number."""
+    found = []
+
+    def look():
+        try:
+            found[:] = [pid for pid, words in children(process) if word in words and pid != other_than]
+        except OSError:  # it has just ended
+            return False
+        return bool(found)
+    wait_for(look, f"a child with {word}")
+    return found[0]
+
+
+SLOW = '[[vary]]\nkey = "domain.cell_size"\nvalues = ["0.2 mm"]\n'  # some tenths of a second a point
+
+
+def slow_study(name, points, more=""):
+    speeds = ", ".join(f'"{100 + 10 * i} m/s"' for i in range(points))
+    return study(name, f'[[vary]]\nkey = "body.0.velocity.1"\nvalues = [{speeds}]\n{SLOW}[run]\njobs = 1\n{more}' + QUANTITIES)
+
+
+def ended_points():
+    """A crash is a failure with its name; a point that is killed is computed by the next call; a program that cannot be
+    started ends the study."""
+    file, folder = slow_study("ends", 3), FOLDER / "ends"
+    process = subprocess.Popen(command(file, folder), stderr=subprocess.PIPE, text=True)
+    last = 0
+    for number in (signal.SIGSEGV, signal.SIGKILL, signal.SIGHUP):
+        last = child(process, b"run", last)
+        os.kill(last, number)
+    message = process.communicate(timeout=100)[1]
+    require(process.returncode == 3 and "2 points were ended from outside" in message, f"{process.returncode} {message}")
+    states = [(row["state"], row["exit_code"]) for row in rows(folder)]
+    require(states == [("failed", "139"), ("missing", "0"), ("missing", "0")], states)
+    require("crashed by SIGSEGV" in rows(folder)[0]["message"], rows(folder)[0])
+    kept = records(folder)
+    require("2 of them computed now" in sweep(file, folder).stderr and kept.items() <= records(folder).items(), "again")
+    require([row["state"] for row in rows(folder)] == ["failed", "done", "done"], rows(folder))
+    sweep(file, folder, "--retry")
+    require([row["state"] for row in rows(folder)] == 3 * ["done"], rows(folder))
+    program, folder = FOLDER / "whipple", FOLDER / "gone"
+    os.link(WHIPPLE, program)
+    process = subprocess.Popen([program, *command(slow_study("gone", 2), folder)[1:]], stderr=subprocess.PIPE, text=True)
+    child(process, b"run")
+    program.unlink()
+    message = process.communicate(timeout=100)[1]
+    require(process.returncode == 2 and "cannot start" in message and str(program) in message, f"{process.returncode} {message}")
+
+
+def measured_later():
+    """Measures, and options of their analysis, that are added to a finished study are measured from its runs."""
+    text = '[[vary]]\nkey = "time.end"\nvalues = ["0.5 us", "1 us"]\n[run]\njobs = 1\n{}[[quantity]]\nname = "history.mass"\n'
+    measure = '[[quantity]]\nname = "piece_mass.block"\n[[quantity]]\nname = "time"\n'
+    for keep in ("all", "tables"):
+        folder = FOLDER / f"later_{keep}"
+        file = study(f"later_{keep}", text.format(f'keep = "{keep}"\n'))
+        sweep(file, folder)
+        former = {path: path.stat().st_mtime_ns for path in folder.glob("points/*/history.csv")}
+        require(len(former) == 2 and "time [s]" not in rows(folder)[0], rows(folder))
+        for options in ("", 'analyse = ["--by-distance"]\n'):
+            study(f"later_{keep}", text.format(f'keep = "{keep}"\n{options}') + measure)
+            message = sweep(file, folder).stderr
+            require("0 of them computed now" in message, message)
+            require(all(path.stat().st_mtime_ns == time for path, time in former.items()), "a run was computed again")
+            for row, end in zip(rows(folder), ("5e-07", "1e-06")):
+                if keep == "all":
+                    require(row["time [s]"] == end and row["message"] == "", row)
+                    record = json.loads((folder / "points" / f"{row['point']}.json").read_text())
+                    require(record["measured"] == (["--by-distance"] if options else []), record)
+                else:  # without snapshots nothing can be measured: said by name, what the run has shown remains
+                    require(row["time"] == "nan" and row["message"].startswith("not measured: "), row)
+                    require(row["state"] == "done" and float(row["history.mass [kg]"]) > 0.0, row)
+                    require(f"{row['point']} cannot be measured" in message, message)
+        before = records(folder)
+        sweep(file, folder)
+        require(records(folder) == before, "measured again")
+
+
+FITTED = """
+name = "fitted"
+source = "test"
+[eos]
+model = "gray"
+molar_mass = "63.546 g/mol"
+reference_specific_volume = "0.1118 cm^3/g"
+hugoniot_intercept = "3.94 km/s"
+hugoniot_slope = 1.489
+gruneisen = 1.97
+gruneisen_slope = 1.5
+electronic_heat_coefficient = "4.9e-7 kJ/(mol K^2)"
+melting_temperature = "1790 K"
+vapour_attraction = "0.62 kJ cm^3/g^2"
+[covariance]
+names = ["hugoniot_intercept"]
+units = ["m/s"]
+[covariance.matrix]
+hugoniot_intercept = [400.0]
+"""
+
+
+def ctrl_c():
+    """A signal ends the drawing of samples, the preparation of points and the drawing of figures at once."""
+    (FOLDER / "fitted.toml").write_text(FITTED, encoding="utf-8")
+    text = CASE.read_text(encoding="utf-8").replace('"copper_ofhc_mie_gruneisen"', '"fitted.toml"')
+    (FOLDER / "fitted_case.toml").write_text(text, encoding="utf-8")
+    samples = FOLDER / "many_samples.toml"
+    samples.write_text('case = "fitted_case.toml"\n[[vary]]\nkey = "body.0.material"\ncovariance = true\n[sample]\ncount = 100000\n')
+    process = subprocess.Popen(command(samples, FOLDER / "many_samples"), stderr=subprocess.PIPE, text=True)
+    time.sleep(0.3)
+    process.send_signal(signal.SIGINT)
+    message = process.communicate(timeout=10)[1]
+    require(process.returncode == 128 + signal.SIGINT and not (FOLDER / "many_samples").exists(), f"{process.returncode} {message}")
+    temporary = FOLDER / "temporary"
+    temporary.mkdir()
+    many = study("many", '[[vary]]\nkey = "body.0.velocity.1"\nrange = ["100 m/s", "300 m/s"]\ncount = 90000\n' + QUANTITIES)
+    for number in (signal.SIGINT, signal.SIGTERM):
+        process = subprocess.Popen(command(many, FOLDER / "many"), stderr=subprocess.PIPE, text=True,
+                                   env={**os.environ, "TMPDIR": str(temporary)})
+        wait_for(lambda: any(temporary.iterdir()), "the preparation of points")
+        process.send_signal(number)
+        message = process.communicate(timeout=20)[1]
+        require(process.returncode == 128 + number and "the same command goes on" in message, f"{process.returncode} {message}")
+        require(not any(temporary.iterdir()) and not (FOLDER / "many").exists(), "something is left")
+    python = FOLDER / "slow_python"
+    python.write_text("#!/bin/sh\nexec sleep 100\n")
+    python.chmod(0o755)
+    file, folder = study("figures", '[[vary]]\nkey = "time.end"\nvalues = ["0.5 us"]\n' + QUANTITIES), FOLDER / "figures"
+    for number in (signal.SIGINT, signal.SIGTERM):
+        process = subprocess.Popen([WHIPPLE, "sweep", file, "-o", folder], stderr=subprocess.PIPE, text=True,
+                                   env={**os.environ, "WHIPPLE_PYTHON": str(python)})
+        drawing = child(process, b"sleep")
+        process.send_signal(number)
+        message = process.communicate(timeout=20)[1]
+        require(process.returncode == 128 + number and "the same command goes on" in message, f"{process.returncode} {message}")
+        require(not pathlib.Path(f"/proc/{drawing}").exists() and len(rows(folder)) == 1, "drawing goes on")
+    sweep(file, folder)
+
+
+def array():
+    """Tasks of one array: one process a point; the collecting command says what is computed elsewhere."""
+    file, folder = slow_study("tasks", 3), FOLDER / "tasks"
+    sweep(file, folder, "--slurm", "--time=10")
+    sweep(file, folder, "--point", "2")
+    task = subprocess.Popen(command(file, folder, "--point", "0"), stderr=subprocess.PIPE, text=True)
+    run = child(task, b"run")
+    os.kill(run, signal.SIGSTOP)
+    refused = sweep(file, folder, "--point", "0", code=2)
+    require(f"is being computed by process {task.pid} on" in refused.stderr, refused.stderr)
+    beside = sweep(file, folder, code=3).stderr
+    require("1 of them computed now" in beside and f"is being computed by process {task.pid} on" in beside, beside)
+    require([row["state"] for row in rows(folder)] == ["missing", "done", "done"], rows(folder))
+    task.kill()  # the lock ends with it, and so does its run
+    os.kill(run, signal.SIGCONT)
+    task.communicate()
+    sweep(file, folder, "--point", "0")
+    require("0 of them computed now" in sweep(file, folder).stderr, "a point of a task was computed again")
+    require([row["state"] for row in rows(folder)] == 3 * ["done"], rows(folder))
+    other = study("not_its_own", '[[vary]]\nkey = "time.end"\nvalues = ["1 us"]\n' + QUANTITIES)
+    require("is the folder of the study" in sweep(other, folder, "--point", "0", code=2).stderr, "a task of another study")
+
+
 def main():
     shutil.rmtree(FOLDER, ignore_errors=True)
     FOLDER.mkdir(parents=True)
-    for test in (inputs, limits, one_at_a_time, interrupted):
+    chosen = sys.argv[5:]
+    for test in (inputs, limits, one_at_a_time, ended_points, measured_later, ctrl_c, array, interrupted):
+        if chosen and test.__name__ not in chosen:
+            continue
         begin = time.monotonic()
         test()
         print(f"{test.__name__}: {time.monotonic() - begin:.1f} s")

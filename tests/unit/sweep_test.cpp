@@ -197,6 +197,8 @@ TEST(Studies, RefuseWhatWouldOverwriteOrSpoilItself) {
   EXPECT_THAT(fault("[[vary]]\nkey = \"body.0.material\"\nvalues = [\"copper\"]\n[[vary]]\nkey = "
                     "\"body.0.material.eos.gruneisen\"\nvalues = [\"2\"]\n"),
               HasSubstr("which varies as a whole"));
+  EXPECT_THAT(fault(speed + "also = [\"body.0\"]\n"), HasSubstr("'body.0.velocity.2' lies in 'body.0'"));
+  EXPECT_THAT(fault(speed + speed), HasSubstr("6:7: error: 'body.0.velocity.2' varies twice"));
   EXPECT_THAT(fault("[[vary]]\nkey = \"domain.upper.0\"\nvalues = [\"8 mm\"]\n[bands]\noffsets = [0.5]\n"),
               HasSubstr("'offsets' move the domain"));
   EXPECT_THAT(fault(speed + "[bands]\ncell_sizes = [\"0.5 kg\"]\n"), HasSubstr("0.5 kg"));

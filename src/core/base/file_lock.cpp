@@ -10,6 +10,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include "src/core/base/error.hpp"
 #include "src/core/base/log.hpp"
@@ -41,10 +42,30 @@ bool is_unsupported(int error) { return error == ENOLCK || error == ENOSYS || er
 
 }  // namespace
 
-FileLock::FileLock(std::filesystem::path path, const std::string& what, IfHeld if_held)
-    : path_(std::move(path)) {
+FileLock::FileLock(std::filesystem::path path, const std::string& what, IfHeld if_held) {
+  if (acquire(path, what, if_held)) return;
+  throw InputError(fmt::format("{} is being written by {}: wait for its end or end it (lock {})", what,
+                               last_holder(path), path.string()));
+}
+
+std::unique_ptr<const FileLock> FileLock::if_free(const std::filesystem::path& path,
+                                                  const std::string& what) {
+  std::unique_ptr<FileLock> lock(new FileLock());
+  if (!lock->acquire(path, what, IfHeld::refuse)) return nullptr;
+  return lock;
+}
+
+std::string FileLock::last_holder(const std::filesystem::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+  const std::string holder = holder_in(file);
+  if (file >= 0) ::close(file);
+  return holder;
+}
+
+bool FileLock::acquire(const std::filesystem::path& path, const std::string& what, IfHeld if_held) {
+  path_ = path;
   const auto fail = [&](const std::string& reason) {
-    if (descriptor_ >= 0) ::close(descriptor_);
+    if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
     throw InputError(reason);
   };
   for (;;) {
@@ -56,8 +77,8 @@ FileLock::FileLock(std::filesystem::path path, const std::string& what, IfHeld i
       status = ::flock(descriptor_, if_held == IfHeld::wait ? LOCK_EX : LOCK_EX | LOCK_NB);
     } while (status != 0 && errno == EINTR);
     if (status != 0 && errno == EWOULDBLOCK) {
-      fail(fmt::format("{} is being written by {}: wait for its end or end it (lock {})", what,
-                       holder_in(descriptor_), path_.string()));
+      ::close(std::exchange(descriptor_, -1));
+      return false;
     }
     if (status != 0 && !is_unsupported(errno)) {
       fail(fmt::format("{}: cannot lock: {}", path_.string(), std::strerror(errno)));
@@ -70,9 +91,11 @@ FileLock::FileLock(std::filesystem::path path, const std::string& what, IfHeld i
   const std::string holder = this_process();
   // The name is informative only; on a full disk the lock is valid without it.
   if (::ftruncate(descriptor_, 0) == 0) (void)!::pwrite(descriptor_, holder.data(), holder.size(), 0);
+  return true;
 }
 
 FileLock::~FileLock() {
+  if (descriptor_ < 0) return;
   ::unlink(path_.c_str());
   ::close(descriptor_);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 namespace whipple {
@@ -18,11 +19,21 @@ class FileLock {
   /// @throws InputError if another process holds the lock and `refuse` is selected (stating its process and machine),
   /// or if the file cannot be created
   FileLock(std::filesystem::path path, const std::string& what, IfHeld if_held);
+  /// Acquires the lock if no other process holds it.
+  /// @returns nothing if one does
+  /// @throws InputError if the file cannot be created
+  static std::unique_ptr<const FileLock> if_free(const std::filesystem::path& path, const std::string& what);
+  /// Returns who acquired a lock last, "process 12 on node3", for messages about locks that are held.
+  static std::string last_holder(const std::filesystem::path& path);
   FileLock(const FileLock&) = delete;
   FileLock& operator=(const FileLock&) = delete;
   ~FileLock();
 
  private:
+  FileLock() = default;
+  /// @returns whether it was acquired
+  bool acquire(const std::filesystem::path& path, const std::string& what, IfHeld if_held);
+
   std::filesystem::path path_;
   int descriptor_ = -1;
 };

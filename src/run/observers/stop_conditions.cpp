@@ -12,6 +12,7 @@
 #include "src/core/base/hash.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/base/text.hpp"
+#include "src/core/input/document.hpp"
 #include "src/core/parallel/mpi.hpp"
 
 namespace whipple::run {
@@ -23,6 +24,11 @@ std::string key(std::size_t condition, const char* name) {
   return fmt::format("stop.{}.{}", condition, name);
 }
 
+/// Returns all of a condition in words, to tell it from others.
+std::string identity(const cases::Stop& stop) {
+  return fmt::format("{} after {} s\n", stop.in_words(), stop.after);
+}
+
 /// Returns whether a condition is looked at in snapshots.
 bool is_of_wall(const cases::Stop& stop) {
   return stop.when == cases::StopWhen::perforated || stop.when == cases::StopWhen::decided;
@@ -30,17 +36,24 @@ bool is_of_wall(const cases::Stop& stop) {
 
 }  // namespace
 
-void require_known_columns(const cases::Case& setup) {
+void require_known_columns(const cases::Case& setup,
+                           const std::vector<std::pair<std::string, std::string>>& overrides) {
+  std::vector<InputFault> faults;
   for (std::size_t s = 0; s < setup.stops.size(); ++s) {
     const std::string& column = setup.stops[s].column;
     if (column.empty()) continue;
     std::vector<std::string> names;
     for (const HistoryColumn& known : history_columns(setup)) names.push_back(known.name);
     if (std::ranges::count(names, column) > 0) continue;
-    throw InputError(
-        fmt::format("{}: error: 'stop[{}].column': history.csv has no column \"{}\"{} (accepted: {})",
-                    setup.file.string(), s, column, did_you_mean(column, names), fmt::join(names, ", ")));
+    faults.push_back({.key = key(s, "column"),
+                      .text = fmt::format("'column': history.csv has no column \"{}\"{} (accepted: {})",
+                                          column, did_you_mean(column, names), fmt::join(names, ", "))});
   }
+  if (faults.empty()) return;
+  input::Document document = input::Document::from_file(setup.file);  // knows the lines
+  for (const auto& [key, value] : overrides) document.set(key, value);
+  document.add(std::move(faults));
+  document.finish_partly_read();
 }
 
 StopConditions::StopConditions(const cases::Case& setup, const io::RunDirectory& directory,
@@ -52,17 +65,18 @@ StopConditions::StopConditions(const cases::Case& setup, const io::RunDirectory&
       seen_(setup.stops.size()),
       walls_(setup.stops.size()),
       judges_(setup.stops.size()) {
-  require_known_columns(setup);
   for (HistoryColumn& column : history_columns(setup)) {
     for (std::size_t s = 0; s < seen_.size(); ++s)
       if (setup.stops[s].column == column.name) seen_[s].column = column;
   }
 }
 
-void StopConditions::resume(const Moment& /*moment*/, const io::CheckpointValues& values) {
-  // A checkpoint of a run that had no conditions, or other ones, tells nothing about these.
-  if (!values.integers.contains("stop.conditions") || values.integer("stop.conditions") != conditions())
+void StopConditions::resume(const Moment& moment, const io::CheckpointValues& values) {
+  // A checkpoint of a run that had no conditions, or other ones, tells nothing about these: they begin here.
+  if (!values.integers.contains("stop.conditions") || values.integer("stop.conditions") != conditions()) {
+    look_at_sums(moment);
     return;
+  }
   found_ = static_cast<int>(values.integer("stop.found"));
   before_ = now_ = values.real("stop.wall_time");
   for (std::size_t s = 0; s < seen_.size(); ++s) {
@@ -73,10 +87,16 @@ void StopConditions::resume(const Moment& /*moment*/, const io::CheckpointValues
   }
 }
 
+int StopConditions::ended_by(const cases::Case& setup, const io::CheckpointValues& values) {
+  const auto text = values.texts.find("stop.ended_by");
+  if (text == values.texts.end()) return 0;
+  const auto stop = std::ranges::find(setup.stops, text->second, identity);
+  return stop == setup.stops.end() ? 0 : static_cast<int>(stop - setup.stops.begin()) + 1;
+}
+
 std::int64_t StopConditions::conditions() const {
   std::string words;
-  for (const cases::Stop& stop : setup_.stops)
-    words += fmt::format("{} after {} s\n", stop.in_words(), stop.after);
+  for (const cases::Stop& stop : setup_.stops) words += identity(stop);
   return seed_from(sha256(words));
 }
 
@@ -84,6 +104,8 @@ void StopConditions::remember(io::CheckpointValues& values) {
   if (seen_.empty()) return;
   values.integers["stop.conditions"] = conditions();
   values.integers["stop.found"] = found_;
+  if (ended_ > 0)
+    values.texts["stop.ended_by"] = identity(setup_.stops[static_cast<std::size_t>(ended_ - 1)]);
   // All ranks write the same values: the clock of the first one counts.
   values.reals["stop.wall_time"] = std::stod(ranks_.broadcast(fmt::format("{}", now_)));
   for (std::size_t s = 0; s < seen_.size(); ++s) {
@@ -96,17 +118,20 @@ void StopConditions::remember(io::CheckpointValues& values) {
 
 void StopConditions::after_step(const Moment& moment) {
   now_ = before_ + moment.wall_time;
+  ended_ = moment.requests.condition;
   if (moment.paused || found_ > 0 || moment.requests.condition > 0) return;
   look(moment);
 }
 
-void StopConditions::look(const Moment& moment) {
-  if (moment.is_due(static_cast<double>(steps_between_looks))) {
-    for (std::size_t s = 0; s < seen_.size() && found_ == 0; ++s) {
-      if (holds(setup_.stops[s], seen_[s], moment) && moment.time() >= setup_.stops[s].after)
-        found_ = static_cast<int>(s) + 1;
-    }
+void StopConditions::look_at_sums(const Moment& moment) {
+  for (std::size_t s = 0; s < seen_.size() && found_ == 0; ++s) {
+    if (holds(setup_.stops[s], seen_[s], moment) && moment.time() >= setup_.stops[s].after)
+      found_ = static_cast<int>(s) + 1;
   }
+}
+
+void StopConditions::look(const Moment& moment) {
+  if (moment.is_due(static_cast<double>(steps_between_looks))) look_at_sums(moment);
   const bool asks_for_walls = std::ranges::any_of(
       setup_.stops, [&](const cases::Stop& stop) { return is_of_wall(stop) && moment.time() >= stop.after; });
   if (!asks_for_walls) return;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "src/analysis/outcome.hpp"
@@ -24,7 +25,7 @@ namespace whipple::run {
 class StopConditions : public RunObserver {
  public:
   /// @param snapshots  of the run, called before this observer; must outlive it
-  /// @throws InputError if a condition names a column that history.csv of the case does not have
+  /// @param setup  names columns of history.csv (`require_known_columns`)
   StopConditions(const cases::Case& setup, const io::RunDirectory& directory, Snapshots& snapshots,
                  const io::Ranks& ranks);
 
@@ -33,6 +34,10 @@ class StopConditions : public RunObserver {
   void after_step(const Moment& moment) override;
   void ask(const Moment& moment, Requests& requests) const override;
   void remember(io::CheckpointValues& values) override;
+
+  /// Returns the condition of a case, from 1, by which the run had ended when a checkpoint was written; 0 if it had not, or
+  /// if the case no longer has this condition.
+  [[nodiscard]] static int ended_by(const cases::Case& setup, const io::CheckpointValues& values);
 
  private:
   /// Holds what a condition has seen.
@@ -49,6 +54,7 @@ class StopConditions : public RunObserver {
   };
 
   void look(const Moment& moment);
+  void look_at_sums(const Moment& moment);
   [[nodiscard]] bool holds(const cases::Stop& stop, Seen& seen, const Moment& moment);
   [[nodiscard]] bool has_settled(const cases::Stop& stop, Seen& seen, double time, double value) const;
   void begin_walls();
@@ -71,10 +77,13 @@ class StopConditions : public RunObserver {
   std::int64_t judged_ = -1;                            // step of the last snapshot that was judged
   double before_ = 0.0, now_ = 0.0;  // s of wall time, before the last restart and up to now
   int found_ = 0;                    // number of the condition that holds, from 1
+  int ended_ = 0;                    // number of the condition by which the run ends with this step
 };
 
 /// Checks that the conditions of a case name columns of its history.csv.
-/// @throws InputError naming the key and the accepted columns
-void require_known_columns(const cases::Case& setup);
+/// @param overrides  with which the case was read (--set)
+/// @throws InputError naming file, line, key and the accepted columns
+void require_known_columns(const cases::Case& setup,
+                           const std::vector<std::pair<std::string, std::string>>& overrides);
 
 }  // namespace whipple::run
