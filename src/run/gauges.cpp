@@ -121,6 +121,16 @@ std::vector<std::uint64_t> nearest(const std::vector<cases::Gauge>& gauges,
 GaugeRecorder::GaugeRecorder(const std::vector<cases::Gauge>& gauges, const solver::Simulation& simulation)
     : gauges_(gauges), particle_(nearest(gauges, simulation)) {}
 
+std::vector<GaugeColumn> gauge_columns(const cases::Gauge& gauge) {
+  std::vector<GaugeColumn> columns;
+  for (const char axis : {'x', 'y', 'z'}) columns.push_back({fmt::format("{}.{}", gauge.name, axis), "m"});
+  for (const char axis : {'x', 'y', 'z'})
+    columns.push_back({fmt::format("{}.velocity_{}", gauge.name, axis), "m/s"});
+  for (const Quantity& quantity : quantities)
+    columns.push_back({fmt::format("{}.{}", gauge.name, quantity.name), quantity.unit});
+  return columns;
+}
+
 GaugeRecorder::GaugeRecorder(const std::vector<cases::Gauge>& gauges, const io::CheckpointValues& values)
     : gauges_(gauges), particle_(gauges.size(), 0) {
   for (std::size_t g = 0; g < gauges_.size(); ++g) {
@@ -175,19 +185,18 @@ std::vector<io::HistoryValue> GaugeRecorder::row(const solver::Simulation& simul
                                        {"time", "s", simulation.state().time}};
   for (std::size_t g = 0; g < gauges_.size(); ++g) {
     const Sums& s = sums[g];
+    const std::vector<GaugeColumn> columns = gauge_columns(gauges_[g]);
+    std::size_t next = 0;
+    const auto add = [&](double value) {
+      row.push_back({columns[next].name, columns[next].unit, value});
+      ++next;
+    };
     for (std::size_t a = 0; a < 3; ++a) {
-      const double x =
-          gauges_[g].moving() ? s.position[a] / s.mass : gauges_[g].position[static_cast<Eigen::Index>(a)];
-      row.push_back({fmt::format("{}.{}", gauges_[g].name, "xyz"[a]), "m", x});
+      add(gauges_[g].moving() ? s.position[a] / s.mass : gauges_[g].position[static_cast<Eigen::Index>(a)]);
     }
-    for (std::size_t a = 0; a < 3; ++a) {
-      row.push_back(
-          {fmt::format("{}.velocity_{}", gauges_[g].name, "xyz"[a]), "m/s", s.velocity[a] / s.mass});
-    }
+    for (std::size_t a = 0; a < 3; ++a) add(s.velocity[a] / s.mass);
     for (std::size_t q = 0; q < quantities.size(); ++q) {
-      const double weight = quantities[q].by_volume ? s.volume : s.mass;
-      row.push_back({fmt::format("{}.{}", gauges_[g].name, quantities[q].name), quantities[q].unit,
-                     s.value[q] / weight});  // 0/0 without material
+      add(s.value[q] / (quantities[q].by_volume ? s.volume : s.mass));  // 0/0 without material
     }
   }
   return row;

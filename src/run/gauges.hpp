@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "src/case/gauges.hpp"
@@ -10,6 +11,15 @@
 #include "src/solver/simulation.hpp"
 
 namespace whipple::run {
+
+/// Describes a column of gauges.csv, NAME.QUANTITY.
+struct GaugeColumn {
+  std::string name;
+  std::string unit;
+};
+
+/// Lists the columns of a gauge in the order of the file.
+std::vector<GaugeColumn> gauge_columns(const cases::Gauge& gauge);
 
 /// Measures the state at the gauges of a run. An element counts as the eight particles into which it may be converted
 /// (src/afemp/conversion.hpp), with their numbers. A moving gauge follows the particle that was nearest to its initial

@@ -12,10 +12,21 @@
 #include "src/core/base/error.hpp"
 #include "src/core/base/text.hpp"
 #include "src/core/base/units.hpp"
+#include "src/run/gauges.hpp"
 #include "src/run/observers/history_columns.hpp"
 
 namespace whipple::sweep {
 namespace {
+
+/// Lists the columns of gauges.csv of the case.
+std::vector<run::GaugeColumn> columns_of_gauges(const Plan& plan) {
+  std::vector<run::GaugeColumn> columns;
+  for (const cases::Gauge& gauge : plan.base.all_gauges()) {
+    const std::vector<run::GaugeColumn> own = run::gauge_columns(gauge);
+    columns.insert(columns.end(), own.begin(), own.end());
+  }
+  return columns;
+}
 
 /// Checks the names of the wanted results.
 void check_names(const Plan& plan) {
@@ -23,7 +34,7 @@ void check_names(const Plan& plan) {
   for (const run::HistoryColumn& column : run::history_columns(plan.base))
     history.push_back("history." + column.name);
   for (const cases::Body& body : plan.base.bodies) bodies.push_back(body.name);
-  for (const cases::Gauge& gauge : plan.base.all_gauges()) gauges.push_back(gauge.name);
+  for (const run::GaugeColumn& column : columns_of_gauges(plan)) gauges.push_back("gauge." + column.name);
   for (const Wanted& wanted : plan.study.wanted()) {
     const auto refuse = [&](const std::vector<std::string>& accepted, const char* what) {
       throw InputError(fmt::format("{}: error: '{}' is no {}{}", plan.study.file.string(), wanted.name, what,
@@ -32,9 +43,8 @@ void check_names(const Plan& plan) {
     if (wanted.name.starts_with("history.")) {
       if (std::ranges::count(history, wanted.name) == 0) refuse(history, "column of history.csv");
     } else if (wanted.is_column()) {
-      const bool known = std::ranges::any_of(
-          gauges, [&](const std::string& gauge) { return wanted.name.starts_with("gauge." + gauge + "."); });
-      if (!known) refuse(gauges, "column of a gauge of the case, gauge.NAME.COLUMN");
+      if (std::ranges::count(gauges, wanted.name) == 0)
+        refuse(gauges, "column of a gauge of the case, gauge.NAME.COLUMN");
     } else {
       std::vector<std::string> names;
       for (const analysis::Measure& measure : analysis::measures()) {
@@ -55,6 +65,8 @@ void check_threshold(const Plan& plan) {
   std::optional<std::string> unit;
   for (const run::HistoryColumn& column : run::history_columns(plan.base))
     if ("history." + column.name == name) unit = column.unit;
+  for (const run::GaugeColumn& column : columns_of_gauges(plan))
+    if ("gauge." + column.name == name) unit = column.unit;
   for (const analysis::Measure& measure : analysis::measures()) {
     const std::string known(measure.name);
     const bool of_body = known.ends_with(".BODY") && name.starts_with(known.substr(0, known.size() - 4));

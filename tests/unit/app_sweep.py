@@ -183,6 +183,9 @@ def inputs():
     study_text = '[[vary]]\nkey = "domain.cell_sizes"\nvalues = ["1 mm"]\n'
     for text, expected in ((study_text, "cell_sizes"), ('[[vary]]\nkey = "time.end"\n', "expected one of 'values'"),
                            ('[[vary]]\nkey = "time.end"\nvalues = ["1 us"]\n[[quantity]]\nname = "history.momentun_x"\n', "momentum_x"),
+                           ('[[vary]]\nkey = "time.end"\nvalues = ["1 us"]\n[[quantity]]\nname = "gauge.middle.velocity_q"\n', "gauge.middle.velocity_"),
+                           ('[find]\nkey = "time.end"\nbetween = ["1 us", "2 us"]\nquantity = "gauge.middle.y"\ncrosses = "3 kg"\n'
+                            'tolerance = "0.5 us"\n', "find.crosses"),
                            ("", "nothing varies")):
         folder = FOLDER / "wrong"
         message = sweep(study("wrong", text), folder, code=2).stderr
