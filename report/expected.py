@@ -193,6 +193,8 @@ def add_to(page: Page, run: Run, add_figure) -> list[dict]:
             return []
         measures = Measures(run.folder, run.output)
         values = [(e, measures.value(e)) for e in found.expectations]
+        histories = measured_history.figure(run.folder / "gauges.csv", found.expectations,
+                                            lambda e: program.measure(run.folder, request(e, "history_shift")))
     except BadExpectation as error:
         page.note(f"The expectations of the case cannot be read: {error}")
         return []
@@ -215,8 +217,7 @@ def add_to(page: Page, run: Run, add_figure) -> list[dict]:
     add_figure("expected.png", "Points: this run, with the band of 95 % of the case's grid study. Blue: expected value with "
                "its tolerance; arrows: bounds, and the side that is allowed.", figure_of(drawn))
     add_figure("histories.png", "Measured histories and those of this run, moved in time so that both reach half the largest measured "
-               "value together.", measured_history.figure(run.folder / "gauges.csv", found.expectations,
-                                                       lambda e: program.measure(run.folder, request(e, "history_shift"))))
+               "value together.", histories)
     page.note("The band is that of the case's own grid study (docs/generated/results: discretization, position of the "
               "lattice), where there is one; its value on the finest grid is next to it. A departure of a single run "
               "within the band says nothing." if studies else

@@ -21,10 +21,19 @@ def program() -> str:
     return named
 
 
-@functools.lru_cache(maxsize=None)
 def measure(folder: pathlib.Path, text: str) -> float:
     """Takes a measure of a run by `whipple measure`, e.g. "jet_speed.liner fraction=0.01" (SI). NaN where there is none."""
-    done = subprocess.run([program(), "measure", str(folder), text], capture_output=True, text=True)
+    history = folder / "history.csv"
+    return _measure(folder, text, history.stat().st_mtime_ns if history.is_file() else 0)
+
+
+@functools.lru_cache(maxsize=None)
+def _measure(folder: pathlib.Path, text: str, _computed_at: int) -> float:
+    """A folder may be computed again while this process lives: its measure is that of the time of its history."""
+    try:
+        done = subprocess.run([program(), "measure", str(folder), text], capture_output=True, text=True)
+    except OSError as error:
+        raise BadExpectation(f"the program {program()} cannot be started: {error.strerror}") from None
     if done.returncode != 0:
         raise BadExpectation(f"{folder}: {done.stderr.strip() or done.stdout.strip()}")
     value = json.loads(done.stdout)[text]["value"]

@@ -42,7 +42,7 @@ if(WHIPPLE_PYTHON)
   add_test(NAME app_shield COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/app_shield.py $<TARGET_FILE:whipple>
            ${PROJECT_SOURCE_DIR}/cases/ryan_shields/shots.csv ${CMAKE_CURRENT_BINARY_DIR}/app_shield)
   set_tests_properties(app_shield PROPERTIES LABELS fast TIMEOUT 300)
-  set_tests_properties(app_sweep PROPERTIES LABELS fast TIMEOUT 300 COST 10)
+  set_tests_properties(app_sweep PROPERTIES LABELS fast TIMEOUT 300 COST 30)
   set_tests_properties(app_monitor PROPERTIES LABELS fast TIMEOUT 300)
   set_tests_properties(app_monitor_browser PROPERTIES LABELS "browser;long" TIMEOUT 300 COST 80 SKIP_RETURN_CODE 77)
 endif()

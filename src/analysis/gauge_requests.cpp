@@ -116,18 +116,21 @@ History of_gauge(const Request& request) {
 /// Reads a measured history: two columns, "time [UNIT]" and "NAME [UNIT]".
 /// @throws InputError naming the file
 History measured_history(const Request& request) {
-  const RunTable table(request.table);
+  const RunTable table(request.table, RunTable::Row::complete);
   const std::string file = request.table.string();
   const std::vector<Column>& columns = table.columns();
   if (columns.empty()) throw InputError(fmt::format("{} is missing or empty", file));
-  const bool is_history = columns.size() == 2 && table.find("time") == &columns[0] &&
-                          !columns[0].unit.empty() && !columns[1].unit.empty() &&
-                          table.columns()[0].values.size() >= 3 && std::ranges::is_sorted(columns[0].values);
+  const bool is_history =
+      columns.size() == 2 && table.find("time") == &columns[0] && !columns[0].unit.empty() &&
+      !columns[1].unit.empty() && table.columns()[0].values.size() >= 3 &&
+      std::ranges::is_sorted(columns[0].values) && std::ranges::all_of(columns, [](const Column& column) {
+        return std::ranges::all_of(column.values, [](double v) { return std::isfinite(v); });
+      });
   if (!is_history) {
-    throw InputError(
-        fmt::format("{}: expected the columns \"time [UNIT]\" and \"NAME [UNIT]\" with three or more rows "
-                    "in the order of time",
-                    file));
+    throw InputError(fmt::format(
+        "{}: expected the columns \"time [UNIT]\" and \"NAME [UNIT]\" with three or more complete "
+        "rows in the order of time",
+        file));
   }
   const RunTable gauges = gauges_of(request);
   const Column* const own = gauges.find(fmt::format("{}", fmt::join(request.names, ".")));

@@ -94,9 +94,16 @@ double tip_speed(const Particles& particles, double fraction) {
 
 double profile_error(const Request& request) {
   const std::optional<Particles> found = particles_of(request, whenever);
-  const RunTable exact(request.table);
+  const RunTable exact(request.table, RunTable::Row::complete);
+  for (const std::string& column : {std::string("x"), request.names[1]}) {
+    if (exact.find(column) == nullptr) {
+      throw InputError(fmt::format(
+          "{}: {}", request.table.string(),
+          exact.columns().empty() ? "there is no such table" : fmt::format("has no column \"{}\"", column)));
+    }
+  }
   const std::vector<double>&places = exact["x"], &values = exact[request.names[1]];
-  if (!found || places.empty() || values.empty()) return nan;
+  if (!found || places.empty()) return nan;
   const auto field = found->scalars.find(request.names[1]);
   if (field == found->scalars.end()) return nan;
   double miss = 0.0, scale = 0.0;

@@ -94,7 +94,10 @@ void set(Request& request, const std::string& key, const std::string& value) {
   if (parameter == parameters.end()) {
     request.table = value;
   } else {
-    request.*parameter->member = units::parse_quantity(value, parameter->unit);
+    const double number = units::parse_quantity(value, parameter->unit);
+    if (parameter->member == &Request::fraction && !(number > 0.0 && number < 1.0))
+      throw InputError(fmt::format("is {}, but must be > 0 and < 1", value));
+    request.*parameter->member = number;
   }
 }
 
@@ -142,7 +145,12 @@ Quantity take_on_request(const std::filesystem::path& folder, const std::string&
     const Column* const column = gauges.find(fmt::format("{}", fmt::join(request.names, ".")));
     unit = column == nullptr ? "1" : column->unit;
   }
-  Quantity quantity{text, unit, std::string(measure->meaning), measure->value(request)};
+  Quantity quantity{text, unit, std::string(measure->meaning), nan};
+  try {
+    quantity.value = measure->value(request);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("measure \"{}\": {}", text, error.what()));
+  }
   if (!std::isfinite(quantity.value)) {
     quantity.value = nan;
     quantity.reason = measure->missing;

@@ -13,13 +13,14 @@
 
 namespace whipple::analysis {
 
-RunTable::RunTable(const std::filesystem::path& file) : file_(file) {
+RunTable::RunTable(const std::filesystem::path& file, Row last) : file_(file) {
   if (!std::filesystem::is_regular_file(file)) return;
   std::istringstream lines(read_text(file));
   std::string line;
   std::size_t number = 0;
   while (std::getline(lines, line)) {
     ++number;
+    const bool unfinished = lines.eof();  // without the end of its line
     if (line.ends_with('\r')) line.pop_back();
     if (line.empty() || line.starts_with('#')) continue;
     const std::vector<std::string> cells = csv_cells(line);
@@ -34,16 +35,19 @@ RunTable::RunTable(const std::filesystem::path& file) : file_(file) {
       }
       continue;
     }
+    if (unfinished && last == Row::may_be_unfinished) break;
     if (cells.size() != columns_.size()) {
-      if (lines.peek() == std::istringstream::traits_type::eof()) break;
       throw InputError(fmt::format("{}:{}: error: {} cells under {} names", file.string(), number,
                                    cells.size(), columns_.size()));
     }
     for (std::size_t i = 0; i < cells.size(); ++i) {
       double value = nan;
-      const char* const end = cells[i].data() + cells[i].size();
-      const auto [read_to, fault] = std::from_chars(cells[i].data(), end, value);
-      if (!cells[i].empty() && (fault != std::errc() || read_to != end)) {
+      std::string_view cell = cells[i];
+      while (cell.starts_with(' ')) cell.remove_prefix(1);
+      while (cell.ends_with(' ')) cell.remove_suffix(1);
+      if (cell.starts_with('+')) cell.remove_prefix(1);
+      const auto [read_to, fault] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+      if (!cell.empty() && (fault != std::errc() || read_to != cell.data() + cell.size())) {
         throw InputError(fmt::format("{}:{}: error: {} is \"{}\", expected a number", file.string(), number,
                                      columns_[i].name, cells[i]));
       }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -14,9 +15,12 @@ namespace whipple::analysis {
 /// "name [unit]", lines that begin with # apart. Empty cells are NaN.
 class RunTable {
  public:
-  /// Reads a table; without columns if the file is missing. A last row that is still being written is left out.
-  /// @throws InputError naming the file and the line of what is no number
-  explicit RunTable(const std::filesystem::path& file);
+  /// Whether the last row counts if the end of its line is missing: in a table that a run is writing it does not.
+  enum class Row : std::uint8_t { complete, may_be_unfinished };
+
+  /// Reads a table; without columns if the file is missing.
+  /// @throws InputError naming the file and the line of what is no number, or of too few or too many cells
+  explicit RunTable(const std::filesystem::path& file, Row last = Row::may_be_unfinished);
 
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
   [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }

@@ -69,8 +69,9 @@ void require_parts_agree(const Material& material) {
   for (const auto& criterion : material.failure) {
     if (criterion->accumulates()) {
       if (!with_past.empty()) {
-        throw InputError(fmt::format("models \"{}\" and \"{}\" both accumulate damage: one of them may",
-                                     with_past, criterion->model()));
+        throw InputError(
+            fmt::format("models \"{}\" and \"{}\" both keep the damage of a point: one of them may",
+                        with_past, criterion->model()));
       }
       with_past = criterion->model();
     }

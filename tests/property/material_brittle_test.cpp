@@ -391,7 +391,7 @@ TEST(Brittle, RefusesContradictions) {
                          {std::make_shared<failure::CriterionModel<failure::GradyKipp>>(
                              failure::GradyKipp{.flaw_density = 1e30, .weibull_modulus = 8})});
   };
-  EXPECT_THAT([&] { twice(); }, testing::ThrowsMessage<InputError>(HasSubstr("both accumulate")));
+  EXPECT_THAT([&] { twice(); }, testing::ThrowsMessage<InputError>(HasSubstr("both keep the damage")));
 }
 
 }  // namespace

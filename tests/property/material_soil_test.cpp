@@ -8,6 +8,7 @@
 #include <random>
 
 #include "src/core/base/error.hpp"
+#include "src/material/failure/tensile_pressure.hpp"
 #include "src/material/strength/drucker_prager.hpp"
 #include "src/material/strength/granular_flow.hpp"
 #include "tests/unit/brittle_support.hpp"
@@ -32,13 +33,13 @@ DruckerPrager clay(MatchedStates match) {
 }
 
 template <class Law>
-Material soil(const Law& law) {
+Material soil(const Law& law, std::vector<std::shared_ptr<const failure::Criterion>> failure = {}) {
   eos::PolynomialConstants constants;
   constants.reference_density = 2000;
   constants.C1 = bulk;
   constants.heat_capacity = 1000;
   return make_material("soil", std::make_shared<eos::ModelEquationOfState<eos::Polynomial>>(constants),
-                       std::make_shared<BrittleModel<Law>>(law));
+                       std::make_shared<BrittleModel<Law>>(law), std::move(failure));
 }
 
 /// Returns q, and p, of the principal stresses a > b > c in compression.
@@ -116,8 +117,21 @@ TEST(DruckerPrager, GapsOpenAtTheApexOrTheTensileStrength) {
 TEST(DruckerPrager, StrengthEndsAtTheGreatest) {
   DruckerPrager law = clay(MatchedStates::plane_strain);
   law.maximum_strength = 50e3;
+  law.prepare();
   EXPECT_EQ(law.surface({.pressure = 1e6, .rate = 0}).strength(0.0), 50e3);
   EXPECT_LT(law.surface({.pressure = 1e3, .rate = 0}).strength(0.0), 50e3);
+}
+
+TEST(DruckerPrager, ACriterionOfTensionSeesNoMoreThanTheGapsLeave) {
+  const DruckerPrager law = clay(MatchedStates::plane_strain);
+  const double apex = law.cone().cohesion / law.cone().slope;
+  for (const auto& [strength, fails] : {std::pair{0.9 * apex, true}, std::pair{1.1 * apex, false}}) {
+    const Material material = soil(law, {std::make_shared<failure::CriterionModel<failure::TensilePressure>>(
+                                            failure::TensilePressure{{}, strength})});
+    Body body{material};
+    body.strain_to(diagonal(1.01, 1.01, 1.01), 3);  // far beyond both in one step
+    EXPECT_EQ(body.points.failed[0] != failure::intact, fails);
+  }
 }
 
 template <class Law>

@@ -18,8 +18,13 @@ failure::Components<const double> view(const Chunk& chunk, const Lanes* lanes) {
 /// @param strain  its components, or none
 void mark(const EosStrength& model, const Step& step, Chunk& chunk,
           const failure::Components<const double>& strain) {
+  // Brittle material bears no more tension than that at which its gaps open, which they do after this.
+  Lanes bounded;
+  const bool brittle = step.material.strength->brittle() != nullptr;
+  for (std::size_t k = 0; brittle && k < chunk.size; ++k)
+    bounded[k] = std::max(chunk.acting_pressure[k], chunk.least_pressure[k]);
   const failure::State state = {.time_step = step.settings.time_step,
-                                .pressure = chunk.view(chunk.acting_pressure),
+                                .pressure = chunk.view(brittle ? bounded : chunk.acting_pressure),
                                 .temperature = chunk.view(chunk.temperature),
                                 .density = chunk.view(chunk.density),
                                 .bulk_modulus = chunk.view(chunk.bulk_modulus),

@@ -97,13 +97,16 @@ inline BrittleReturn brittle_return(double trial, double stiffness, const Brittl
 ///   surface(point) -> BrittleSurface              strength and failure strain at point.pressure, point.rate
 ///   least_pressure(point) -> double               Pa, <= 0, at point.damage
 ///   crushed_strain(point) -> double               strain that crushed pores add to the damage
-/// and optionally keeps_strength (soils: no strain damages them), bulking (fraction of the lost shear energy that becomes
+/// and optionally prepare() (computes once what its functions need), keeps_strength (soils: no strain damages them), bulking (fraction of the lost shear energy that becomes
 /// pressure) or hardening(trial, stiffness, surface, point) -> BrittleReturn (strain hardening before any damage).
 template <class Law>
 class BrittleModel final : public Strength, public Brittle {
  public:
   /// @throws InputError if the constants are inconsistent
-  explicit BrittleModel(const Law& law) : law_(law), modulus_(law.stiffness()) { law.require_consistent(); }
+  explicit BrittleModel(const Law& law) : law_(law), modulus_(law.stiffness()) {
+    law.require_consistent();
+    if constexpr (requires { law_.prepare(); }) law_.prepare();
+  }
 
   [[nodiscard]] const Law& law() const { return law_; }
   [[nodiscard]] std::string_view model() const override { return Law::name; }

@@ -33,6 +33,12 @@ struct DruckerPrager : ElasticConstants {
   double tensile_strength = std::numeric_limits<double>::infinity();  ///< sigma_t, Pa
   double maximum_strength = std::numeric_limits<double>::infinity();  ///< Y_max, Pa
 
+  struct Cone {
+    double slope;     ///< M
+    double cohesion;  ///< d, Pa
+  };
+  Cone prepared{0.0, 0.0};  ///< cone() of the constants, by prepare()
+
   static ParameterTable<DruckerPrager> parameters() {
     using P = DruckerPrager;
     return ElasticConstants::parameters<P>(
@@ -55,10 +61,6 @@ struct DruckerPrager : ElasticConstants {
       "one of flow without dilation.\n"
       "Source: Drucker and Prager, Q. Appl. Math. 10 (1952) 157.";
 
-  struct Cone {
-    double slope;     ///< M
-    double cohesion;  ///< d, Pa
-  };
   /// Returns the cone in q and p that matches the Mohr-Coulomb pyramid (docs/theory/soil.md, eq. 2).
   [[nodiscard]] Cone cone() const {
     const double sine = std::sin(friction_angle), cosine = std::cos(friction_angle), tangent = sine / cosine;
@@ -79,14 +81,13 @@ struct DruckerPrager : ElasticConstants {
   }
 
   void require_consistent() const {}  // ensured by the ranges of the constants
+  void prepare() { prepared = cone(); }
   [[nodiscard]] double least_pressure(const BrittlePoint&) const {
-    const Cone c = cone();
-    return -std::min(tensile_strength, c.cohesion / c.slope);
+    return -std::min(tensile_strength, prepared.cohesion / prepared.slope);
   }
   static double crushed_strain(const BrittlePoint&) { return 0.0; }
   [[nodiscard]] BrittleSurface surface(const BrittlePoint& point) const {
-    const Cone c = cone();
-    return {.whole = c.cohesion + c.slope * point.pressure,
+    return {.whole = prepared.cohesion + prepared.slope * point.pressure,
             .fall = 0.0,
             .greatest = maximum_strength,
             .failure_strain = std::numeric_limits<double>::infinity()};
