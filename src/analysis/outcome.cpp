@@ -31,11 +31,12 @@ struct Cell {
   double rear = -infinity;
 };
 
-std::vector<Cell> cells_of(const Snapshot& snapshot, const Wall& wall, const Wall::Remains& left) {
+std::vector<Cell> cells_of(const Snapshot& snapshot, const Wall& wall, const std::vector<std::uint8_t>& held,
+                           const Vector3& shift) {
   std::vector<Cell> cells(wall.face_cells());
   for (std::size_t i = 0; i < snapshot.size(); ++i) {
-    if (left.wall[i] == 0) continue;
-    const auto at = wall.cell_at(snapshot.position[i], left.shift);
+    if (held[i] == 0) continue;
+    const auto at = wall.cell_at(snapshot.position[i], shift);
     if (!at) continue;
     Cell& cell = cells[*at];
     cell.mass += snapshot.mass[i];
@@ -64,6 +65,9 @@ Judge::Judge(const Run& run, const Snapshot& first, const Frame& flight, const W
   const double diameter = diameter_of(run, first, flight);
   window_ = rule::window * diameter;
   plug_ = mass / volume * wall.extent().length() * 0.25 * std::numbers::pi * diameter * diameter;
+  const double per_edge = rule::spall_width * cell_ / run.bodies[wall.body()].spacing;
+  least_particles_ =
+      flight.is_planar() ? std::max(rule::spall_particles, per_edge * per_edge) : rule::spall_particles;
   verdict_.reason = "no snapshot was judged";
 }
 
@@ -80,38 +84,70 @@ double Judge::momentum_under_way(const Snapshot& snapshot) const {
   return sum;
 }
 
-/// Returns the mean plastic strain of the remaining wall.
-double Judge::mean_strain(const Snapshot& snapshot, const Wall::Remains& left) {
+/// Returns strain and failure of all material of the body, whether it still belongs to the remaining wall or not:
+/// otherwise a strained point that fails would lower the mean strain. A failed point keeps its last strain.
+Judge::State Judge::state_of(const Snapshot& snapshot) const {
   const std::vector<double>& strain = *snapshot.scalar("plastic_strain");
-  double mass = 0.0, sum = 0.0;
+  const std::vector<double>& failed = *snapshot.scalar("failed");
+  State state{.time = snapshot.time};
+  double mass = 0.0;
   for (std::size_t i = 0; i < snapshot.size(); ++i) {
-    if (left.wall[i] == 0) continue;
+    if (snapshot.body[i] != wall_.body()) continue;
     mass += snapshot.mass[i];
-    sum += snapshot.mass[i] * strain[i];
+    state.strain += snapshot.mass[i] * strain[i];
+    if (failed[i] > 0.0) state.failed += wall_.frame().copies() * snapshot.mass[i];
   }
-  return mass > 0.0 ? sum / mass : 0.0;
+  if (mass > 0.0) state.strain /= mass;
+  return state;
 }
 
-/// Returns whether the mean plastic strain has hardly grown over the window. A free wall keeps vibrating elastically, so
-/// that no speed tells when it has stopped.
-bool Judge::has_stopped(double time, double strain) {
-  strains_.emplace_back(time, strain);
-  const auto before = std::ranges::find_if(strains_ | std::views::reverse, [&](const auto& entry) {
-    return entry.first <= time - window_ * (1.0 - 1e-9);
+/// Returns whether mean plastic strain and failed mass have hardly grown over the window. A free wall keeps vibrating
+/// elastically, so that no speed tells when it has stopped.
+bool Judge::has_stopped(const State& now) {
+  states_.push_back(now);
+  const auto before = std::ranges::find_if(states_ | std::views::reverse, [&](const State& state) {
+    return state.time <= now.time - window_ * (1.0 - 1e-9);
   });
-  return before != std::ranges::rend(strains_) && strain - before->second <= rule::growth * strain;
+  return before != std::ranges::rend(states_) && now.strain - before->strain <= rule::growth * now.strain &&
+         now.failed - before->failed < rule::failing * plug_;
 }
 
-Judge::ComeOff Judge::come_off(const Snapshot& snapshot, const Wall::Remains& left) const {
+/// Returns the motion of the rim of a wall; where nothing of the rim is left, that of the whole.
+Judge::Motion Judge::rim_of(const Snapshot& snapshot, const std::vector<std::uint8_t>& held) const {
   const Frame& frame = wall_.frame();
-  const std::vector<Cell> cells = cells_of(snapshot, wall_, left);
+  struct Sum {
+    double count = 0.0, displacement = 0.0, speed = 0.0;
+  } rim, all;
+  for (std::size_t i = 0; i < snapshot.size(); ++i) {
+    if (held[i] == 0) continue;
+    const Vector3* place = wall_.place_of(snapshot.id[i]);
+    if (place == nullptr) continue;
+    const auto add = [&](Sum& sum) {
+      sum.count += 1.0;
+      sum.displacement += frame.axial(snapshot.position[i]) - frame.axial(*place);
+      sum.speed += frame.axial(snapshot.velocity[i]);
+    };
+    add(all);
+    if (wall_.began_on_rim(snapshot.id[i])) add(rim);
+  }
+  const Sum& sum = rim.count > 0.0 ? rim : all;
+  if (!(sum.count > 0.0)) return {};
+  return {sum.displacement / sum.count, sum.speed / sum.count};
+}
+
+/// Sums what lies behind the material that holds; where that has no cell over the face, behind its rim.
+Judge::ComeOff Judge::come_off(const Snapshot& snapshot, const std::vector<std::uint8_t>& held,
+                               const Vector3& shift) const {
+  const Frame& frame = wall_.frame();
+  const std::vector<Cell> cells = cells_of(snapshot, wall_, held, shift);
+  const Motion rim = rim_of(snapshot, held);
   ComeOff sum;
   for (std::size_t i = 0; i < snapshot.size(); ++i) {
-    if (snapshot.body[i] != wall_.body() || left.wall[i] != 0) continue;
-    const auto at = wall_.cell_at(snapshot.position[i], left.shift);
+    if (snapshot.body[i] != wall_.body() || held[i] != 0) continue;
+    const auto at = wall_.cell_at(snapshot.position[i], shift);
     const bool before_wall = at && cells[*at].mass > 0.0;
-    const double rear = before_wall ? cells[*at].rear : wall_.extent().upper;
-    const double speed = before_wall ? cells[*at].momentum / cells[*at].mass : 0.0;
+    const double rear = before_wall ? cells[*at].rear : wall_.extent().upper + rim.displacement;
+    const double speed = before_wall ? cells[*at].momentum / cells[*at].mass : rim.speed;
     const double distance = frame.axial(snapshot.position[i]) - rear;
     if (!(distance > rule::gap * cell_)) continue;
     const double mass = frame.copies() * snapshot.mass[i];
@@ -127,19 +163,20 @@ Judge::ComeOff Judge::come_off(const Snapshot& snapshot, const Wall::Remains& le
   return sum;
 }
 
+bool Judge::is_spall(const ComeOff& off) const {
+  return off.mass >= rule::spall_share * plug_ && off.particles >= least_particles_ * (1.0 - 1e-9) &&
+         off.speed > rule::spall_speed;
+}
+
 Judge::Shape Judge::shape(const Snapshot& snapshot, const Wall::Remains& left) const {
   const Frame& frame = wall_.frame();
   std::map<std::size_t, std::vector<double>> coordinates;  // of the wall, by cells over its face
-  double rim = 0.0, count = 0.0;
   for (std::size_t i = 0; i < snapshot.size(); ++i) {
     if (left.wall[i] == 0) continue;
     const double z = frame.axial(snapshot.position[i]);
     if (const auto at = wall_.cell_at(snapshot.position[i], left.shift)) coordinates[*at].push_back(z);
-    if (!wall_.began_on_rim(snapshot.id[i])) continue;
-    rim += z - frame.axial(*wall_.place_of(snapshot.id[i]));
-    count += 1.0;
   }
-  if (count > 0.0) rim /= count;
+  const double rim = rim_of(snapshot, left.wall).displacement;
   Shape result;
   for (auto& [cell, z] : coordinates) {
     std::ranges::sort(z);
@@ -161,8 +198,10 @@ void Judge::add(const Snapshot& snapshot, const Wall::Remains& left) {
     decide(Outcome::perforated, snapshot.time, "a path leads through the wall");
     return;
   }
-  const ComeOff off = come_off(snapshot, left);
-  const bool spalled = off.mass >= rule::spall_share * plug_ && off.speed > rule::spall_speed;
+  // A layer that parts over the whole face closes it as well: it holds unless it leaves the layer before it.
+  ComeOff off = come_off(snapshot, left.wall, left.shift);
+  if (!is_spall(off)) off = come_off(snapshot, left.front, left.shift);
+  const bool spalled = is_spall(off);
   const double thickness = wall_.extent().length();
   const auto tell_spall = [&] {
     return fmt::format("{:.3g} mg of it are {:.3g} mm behind it and leave it at {:.3g} m/s", 1e6 * off.mass,
@@ -181,7 +220,7 @@ void Judge::add(const Snapshot& snapshot, const Wall::Remains& left) {
     verdict_.reason = fmt::format("{:.2g} of the projectile's momentum is still on its way", coming);
     return;
   }
-  if (!has_stopped(snapshot.time, mean_strain(snapshot, left))) {
+  if (!has_stopped(state_of(snapshot))) {
     verdict_.reason = "the wall still deforms";
     return;
   }

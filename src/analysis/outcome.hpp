@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "src/analysis/wall.hpp"
@@ -29,13 +28,17 @@ constexpr std::array<Word<Outcome>, 6> words(Outcome) {
 namespace rule {
 constexpr double spall_share =
     0.01;  ///< of the wall's plug of the projectile's diameter: least mass that has come off
-constexpr double spall_speed = 10.0;  ///< m/s, by which it leaves the wall
-constexpr double gap = 2.0;           ///< cells, least width of a gap
-constexpr double under_way = 0.01;    ///< of the projectile's momentum, that may still be on its way
+constexpr double spall_speed = 10.0;     ///< m/s, by which it leaves the wall
+constexpr double spall_particles = 4.0;  ///< least number of particles that have come off
+constexpr double spall_width =
+    2.0;  ///< cells, edge of the square that they fill at least in the section of a model in two dimensions
+constexpr double gap = 2.0;         ///< cells, least width of a gap
+constexpr double under_way = 0.01;  ///< of the projectile's momentum, that may still be on its way
 constexpr double growth =
     0.05;  ///< of the wall's mean plastic strain in the window, below which it has stopped
-constexpr double window = 5e-3;  ///< s/m, of that time over the diameter of the projectile
-constexpr double bulged = 0.1;   ///< of the thickness, least displacement of the rear face
+constexpr double failing = 0.01;  ///< of the plug: growth of its failed mass in the window, likewise
+constexpr double window = 5e-3;   ///< s/m, of that time over the diameter of the projectile
+constexpr double bulged = 0.1;    ///< of the thickness, least displacement of the rear face
 }  // namespace rule
 
 /// Holds what became of a wall, when that was decided (s), and why.
@@ -72,6 +75,17 @@ class Judge {
     double distance = 0.0;  ///< m, mean, behind the rear of the wall
     double particles = 0.0;
   };
+  /// Holds how the wall deforms: it has stopped when neither grows any more.
+  struct State {
+    double time = 0.0;
+    double strain = 0.0;  ///< mean plastic strain of all of its material
+    double failed = 0.0;  ///< kg of it that have failed, of the full problem
+  };
+  /// Holds how far a part of the wall has moved along the axis since the start, and how fast it moves, on average.
+  struct Motion {
+    double displacement = 0.0;  ///< m
+    double speed = 0.0;         ///< m/s
+  };
   /// Holds how far the wall has bent, and where it has opened inside.
   struct Shape {
     double bulge = 0.0;      ///< m, largest displacement of its rear relative to its rim
@@ -79,9 +93,12 @@ class Judge {
   };
 
   [[nodiscard]] double momentum_under_way(const Snapshot& snapshot) const;
-  [[nodiscard]] static double mean_strain(const Snapshot& snapshot, const Wall::Remains& left);
-  [[nodiscard]] bool has_stopped(double time, double strain);
-  [[nodiscard]] ComeOff come_off(const Snapshot& snapshot, const Wall::Remains& left) const;
+  [[nodiscard]] State state_of(const Snapshot& snapshot) const;
+  [[nodiscard]] bool has_stopped(const State& now);
+  [[nodiscard]] Motion rim_of(const Snapshot& snapshot, const std::vector<std::uint8_t>& held) const;
+  [[nodiscard]] ComeOff come_off(const Snapshot& snapshot, const std::vector<std::uint8_t>& held,
+                                 const Vector3& shift) const;
+  [[nodiscard]] bool is_spall(const ComeOff& off) const;
   [[nodiscard]] Shape shape(const Snapshot& snapshot, const Wall::Remains& left) const;
   void decide(Outcome outcome, double time, std::string reason) {
     verdict_ = {outcome, time, std::move(reason)};
@@ -90,12 +107,12 @@ class Judge {
   const Wall& wall_;
   std::string body_;
   double cell_ = 0.0;
-  double debris_speed_ = 0.0;  // m/s
-  double momentum_ = 0.0;      // kg m/s, of the projectile along the wall's axis
-  double plug_ = 0.0;          // kg, of the wall under the projectile
-  double window_ = 0.0;        // s
-  std::vector<std::pair<double, double>>
-      strains_;  // times (s) and mean plastic strains since the debris has come
+  double least_particles_ = 0.0;  // that detached spall consists of
+  double debris_speed_ = 0.0;     // m/s
+  double momentum_ = 0.0;         // kg m/s, of the projectile along the wall's axis
+  double plug_ = 0.0;             // kg, of the wall under the projectile
+  double window_ = 0.0;           // s
+  std::vector<State> states_;     // since the debris has come
   Verdict verdict_;
 };
 

@@ -207,6 +207,7 @@ bool Wall::closes(const Snapshot& snapshot, const Piece& piece, const Vector3& s
 Wall::Remains Wall::remains(const Snapshot& snapshot) const {
   Remains result;
   result.wall.assign(snapshot.size(), 0);
+  result.front.assign(snapshot.size(), 0);
   const std::vector<Piece> all = pieces(snapshot);
   if (all.empty()) return result;
   result.shift = shift_of(snapshot, all.front());
@@ -214,12 +215,23 @@ Wall::Remains Wall::remains(const Snapshot& snapshot) const {
     for (const std::uint32_t i : piece) result.wall[i] = 1;
   };
   // Layers separated by a spall plane may each close the body.
+  const Piece* front = nullptr;
+  double foremost = std::numeric_limits<double>::infinity();
   for (const Piece& piece : all) {
     if (!closes(snapshot, piece, shift_of(snapshot, piece))) continue;
-    result.closed = true;
     take(piece);
+    double place = 0.0;
+    for (const std::uint32_t i : piece) place += frame_.axial(snapshot.position[i]);
+    place /= static_cast<double>(piece.size());
+    if (!(place < foremost)) continue;
+    foremost = place;
+    front = &piece;
   }
-  if (result.closed) return result;
+  result.closed = front != nullptr;
+  if (result.closed) {
+    for (const std::uint32_t i : *front) result.front[i] = 1;
+    return result;
+  }
   // Debris is not attached to the rim, from which only small pieces may originate.
   constexpr double much = 0.1;
   for (const Piece& piece : all) {

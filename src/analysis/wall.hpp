@@ -29,7 +29,9 @@ class Wall {
   struct Remains {
     std::string undecided;  ///< why nothing can be decided; empty: it can
     bool closed = false;
-    std::vector<std::uint8_t> wall;   ///< 1: the particle belongs to it
+    std::vector<std::uint8_t> wall;  ///< 1: the particle belongs to it
+    std::vector<std::uint8_t>
+        front;  ///< 1: it belongs to the foremost of the pieces that each close the body
     Vector3 shift = Vector3::Zero();  ///< displacement of the wall across the axis, m
   };
   /// Finds the remaining wall. Snapshots must be passed in order of time.

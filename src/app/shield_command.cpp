@@ -181,10 +181,13 @@ void print_plan(const std::vector<Planned>& all) {
   }
 }
 
+std::string refusal_of(const fs::path& folder) {
+  return fmt::format("{} exists: give another folder with -o", folder.string());
+}
+
 /// Writes a file of a folder that did not exist before.
 void write_new(const fs::path& folder, const char* name, const std::string& text) {
-  if (fs::exists(folder))
-    throw InputError(fmt::format("{} exists: give another folder with -o", folder.string()));
+  if (fs::exists(folder)) throw InputError(refusal_of(folder));
   make_folder(folder);
   write_text_atomically(folder / name, text);
 }
@@ -196,7 +199,8 @@ std::string folder_name(const shields::Shot& shot) {
     return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' ||
            c == '_' || c == '.';
   };
-  std::ranges::replace_if(name, [&](char c) { return !keep(c); }, '_');
+  std::ranges::replace_if(
+      name, [&](char c) { return !keep(c); }, '_');
   return name;
 }
 
@@ -211,9 +215,7 @@ void write_cases(const std::vector<Planned>& all, const fs::path& output, bool d
       faults.push_back(
           {.text = fmt::format("several shots \"{}\": a folder needs a name of its own", names.back())});
     folders.push_back(all.size() == 1 ? output : output / names.back());
-    if (fs::exists(folders.back()))
-      faults.push_back(
-          {.text = fmt::format("{} exists: give another folder with -o", folders.back().string())});
+    if (fs::exists(folders.back())) faults.push_back({.text = refusal_of(folders.back())});
   }
   if (!faults.empty()) throw InputError(std::move(faults));
   for (std::size_t k = 0; k < all.size(); ++k) {
@@ -226,6 +228,8 @@ void write_cases(const std::vector<Planned>& all, const fs::path& output, bool d
 /// Writes the study of a limit: spheres from half of the smallest to twice the largest critical diameter by NNO, in
 /// cells of the rule for their geometric mean.
 void write_limit(const ShieldArguments& arguments, const shields::Shot& shot) {
+  const fs::path folder = arguments.output;
+  if (fs::exists(folder)) throw InputError(refusal_of(folder));
   if (shot.impact.projectile.angle > 0.0)
     throw InputError("--limit: the study varies the speed of normal impacts; the angle of this one is not 0");
   std::vector<double> speeds;
@@ -244,7 +248,6 @@ void write_limit(const ShieldArguments& arguments, const shields::Shot& shot) {
   if (!options.cell_size) options.cell_size = shields::layout_of(impact, options).cell_size;
   impact.projectile.diameter = between[1];
   const shields::Layout layout = shields::layout_of(impact, options);
-  const fs::path folder = arguments.output;
   const std::string text = shields::case_text(impact, layout);
   const std::string study = shields::study_text(impact, layout, speeds, between);
   fmt::print("spheres of {:.4g} to {:.4g} mm, cells of {:.4g} and {:.4g} mm\n", 1e3 * between[0],

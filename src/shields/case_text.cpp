@@ -109,7 +109,7 @@ std::string study_text(const Impact& impact, const Layout& layout, const std::ve
       "crosses = \"0.5\"\ntolerance = {}\nscan = 3\n\n"
       "[bands]\ncell_sizes = [{}, {}]\noffsets = [0, 0.3333, 0.6667]\n\n"
       "[run]\njobs = 2\nthreads = 1\nkeep = \"tables\"\n",
-      heading_of(impact), fmt::join(values, ", "), mm(0.5 * between[0]), mm(0.5 * between[1]),
+      toml_string(heading_of(impact)), fmt::join(values, ", "), mm(0.5 * between[0]), mm(0.5 * between[1]),
       mm(0.05 * 0.5 * std::sqrt(between[0] * between[1])), mm(layout.cell_size), mm(layout.cell_size / 1.4));
 }
 

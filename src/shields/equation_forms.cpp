@@ -70,13 +70,14 @@ double jsc_high(const Input& in) {
   return root(excess, 1e-6 * proper, 100.0 * proper);
 }
 
-/// Returns the speed below which the sphere is not shattered, km/s along the normal.
+/// Returns the speed below which the sphere is not shattered, km/s along the normal. For very thin bumpers the formula
+/// passes the 7 km/s above which the high branch holds (bumper over sphere below about 0.009): it ends there.
 double jsc_border(const Input& in) {
-  constexpr double thick = 2.60, thin_ratio = 0.16;
-  const double c = capped_cosine(in);
+  constexpr double thick = 2.60, thin_ratio = 0.16, hypervelocity = 7.0;
   const auto ratio = [&](double v_n) { return in.t_b / nno_low(in.at(v_n)); };
   if (ratio(thick) >= thin_ratio) return thick;
-  return root([&](double v_n) { return v_n - 1.436 / std::cbrt(ratio(v_n)); }, thick, 100.0 / c);
+  const auto excess = [&](double v_n) { return v_n - 1.436 / std::cbrt(ratio(v_n)); };
+  return excess(hypervelocity) < 0.0 ? hypervelocity : root(excess, thick, hypervelocity);
 }
 
 }  // namespace

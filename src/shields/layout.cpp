@@ -128,6 +128,17 @@ Layout layout_of(const Impact& impact, const CaseOptions& options) {
   place_domain(impact, layout);
   choose_times(impact, layout);
   count_particles(impact, layout);
+  double cells = 1.0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (options.model == Model::space || a != 1)
+      cells *= std::ceil((layout.upper[a] - layout.lower[a]) / layout.cell_size);
+  }
+  if (!(layout.cell_size > 0.0) || !std::isfinite(cells) || !std::isfinite(layout.particles) ||
+      !std::isfinite(layout.end))
+    throw InputError(
+        fmt::format("{}: sphere, sheets and cells differ too much in size: {:.3g} cells, {:.3g} "
+                    "particles, an end at {:.3g} s",
+                    impact.name, cells, layout.particles, layout.end));
   return layout;
 }
 

@@ -145,8 +145,8 @@ Column column_of(const std::string& heading) {
 double number_of(const std::string& cell, const Column& column) {
   double value = 0.0;
   const auto [end, fault] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (fault != std::errc() || end != cell.data() + cell.size())
-    throw InputError(fmt::format("{} is \"{}\", expected a number", column.known->name, cell));
+  if (fault != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
+    throw InputError(fmt::format("{} is \"{}\", expected a finite number", column.known->name, cell));
   value = column.conversion.factor * value + column.conversion.offset;
   if (!column.known->range.contains(value))
     throw InputError(
@@ -241,6 +241,7 @@ std::vector<Shot> read_shots(const std::filesystem::path& file) {
     throw InputError(
         fmt::format("{}: error: no heading (accepted columns: {})", file.string(), columns_of_shots()));
   if (!faults.empty()) throw InputError(std::move(faults));
+  if (shots.empty()) throw InputError(fmt::format("{}: error: has a heading but no shots", file.string()));
   return shots;
 }
 

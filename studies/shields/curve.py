@@ -13,6 +13,7 @@ import csv
 import json
 import math
 import pathlib
+import sys
 import tempfile
 import tomllib
 
@@ -26,9 +27,12 @@ SPEEDS = [1 + 0.25 * k for k in range(45)]  # km/s
 
 
 def at_speeds(text, speeds):
-    """Shield files with the speed of the projectile replaced."""
+    """Shield files with the speed of the projectile replaced. @throws SystemExit where its text is not found once"""
     velocity = tomllib.loads(text)["projectile"]["velocity"]
-    return [text.replace(f'"{velocity}"', f'"{speed} km/s"') for speed in speeds]
+    old = f'"{velocity}"'
+    if text.count(old) != 1:
+        sys.exit(f"the speed of the projectile has to be written once, as {old} in double quotes: found {text.count(old)} times")
+    return [text.replace(old, f'"{speed} km/s"') for speed in speeds]
 
 
 def equations(whipple, shield, speeds):

@@ -30,6 +30,7 @@ DEFEATS = {"perforated", "detached spall"}
 @dataclasses.dataclass
 class Run:
     """An outcome of outcomes.csv."""
+    model: str  # section or space
     outcome: str
     resolved: bool
     hours: float
@@ -86,14 +87,18 @@ def read_shots(whipple, table):
     return [shot_of(entry) for entry in entries]
 
 
-def add_runs(shots, rows):
-    """Attaches the last outcome of each shot. @throws SystemExit for a shot that the table does not have"""
-    by_name = {shot.name: shot for shot in shots}
+def by_model(shots, rows):
+    """Shots by model, each with the last outcome by that model. Sections and space are never scored together: a fragment off the
+    axis of a section is a ring. @throws SystemExit for a shot that the table does not have"""
+    names = {shot.name for shot in shots}
     for row in rows:
-        if row["shot"] not in by_name:
+        if row["shot"] not in names:
             sys.exit(f"outcomes of a shot that is not in the table: {row['shot']}")
-        by_name[row["shot"]].run = Run(outcome=row["outcome"], resolved=row["resolved"] == "yes",
-                                       hours=float(row["core hours"]), revision=row["revision"], reason=row["reason"])
+    models = sorted({row["model"] for row in rows}) or ["space"]
+    runs = {(row["model"], row["shot"]): Run(model=row["model"], outcome=row["outcome"], resolved=row["resolved"] == "yes",
+                                             hours=float(row["core hours"]), revision=row["revision"], reason=row["reason"])
+            for row in rows}
+    return {model: [dataclasses.replace(shot, run=runs.get((model, shot.name))) for shot in shots] for model in models}
 
 
 def table(head, rows):
@@ -147,11 +152,11 @@ def paired_rows(scored):
                 yield [group, title, both, run, equation, neither, f"{scores.mcnemar(run, equation):.3g}"]
 
 
-def run_section(shots, calibrating):
+def run_section(model, shots, calibrating):
     runs = [s for s in shots if s.run is not None]
     left = [s for s in shots if s.run is None and s.runnable and s.resolved and s.name not in calibrating]
     scored = [s for s in runs if s.run.resolved and s.defeated() is not None and s.name not in calibrating]
-    lines = ["## Runs", "",
+    lines = [f"## Runs: {model}", "",
              f"Of {len(shots)} shots {sum(s.runnable for s in shots)} have materials in the library and {sum(s.runnable and s.resolved for s in shots)} of "
              f"these are resolved (two cells through every sheet). Runs: {len(runs)}, of these {sum(s.name in calibrating for s in runs)} calibrating, "
              f"{sum(not s.run.resolved for s in runs)} not resolved, {sum(s.defeated() is None for s in runs)} undecided; scored: {len(scored)}. "
@@ -167,7 +172,7 @@ def run_section(shots, calibrating):
               *table(["shots", "equation", "both right", "run alone", "equation alone", "neither", "p"], paired_rows(scored))]
     unsafe = [s for s in scored if s.failed and not s.defeated()]
     lines += ["### Unsafe misses", ""]
-    lines += table(["shot", "outcome", "reason"], [[s.name, s.run.outcome, s.run.reason] for s in unsafe]) if unsafe else ["None.", ""]
+    lines += table(["shot", "model", "outcome", "reason"], [[s.name, s.run.model, s.run.outcome, s.run.reason] for s in unsafe]) if unsafe else ["None.", ""]
     undecided = [s for s in runs if s.defeated() is None]
     if undecided:
         lines += ["### Undecided", "", *table(["shot", "reason"], [[s.name, s.run.reason] for s in undecided])]
@@ -176,12 +181,14 @@ def run_section(shots, calibrating):
     return lines
 
 
-def page(shots, calibrating):
+def page(models, calibrating):
+    """Text of the page, of shots by model."""
+    shots = next(iter(models.values()))
     named = [f"- {name}: {why}" for name, why in calibrating.items()]
     return "\n".join(["# Shields: predictions and shots", "",
                       "Written by `python3 -m studies.shields.page`. Shots and their sources: `studies/shields/shots.csv`; equations:",
                       "[theory](../theory/ballistic_limits.md); outcome of a run: [shields](../manual/shields.md).", "",
-                      *equation_section(shots), *run_section(shots, calibrating),
+                      *equation_section(shots), *(line for model, members in models.items() for line in run_section(model, members, calibrating)),
                       "## Calibrating shots", "", "In no score of runs:", "", *named, ""])
 
 
@@ -192,9 +199,9 @@ def main():
     parser.add_argument("--output", type=pathlib.Path, default=commands.ROOT / "docs" / "generated" / "shields.md")
     arguments = parser.parse_args()
     shots = read_shots(arguments.whipple, HERE / "shots.csv")
-    add_runs(shots, read_csv(arguments.outcomes))
+    models = by_model(shots, read_csv(arguments.outcomes))
     calibrating = {row["shot"]: row["why"] for row in read_csv(HERE / "calibrating.csv")}
-    text = page(shots, calibrating)
+    text = page(models, calibrating)
     arguments.output.write_text(text, encoding="utf-8")
     print(text)
 

@@ -7,13 +7,17 @@ Usage: python3 -m studies.shields.run_shots SOURCE/SHOT... [--near COUNT] [--mod
 
 Makes the case of each shot (whipple shield), runs it until its outcome is decided, and adds a row to outcomes.csv with
 outcome, time, reason, cells, cost and revision. --near adds the cheapest shots within a third of the limit of NNO that have
-no row, are resolved and are not calibrating. Finished shots are not computed again; an interrupted run is resumed. Snapshots
-are deleted once a shot is judged, except those of unsafe misses (measured P, the wall holds).
+no row, are resolved and are not calibrating. Shots with a row of the same model are not computed again; an interrupted run is
+resumed from its checkpoint, if it has one. A run that fails is undecided, for the reason that it gives. The name of the folder
+of a run contains a digest of its case, so that other options have another folder. Snapshots are deleted once the row is
+written, except those of unsafe misses (measured P, the wall holds).
 """
 import argparse
 import csv
 import json
 import pathlib
+import shutil
+import tempfile
 
 from studies import commands
 from studies.shields import page
@@ -37,24 +41,49 @@ def cheapest_near(whipple, options, count, done):
     return [name for _, name in sorted(shots)[:count]]
 
 
-def compute(whipple, options, threads, name, entry, folder):
-    """Runs a shot and returns its row."""
-    if not folder.exists():
-        commands.call([whipple, "shield", page.HERE / "shots.csv", "--shot", name, *options, "-o", folder, "--quiet"])
+def folder_of(whipple, options, name, work):
+    """Folder of a shot with its case: named by the shot and a digest of the case."""
+    with tempfile.TemporaryDirectory() as scratch:
+        made = pathlib.Path(scratch) / "case"
+        commands.call([whipple, "shield", page.HERE / "shots.csv", "--shot", name, *options, "-o", made, "--quiet"])
+        folder = work / f"{name.replace('/', '_').replace(' ', '_')}_{commands.digest(made / 'case.toml')[:12]}"
+        folder.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(made / "case.toml", folder / "case.toml")
+    return folder
+
+
+def judged(whipple, threads, folder):
+    """Runs the case of a folder and returns its verdict: that of `whipple shield`, undecided where the run failed (code 3)."""
     run = folder / "run"
-    start = ["--restart", run] if (run / "status.json").exists() else [folder / "case.toml", "-o", run]
-    commands.call([whipple, "run", *start, "--threads", threads, "--quiet"])
-    verdict = json.loads(commands.call([whipple, "shield", run, "--outcome", "--json", "--quiet"]).stdout)
-    if entry["result"] == "NP" or verdict["defeated"]:
-        for file in run.glob("*.particles.*"):
-            file.unlink()
-    status = json.loads((run / "status.json").read_text(encoding="utf-8"))
-    case = entry["case"]
+    if any(run.glob("checkpoint/*.h5")):
+        start = ["--restart", run]
+    else:
+        shutil.rmtree(run, ignore_errors=True)
+        start = [folder / "case.toml", "-o", run]
+    done = commands.call([whipple, "run", *start, "--threads", threads, "--quiet"], allowed=(0, 3))
+    if done.returncode == 3:
+        return {"outcome": "undecided", "defeated": None, "time": None, "reason": f"the run failed: {status_of(run)['message']}"}
+    return json.loads(commands.call([whipple, "shield", run, "--outcome", "--json", "--quiet"]).stdout)
+
+
+def status_of(run):
+    """State of a run, with the revision of the program that computed it."""
+    return json.loads((run / "status.json").read_text(encoding="utf-8"))
+
+
+def delete_snapshots(run):
+    """Deletes the snapshots of a run."""
+    for file in run.glob("*.particles.*"):
+        file.unlink()
+
+
+def row_of(name, case, verdict, status, threads):
+    """Row of a shot."""
     return {"shot": name, "outcome": verdict["outcome"],
             "time [us]": "" if verdict["time"] is None else f"{1e6 * verdict['time']:.4g}", "reason": verdict["reason"],
             "model": case["model"], "cell size [mm]": f"{1e3 * case['cell_size']:.4g}",
             "resolved": "yes" if case["resolved"] else "no", "particles": f"{case['particles']:.0f}",
-            "core hours": f"{status['wall_time'] * threads / 3600:.3g}", "revision": commands.program(whipple)}
+            "core hours": f"{status['wall_time'] * threads / 3600:.3g}", "revision": status["revision"]}
 
 
 def append(file, row):
@@ -83,7 +112,7 @@ def main():
     for name in ("cell_size", "most_across"):
         if getattr(arguments, name):
             options += [f"--{name.replace('_', '-')}", getattr(arguments, name)]
-    done = {row["shot"] for row in page.read_csv(arguments.outcomes)}
+    done = {row["shot"] for row in page.read_csv(arguments.outcomes) if row["model"] == arguments.model}
     names = list(arguments.shots)
     if arguments.near:
         names += cheapest_near(arguments.whipple, options, arguments.near, done | set(names))
@@ -92,9 +121,12 @@ def main():
         if name in done:
             print(f"{name}: has an outcome")
             continue
-        row = compute(arguments.whipple, options, arguments.threads, name, entries[name],
-                      arguments.work / name.replace("/", "_").replace(" ", "_"))
+        folder = folder_of(arguments.whipple, options, name, arguments.work)
+        verdict = judged(arguments.whipple, arguments.threads, folder)
+        row = row_of(name, entries[name]["case"], verdict, status_of(folder / "run"), arguments.threads)
         append(arguments.outcomes, row)
+        if entries[name]["result"] == "NP" or verdict["defeated"]:
+            delete_snapshots(folder / "run")
         print(f"{name}: {row['outcome']}: {row['reason']} ({row['core hours']} core hours)")
 
 

@@ -165,6 +165,120 @@ TEST(Outcome, GapInsideIsAttachedSpallAndDisplacedRearIsABulge) {
   EXPECT_EQ(outcome(drifted).outcome, Outcome::whole);
 }
 
+/// A point that fails takes its strain with it: neither that nor the fall of the mean of the rest is a wall at rest.
+TEST(Outcome, WallThatStillFailsHasNotStopped) {
+  const Struck struck;
+  // The front layer within a radius has failed in place.
+  const auto failed = [&](double time, double radius, double strain) {
+    return struck.wall(time, [&, radius, strain](Snapshot& now, std::size_t i) {
+      now.scalars["plastic_strain"][i] = strain;
+      if (struck.distance(i) > radius || struck.start.position[i].z() > 0.25 * thickness) return;
+      now.scalars["failed"][i] = 1.0;
+      now.scalars["plastic_strain"][i] = 3.0;
+    });
+  };
+  Verdict verdict = verdict_of(struck, {struck.start, failed(5e-6, 2e-3, 0.01), failed(40e-6, 3e-3, 0.01)});
+  EXPECT_EQ(verdict.outcome, Outcome::undecided);
+  EXPECT_THAT(verdict.reason, HasSubstr("the wall still deforms"));
+  // Four points are less than a hundredth of the plug, but the strain at which they failed is growth.
+  verdict = verdict_of(struck, {struck.start, struck.loaded(), failed(40e-6, 0.4e-3, 0.01)});
+  EXPECT_EQ(verdict.outcome, Outcome::undecided);
+  EXPECT_THAT(verdict.reason, HasSubstr("the wall still deforms"));
+  verdict = verdict_of(struck, {struck.start, failed(5e-6, 0.4e-3, 0.01), failed(40e-6, 0.4e-3, 0.01)});
+  EXPECT_EQ(verdict.outcome, Outcome::whole);
+  // Failure at the strain that the points had: the failed mass alone tells that the wall has not stopped.
+  const auto same = [&](double time, double radius) {
+    Snapshot now = failed(time, radius, 0.01);
+    for (double& strain : now.scalars["plastic_strain"]) strain = 0.01;
+    return now;
+  };
+  EXPECT_EQ(verdict_of(struck, {struck.start, same(5e-6, 2e-3), same(40e-6, 3e-3)}).outcome,
+            Outcome::undecided);
+  EXPECT_EQ(verdict_of(struck, {struck.start, same(5e-6, 2e-3), same(40e-6, 2e-3)}).outcome, Outcome::whole);
+}
+
+TEST(Outcome, RearLayerOfTheWholeWidthThatFliesOffIsDetachedSpall) {
+  const Struck struck;
+  const auto outcome = [&](double distance, double speed) {
+    return verdict_of(struck, {struck.start, struck.loaded(), spalled(struck, 40e-6, 1.0, distance, speed)});
+  };
+  const Verdict away = outcome(5e-3, 80.0);
+  EXPECT_EQ(away.outcome, Outcome::detached_spall) << away.reason;
+  EXPECT_THAT(away.reason, HasSubstr("80 m/s"));
+  EXPECT_EQ(outcome(3e-3, 5.0).outcome, Outcome::attached_spall);  // it keeps pace
+}
+
+/// What has failed on the rim of a wall that drifts moves with it.
+TEST(Outcome, FailedRimOfAWallThatDriftsIsNoSpall) {
+  const Struck struck;
+  const auto drifted = [&](double rim, double speed) {
+    return struck.wall(40e-6, [&, rim, speed](Snapshot& now, std::size_t i) {
+      now.scalars["plastic_strain"][i] = 0.01;
+      now.position[i].z() += 5e-3;
+      now.velocity[i].z() = 30.0;
+      const double x = struck.start.position[i].x();
+      if (x > rim && x < 30e-3 - rim) return;
+      now.scalars["failed"][i] = 1.0;
+      now.velocity[i].z() = speed;
+    });
+  };
+  for (const double rim : {1e-3, 2e-3}) {
+    const Verdict verdict = verdict_of(struck, {struck.start, drifted(rim, 30.0), [&] {
+                                                  Snapshot later = drifted(rim, 30.0);
+                                                  later.time = 80e-6;
+                                                  return later;
+                                                }()});
+    EXPECT_EQ(verdict.outcome, Outcome::whole) << rim << ": " << verdict.reason;
+  }
+}
+
+/// In a section a particle far from the axis is a ring that outweighs a hundredth of the plug.
+TEST(Outcome, RingOfOneParticleIsNoSpall) {
+  Maker maker(spacing);
+  const auto everywhere = [](const Vector3&) { return true; };
+  constexpr double thick = 4e-3;  // of the wall; coordinates: radius, axis, and one layer across the section
+  maker.fill({0, -8e-3, 0}, {3e-3, -2e-3, spacing}, everywhere, {0, 5000, 0}, 0);
+  maker.fill({0, 0, 0}, {30e-3, thick, spacing}, everywhere, Vector3::Zero(), 1);
+  Snapshot start = maker.snapshot;
+  start.scalars.erase("phase");
+  start.scalars["plastic_strain"].assign(start.size(), 0.0);
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    start.position[i].z() = 0.0;
+    start.mass[i] = density * spacing * spacing * 2.0 * pi * start.position[i].x();
+  }
+  analysis::Run run;
+  run.dimension = grid::Dimension::axisymmetric;
+  run.cell_size = cell;
+  run.lower = Vector3(0, -30e-3, 0);
+  run.upper = Vector3(40e-3, 60e-3, cell);
+  run.bodies = {{.name = "ball", .velocity = {0, 5000, 0}, .spacing = spacing, .size = diameter},
+                {.name = "wall", .velocity = Vector3::Zero(), .spacing = spacing, .size = thick}};
+  const Frame frame = find_frame(run, start);
+  ASSERT_TRUE(frame.is_planar());
+  // A square block of the rear, `edge` wide, flies off at a radius of 20 mm.
+  const auto outcome = [&](double edge) {
+    Snapshot off = start;
+    off.time = 9e-6;
+    for (std::size_t i = 0; i < off.size(); ++i) {
+      const double r = start.position[i].x() - 20e-3;
+      if (off.body[i] != 1 || r < 0.0 || r > edge || start.position[i].y() < thick - edge) continue;
+      off.position[i].y() += 10e-3;
+      off.velocity[i].y() = 80.0;
+    }
+    Wall wall(run, start, frame, 1);
+    Judge judge(run, start, frame, wall);
+    judge.add(off, wall.look(off));
+    return judge.verdict();
+  };
+  for (const double edge : {spacing, 2.0 * spacing}) {  // one particle, and four: a block one cell wide
+    const Verdict verdict = outcome(edge);
+    EXPECT_EQ(verdict.outcome, Outcome::undecided) << verdict.reason;
+    EXPECT_THAT(verdict.reason, HasSubstr("momentum is still on its way"));
+  }
+  const Verdict wide = outcome(4.0 * spacing);  // two cells
+  EXPECT_EQ(wide.outcome, Outcome::detached_spall) << wide.reason;
+}
+
 TEST(Outcome, MeasuresAreNumbersOnceItIsDecided) {
   const Struck struck;
   Wall wall(struck.run, struck.start, struck.frame, 1);

@@ -80,6 +80,8 @@ def limits():
     require(len(listed) == 2 * 3 * 6, f"{len(listed)} points: three spheres at two speeds in two cells and three positions of the grid")
     require("-o FOLDER" in whipple("shield", file, "--limit", "4 km/s", code=2)[1], "a study without a folder")
     require("--shot" in whipple("shield", SHOTS, "--limit", "4 km/s", "-o", FOLDER / "none", code=2)[1], "a study of three shots")
+    text = whipple("shield", file, "--limit", "4 km/s", "--dry-run", "-o", out, code=2)
+    require("exists" in text[1] and "would write" not in text[1] + text[0], f"a dry run into a folder that exists: {text}")
     require("--limit" in whipple("shield", file, "--limit", "4 kg", "-o", FOLDER / "none", code=2)[1], "a mass as a speed")
 
 
@@ -88,6 +90,9 @@ def faults():
     require("no material" in whipple("shield", shield("soft", wall="3003-H12"), "-o", FOLDER / "soft", code=2)[1], "3003 has no material")
     require("no shot" in whipple("shield", SHOTS, "--shot", "HD992004", code=2)[1], "an unknown shot")
     whipple("shield", FOLDER / "absent.csv", code=2)
+    empty = FOLDER / "empty.csv"
+    empty.write_text("".join(line for line in SHOTS.read_text(encoding="utf-8").splitlines(True) if line.startswith(("#", "shot"))), encoding="utf-8")
+    require("no shots" in whipple("shield", empty, code=2)[1], "a table without shots")
     whipple("shield", FOLDER, "--outcome", code=2)
 
 

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -91,6 +92,14 @@ TEST(Shots, FaultsNameLineAndAcceptedValues) {
       fault(std::string(heading) + "R31,2017-T4,3.175,0,3.1,6061-T6,0.7874,50.8,6061-T6,4.064,maybe\n"),
       HasSubstr("result is \"maybe\""));
   EXPECT_THAT(fault(std::string(heading) + "R31,2017-T4\n"), HasSubstr("2 cells, the heading has 11"));
+  for (const char* number : {"inf", "nan", "1e999"}) {
+    const std::string text =
+        fault(std::string(heading) +
+              fmt::format("R31,2017-T4,3.175,0,3.1,6061-T6,0.7874,{},6061-T6,4.064,P\n", number));
+    EXPECT_THAT(text, HasSubstr("bad.csv:2:1"));
+    EXPECT_THAT(text, HasSubstr(fmt::format("spacing is \"{}\", expected a finite number", number)));
+  }
+  EXPECT_THAT(fault(heading), HasSubstr("has a heading but no shots"));
 }
 
 TEST(ShieldFile, IsReadWithAllItsSheets) {
@@ -135,6 +144,15 @@ TEST(Layout, CellsComeFromSphereSheetsAndCap) {
   layout = layout_of(impact, {.cell_size = 0.05e-3});
   EXPECT_TRUE(layout.plates[0].resolved);
   EXPECT_EQ(not_resolved(layout), "");
+}
+
+TEST(Layout, WhoseCountsAreNotFiniteIsRefused) {
+  Impact impact = ryan_impact();
+  impact.shield.bumpers[0].spacing = 1e200;
+  EXPECT_THAT(fault_of([&] { static_cast<void>(layout_of(impact, {.model = Model::space})); }),
+              HasSubstr("R31: sphere, sheets and cells differ too much in size"));
+  EXPECT_THAT(fault_of([] { static_cast<void>(layout_of(ryan_impact(), {.cell_size = 1e-320})); }),
+              HasSubstr("particles"));
 }
 
 TEST(Layout, WallCoversTheConeAndTheDomainTheWall) {
@@ -207,6 +225,32 @@ TEST(Alloys, HaveMaterialsOfTheLibrary) {
         "no fault")
         << alloy.name;
   }
+}
+
+/// A material is that of the alloy without a remark, or of the one that the remark of an exception names.
+TEST(Alloys, ShareAMaterialWhereTheirYieldStressesAreClose) {
+  std::size_t shared = 0;
+  for (const Alloy& alloy : alloys()) {
+    if (alloy.material.empty() || alloy.remark.empty()) continue;
+    const auto own = std::ranges::find_if(alloys(), [&](const Alloy& other) {
+      return other.material == alloy.material && other.remark.empty();
+    });
+    ASSERT_NE(own, alloys().end()) << alloy.name;
+    const double difference = std::abs(alloy.yield - own->yield) / std::max(alloy.yield, own->yield);
+    const bool exception = alloy.name == "99.9%" || alloy.name == "2024-T351";
+    EXPECT_EQ(difference > 0.11, exception) << alloy.name << ": " << difference;
+    EXPECT_EQ(alloy.remark.find("yield stress") != std::string_view::npos, exception) << alloy.name;
+    shared += exception ? 0 : 1;
+  }
+  EXPECT_EQ(shared, 2U);
+}
+
+TEST(StudyText, NameOfAShieldStaysInItsComment) {
+  Impact impact = ryan_impact();
+  impact.name = "a\nb = 1";
+  const std::string text = study_text(impact, layout_of(impact, {}), {3000.0}, {1e-3, 2e-3});
+  EXPECT_THAT(text, HasSubstr("# \"a\\nb = 1: "));
+  EXPECT_EQ(text.find("\nb = 1"), std::string::npos);
 }
 
 }  // namespace

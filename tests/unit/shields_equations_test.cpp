@@ -93,6 +93,26 @@ TEST(BallisticLimit, IsContinuousInSpeed) {
   }
 }
 
+// The border of the low branch ends at 7 km/s, where the high one begins. They meet there in the limit of no bumper.
+TEST(BallisticLimit, OfFoilsJumpsAtMostAtSevenKilometresPerSecond) {
+  const auto diameter = [](double foil, double v) {
+    Impact at = impact(v, 0.0, 1);
+    at.shield.bumpers[0].sheet.thickness = foil;
+    return critical_diameter(Equation::jsc_2011, at);
+  };
+  for (const double foil : {1e-6, 5e-6, 20e-6}) {
+    for (double v = 1005.0; v < 16000.0; v += 5.0) {
+      if (v - 5.0 <= 7000.0 && v > 7000.0) continue;
+      ASSERT_NEAR(diameter(foil, v), diameter(foil, v - 5.0), 0.01 * diameter(foil, v))
+          << foil << " at " << v;
+    }
+  }
+  const auto jump = [&](double foil) { return diameter(foil, 7000.001) / diameter(foil, 6999.999) - 1.0; };
+  EXPECT_NEAR(jump(1e-6), 0.009, 0.0005);
+  EXPECT_NEAR(jump(5e-6), 0.042, 0.0005);
+  EXPECT_NEAR(jump(20e-6), 0.0, 1e-4);
+}
+
 // By hand from the formulas in equation_forms.hpp: two bumpers of 0.12 cm 10 cm apart, wall 0.32 cm, 40 ksi.
 TEST(BallisticLimit, ThreeSheets) {
   const auto cm = [](double v, double angle) {
