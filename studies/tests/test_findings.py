@@ -52,6 +52,10 @@ NUMBERS = [
     ("water_filled_tube", "5.5_g", "radius of a particle", "59.2 +- 0.8 mm"),
     ("blast_near_field", "tnt", "peak pressure at 0.5 m", "3.4 +- 0.6 MPa"),
     ("rate_stick", "radius_16.7", "velocity of the front", "6192 +- 587 m/s"),
+    ("dry_columns", "a_0_4", "radius at the end", "142 +- 22 mm"),
+    ("dry_columns", "a_1_0", "radius at the end", "246 +- 30 mm"),
+    ("granular_column", "plane_strain", "run-out", "441 +- 28 mm"),
+    ("slope_failure", "cohesion_10_kpa", "surface at 30 m", "13.53 +- 0.04 m"),
     ("shock_initiation", "10_gpa", "distance at which", "1.76 +- 0.26 mm"),
 ]
 TEXT = re.compile(r"(?P<value>[\d.]+)(?: \+- (?P<band>[\d.]+))?(?: (?P<unit>[A-Za-z/%]+))?")
