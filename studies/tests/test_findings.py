@@ -34,7 +34,7 @@ NUMBERS = [
     ("shock_decay", "5_km_s_axisymmetric", "peak pressure near the point of impact (0 to 0.6", "43.9 +- 8.8 GPa"),
     ("shock_decay", "20_km_s_axisymmetric", "peak pressure near the point of impact (0 to 0.6", "496 +- 26 GPa"),
     ("shock_decay", "20_km_s_axisymmetric", "exponent of the decay", "2.51 +- 0.10"),
-    ("hanchak_concrete", "1058_m_s_axisymmetric", "residual velocity", "696 +- 803 m/s"),
+    ("hanchak_concrete", "1058_m_s_axisymmetric", "residual velocity", "704 +- 823 m/s"),
     ("ogive_rod_oblique_plate", "adaptive", "residual velocity", "276 +- 566 m/s"),
     ("ogive_rod_oblique_plate", "adaptive_frictionless", "residual velocity", "436 +- 525 m/s"),
     ("ceramic_penetration", "aluminium_nitride_axisymmetric", "penetration velocity", "1.91 +- 0.19 km/s"),
@@ -52,6 +52,10 @@ NUMBERS = [
     ("water_filled_tube", "5.5_g", "radius of a particle", "59.2 +- 0.8 mm"),
     ("blast_near_field", "tnt", "peak pressure at 0.5 m", "3.4 +- 0.6 MPa"),
     ("rate_stick", "radius_16.7", "velocity of the front", "6192 +- 587 m/s"),
+    ("dry_columns", "a_0_4", "radius at the end", "142 +- 22 mm"),
+    ("dry_columns", "a_1_0", "radius at the end", "246 +- 30 mm"),
+    ("granular_column", "plane_strain", "run-out", "441 +- 28 mm"),
+    ("slope_failure", "cohesion_10_kpa", "surface at 30 m", "13.53 +- 0.04 m"),
     ("shock_initiation", "10_gpa", "distance at which", "1.76 +- 0.26 mm"),
 ]
 TEXT = re.compile(r"(?P<value>[\d.]+)(?: \+- (?P<band>[\d.]+))?(?: (?P<unit>[A-Za-z/%]+))?")
