@@ -199,8 +199,7 @@ std::string folder_name(const shields::Shot& shot) {
     return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' ||
            c == '_' || c == '.';
   };
-  std::ranges::replace_if(
-      name, [&](char c) { return !keep(c); }, '_');
+  std::ranges::replace_if(name, [&](char c) { return !keep(c); }, '_');
   return name;
 }
 

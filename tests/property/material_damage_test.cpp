@@ -436,8 +436,9 @@ TEST(FailureModels, PartsThatDoNotGoTogetherAreRefused) {
   };
   using ::testing::AllOf;
   using ::testing::HasSubstr;
-  EXPECT_THAT(message([] { with(strong(), {criterion(basalt_flaws()), criterion(ofhc_damage())}); }),
-              AllOf(HasSubstr("grady_kipp"), HasSubstr("johnson_cook_damage"), HasSubstr("both keep the damage")));
+  EXPECT_THAT(
+      message([] { with(strong(), {criterion(basalt_flaws()), criterion(ofhc_damage())}); }),
+      AllOf(HasSubstr("grady_kipp"), HasSubstr("johnson_cook_damage"), HasSubstr("both keep the damage")));
   EXPECT_THAT(message([] {
                 make_material("fluid", std::make_shared<LinearInEnergy>(), nullptr, {criterion(voids(0.01))});
               }),
