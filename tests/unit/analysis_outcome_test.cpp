@@ -236,22 +236,22 @@ TEST(Outcome, FailedRimOfAWallThatDriftsIsNoSpall) {
 TEST(Outcome, RingOfOneParticleIsNoSpall) {
   Maker maker(spacing);
   const auto everywhere = [](const Vector3&) { return true; };
-  constexpr double thick = 4e-3;  // of the wall; coordinates: radius, axis, and one layer across the section
-  maker.fill({0, -8e-3, 0}, {3e-3, -2e-3, spacing}, everywhere, {0, 5000, 0}, 0);
-  maker.fill({0, 0, 0}, {30e-3, thick, spacing}, everywhere, Vector3::Zero(), 1);
+  constexpr double thick = 4e-3;  // of the wall; coordinates: axis, radius, and one layer across the section
+  maker.fill({-8e-3, 0, 0}, {-2e-3, 3e-3, spacing}, everywhere, {5000, 0, 0}, 0);
+  maker.fill({0, 0, 0}, {thick, 30e-3, spacing}, everywhere, Vector3::Zero(), 1);
   Snapshot start = maker.snapshot;
   start.scalars.erase("phase");
   start.scalars["plastic_strain"].assign(start.size(), 0.0);
   for (std::size_t i = 0; i < start.size(); ++i) {
     start.position[i].z() = 0.0;
-    start.mass[i] = density * spacing * spacing * 2.0 * pi * start.position[i].x();
+    start.mass[i] = density * spacing * spacing * 2.0 * pi * start.position[i].y();
   }
   analysis::Run run;
   run.dimension = grid::Dimension::axisymmetric;
   run.cell_size = cell;
-  run.lower = Vector3(0, -30e-3, 0);
-  run.upper = Vector3(40e-3, 60e-3, cell);
-  run.bodies = {{.name = "ball", .velocity = {0, 5000, 0}, .spacing = spacing, .size = diameter},
+  run.lower = Vector3(-30e-3, 0, 0);
+  run.upper = Vector3(60e-3, 40e-3, cell);
+  run.bodies = {{.name = "ball", .velocity = {5000, 0, 0}, .spacing = spacing, .size = diameter},
                 {.name = "wall", .velocity = Vector3::Zero(), .spacing = spacing, .size = thick}};
   const Frame frame = find_frame(run, start);
   ASSERT_TRUE(frame.is_planar());
@@ -260,10 +260,10 @@ TEST(Outcome, RingOfOneParticleIsNoSpall) {
     Snapshot off = start;
     off.time = 9e-6;
     for (std::size_t i = 0; i < off.size(); ++i) {
-      const double r = start.position[i].x() - 20e-3;
-      if (off.body[i] != 1 || r < 0.0 || r > edge || start.position[i].y() < thick - edge) continue;
-      off.position[i].y() += 10e-3;
-      off.velocity[i].y() = 80.0;
+      const double r = start.position[i].y() - 20e-3;
+      if (off.body[i] != 1 || r < 0.0 || r > edge || start.position[i].x() < thick - edge) continue;
+      off.position[i].x() += 10e-3;
+      off.velocity[i].x() = 80.0;
     }
     Wall wall(run, start, frame, 1);
     Judge judge(run, start, frame, wall);
