@@ -13,6 +13,7 @@
 #include "src/analysis/requests.hpp"
 #include "src/analysis/run.hpp"
 #include "src/analysis/run_table.hpp"
+#include "src/case/shapes/axis.hpp"
 #include "src/core/base/error.hpp"
 
 namespace whipple::analysis {
@@ -76,12 +77,9 @@ std::size_t place_of_fraction(const Particles& particles, const std::vector<std:
 
 /// Returns the number of an axis, "x", "y" or "z".
 /// @throws InputError for another word
-int axis_of(const std::string& word) {
-  constexpr std::string_view axes = "xyz";
-  const std::size_t axis = word.size() == 1 ? axes.find(word) : std::string_view::npos;
-  if (axis == std::string_view::npos)
-    throw InputError(fmt::format("\"{}\" is no axis; there are x, y, z", word));
-  return static_cast<int>(axis);
+Eigen::Index axis_of(const std::string& word) {
+  if (const std::optional<cases::Axis> axis = value_of<cases::Axis>(word)) return index_of(*axis);
+  throw InputError(fmt::format("\"{}\" is no axis; there are x, y, z", word));
 }
 
 double tip_speed(const Particles& particles, double fraction) {
@@ -117,7 +115,7 @@ double profile_error(const Request& request) {
 }
 
 double reach(const Request& request) {
-  const int axis = axis_of(request.names[1]);
+  const Eigen::Index axis = axis_of(request.names[1]);
   const std::optional<Particles> found = particles_of(request, whenever);
   if (!found || found->mass.empty()) return nan;
   const auto place = [&](std::size_t p) { return found->position[p][axis]; };
@@ -126,7 +124,7 @@ double reach(const Request& request) {
 }
 
 double height(const Request& request) {
-  const int up = axis_of(request.names[1]), along = axis_of(request.names[2]);
+  const Eigen::Index up = axis_of(request.names[1]), along = axis_of(request.names[2]);
   const Run run = read_run(request.folder);
   const std::optional<Particles> found = particles_of(run, request.names[0], whenever);
   if (!found) return nan;

@@ -150,15 +150,15 @@ int begin(const RunOptions& options, MPI_Comm communicator) {
 }
 
 /// Returns whether a run has written everything at its end, its status last. Collective.
-bool is_complete(const fs::path& folder, const io::Ranks& ranks) {
-  bool complete = false;
+bool is_complete(const fs::path& folder, const io::Ranks& ranks, MPI_Comm communicator) {
+  double complete = 0.0;  // 1 on the root if it is
   ranks.on_root([&] {
     try {
-      complete = read_status(folder).state == Activity::done;
+      complete = read_status(folder).state == Activity::done ? 1.0 : 0.0;
     } catch (const InputError&) {  // without its status it is not
     }
   });
-  return ranks.broadcast(complete ? "complete" : "") == "complete";
+  return parallel::maximum(communicator, complete) > 0.0;
 }
 
 /// Continues a run from its latest checkpoint. @returns the exit code
@@ -171,7 +171,7 @@ int go_on(const RunOptions& options, MPI_Comm communicator) {
   io::Checkpoint checkpoint =
       io::read_latest_checkpoint(options.output_directory / "checkpoint", communicator);
   const int ended_by = StopConditions::ended_by(setup, checkpoint.values);
-  if (ended_by > 0 && is_complete(options.output_directory, ranks)) {
+  if (ended_by > 0 && is_complete(options.output_directory, ranks, communicator)) {
     static_cast<void>(require_same_input(setup, checkpoint.values));
     log::info("{} has ended because {}: nothing to do; --set stop='[]' goes on without conditions",
               options.output_directory.string(),
