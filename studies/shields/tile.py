@@ -105,6 +105,9 @@ def value_of(material, table, key):
 def keeping_sizes(folder, name):
     """Writes a material of the library into a folder, with failed points that keep the size of their fragments; its name there."""
     text = (commands.LIBRARY / name).read_text(encoding="utf-8")
+    if "failure" not in tomllib.loads(text):  # those of its base would be replaced
+        text += "".join("\n[[failure]]\n" + "".join(f"{key} = {inline(value)}\n" for key, value in own.items())
+                        for own in library(name)["failure"])
     text += f'\n[[failure]]\nmodel = "fragment_size"\nsource = "decision 25"\nenergy_per_area = "{CRACK:g} J/m^2"\n'
     (folder / f"sized_{name}").write_text(text, encoding="utf-8")
     return f"sized_{name}"

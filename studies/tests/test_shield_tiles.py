@@ -67,6 +67,14 @@ class Cloud(unittest.TestCase):
                 self.assertEqual(keys["failure"][-1]["model"], "fragment_size")
 
 
+    def test_sizes_are_kept_beside_the_failure_of_a_base(self):
+        with tempfile.TemporaryDirectory() as name:
+            file = pathlib.Path(name) / tile.keeping_sizes(pathlib.Path(name), "aluminium_2024_t3_sheet_mie_gruneisen.toml")
+            failure = tomllib.loads(file.read_text(encoding="utf-8"))["failure"]
+        self.assertEqual(failure[:-1], tile.library("aluminium_2024_t3_sheet_mie_gruneisen.toml")["failure"])
+        self.assertEqual([own["model"] for own in failure], ["viscous_void_growth", "johnson_cook_damage", "fragment_size"])
+
+
 class Grains(unittest.TestCase):
     def test_have_the_mass_of_the_load_and_arrive_with_its_delays(self):
         made = tile.tile_of(LOAD, 1.5, 2.79, 1)
