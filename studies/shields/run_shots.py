@@ -95,9 +95,9 @@ def tile_row(whipple, threads, name, entry, folder, seed, coarser):
     load = tile.computed_load(whipple, threads, shot)
     status = status_of(folder / "cloud")
     case = entry["case"] | {"model": "tile"}
-    if load.piece > tile.PIECE or not load.size > 0:
+    if load.is_one_piece(1e3 * entry["sphere"]["diameter"]):
         verdict = judged(whipple, threads, folder)
-        verdict["reason"] += f" (section: {100 * load.piece:.0f} % of the sphere is one piece)"
+        verdict["reason"] += f" (section: one piece of {100 * load.piece:.0f} % of the sphere, or grains as large as it)"
         more = status_of(folder / "run")
     else:
         struck, records, run = tile.computed_tile(whipple, threads, shot, load, seed, coarser)

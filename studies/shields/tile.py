@@ -56,6 +56,10 @@ class Load:
     failed: float
     piece: float
 
+    def is_one_piece(self, diameter):
+        """Whether a sphere (mm) has not become grains: more than PIECE of it is one piece, or no fragment of the load is smaller."""
+        return self.piece > PIECE or not 0 < self.size < diameter
+
     def delay(self, part):
         """Delay (us) by which a part of the momentum has arrived."""
         return quantile(self.delays, self.weights, min(max(part, EARLY), LATE))

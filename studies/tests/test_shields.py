@@ -160,16 +160,16 @@ class Batch(unittest.TestCase):
         self.assertEqual(page.read_csv(self.folder / "outcomes.csv"), [row])
 
 
-    def tile_row(self, piece):
+    def tile_row(self, piece, size=0.4):
         folder = run_shots.folder_of(self.program(0), [], "S/1", self.folder)
         (folder / "case.toml").write_text('body = [{ name = "wall", material = "aluminium_6061_mie_gruneisen.toml" }]', encoding="utf-8")
         for name in ("cloud", "tile_1_1"):
             (folder / name).mkdir()
             (folder / name / "status.json").write_text(json.dumps({"revision": "r1", "wall_time": 1800}), encoding="utf-8")
-        load = tile.Load(7.0, 0.1, 5.0, 0.4, np.zeros(1), np.ones(1), 0.3, piece)
+        load = tile.Load(7.0, 0.1, 5.0, size, np.zeros(1), np.ones(1), 0.3, piece)
         struck = tile.Tile(2.0, 0.1, 1.5, np.zeros((1, 3)), 0.4, 5.0)
         records = [(time, tile.Left(True, 400.0, tile.Off(), 0.1, 0.1)) for time in (1.0, 4.0)]
-        entry = {"case": {"model": "section", "cell_size": 2e-4, "resolved": True, "particles": 10}}
+        entry = {"sphere": {"diameter": 3e-3}, "case": {"model": "section", "cell_size": 2e-4, "resolved": True, "particles": 10}}
         with unittest.mock.patch.object(tile, "computed_load", return_value=load), \
                 unittest.mock.patch.object(tile, "computed_tile", return_value=(struck, records, folder / "tile_1_1")):
             return run_shots.tile_row(self.program(0), 2, "S/1", entry, folder, 1, 1.0)
@@ -179,11 +179,12 @@ class Batch(unittest.TestCase):
         self.assertEqual((row["outcome"], row["model"], row["cell size [mm]"], row["particles"], row["core hours"]),
                          ("perforated", "tile", "0.1", "48000", "2"))
         self.assertTrue(row["reason"].startswith("its rear half moves at 400 m/s"))
-        shutil.rmtree(self.folder)
-        self.folder.mkdir()
-        row = self.tile_row(0.6)
-        self.assertEqual((row["outcome"], row["model"], row["cell size [mm]"], row["core hours"]), ("whole", "tile", "0.2", "3"))
-        self.assertIn("60 % of the sphere is one piece", row["reason"])
+        for piece, size in ((0.6, 0.4), (0.1, 3.1), (0.1, np.nan)):
+            shutil.rmtree(self.folder)
+            self.folder.mkdir()
+            row = self.tile_row(piece, size)
+            self.assertEqual((row["outcome"], row["model"], row["cell size [mm]"], row["core hours"]), ("whole", "tile", "0.2", "3"))
+            self.assertIn(f"one piece of {100 * piece:.0f} % of the sphere", row["reason"])
 
 
 class Tables(unittest.TestCase):
