@@ -18,7 +18,7 @@ struct Ogden {
   static ParameterTable<Ogden> parameters() {
     return with_part(
         {real_list("mu", &Ogden::mu, "Pa", range::any(), "coefficients mu_a"),
-         real_list("alpha", &Ogden::alpha, "1", range::any(), "exponents alpha_a; mu_a alpha_a > 0")},
+         real_list("alpha", &Ogden::alpha, "", range::any(), "exponents alpha_a; mu_a alpha_a > 0")},
         &Ogden::relaxation, hyperelastic::Relaxation::parameters());
   }
   static constexpr const char* name = "ogden";

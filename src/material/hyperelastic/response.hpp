@@ -78,7 +78,7 @@ struct Relaxation {
 
   static ParameterTable<Relaxation> parameters() {
     return {
-        real_list("relaxing_fractions", &Relaxation::fractions, "1", range::positive(),
+        real_list("relaxing_fractions", &Relaxation::fractions, "", range::positive(),
                   "fractions of the sudden stress that relax, at most three; their sum is below 1")
             .optional(),
         real_list("relaxation_times", &Relaxation::times, "s", range::positive(), "times of these fractions")
