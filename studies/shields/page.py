@@ -27,7 +27,8 @@ SPEEDS = (0, 3, 4.5, 6, 7.5, 20)  # km/s
 THICKNESSES = (0, 0.05, 0.1, 0.2, 0.4, 100)  # bumper over sphere
 REFERENCE = "nno_1993"  # whose critical diameter says how far a shot is from the limit
 DEFEATS = {"perforated", "detached spall"}
-REPEATS = {"other places of the grains": "tile_seed_2.csv", "cells 1.25 times as large": "tile_coarser.csv"}  # of the model of tiles
+REPEATS = {"other places of the grains": "tile_seed_2.csv", "cells 1.25 times as large": "tile_coarser.csv",
+           "cells 0.8 times as large": "tile_finer.csv"}  # of the model of tiles
 
 
 @dataclasses.dataclass
