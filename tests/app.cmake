@@ -23,6 +23,12 @@ if(WHIPPLE_PYTHON)
   add_test(NAME studies COMMAND ${WHIPPLE_PYTHON} -m unittest discover -s studies/tests -t .
            WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
   set_tests_properties(studies PROPERTIES LABELS fast TIMEOUT 120)
+  # The site of the documents: formulas as TeX; all of it built, links followed, opened in a browser.
+  add_test(NAME site_formulas COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/site_formulas.py ${PROJECT_SOURCE_DIR})
+  set_tests_properties(site_formulas PROPERTIES LABELS fast TIMEOUT 120)
+  add_test(NAME site_pages COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/site_pages.py ${PROJECT_SOURCE_DIR}
+           ${CMAKE_CURRENT_BINARY_DIR}/site)
+  set_tests_properties(site_pages PROPERTIES LABELS "browser;long" TIMEOUT 300 COST 60 SKIP_RETURN_CODE 77)
   add_test(NAME app_surroundings COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/app_surroundings.py
            ${PROJECT_BINARY_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml)
   set_tests_properties(app_surroundings PROPERTIES LABELS fast TIMEOUT 300)
