@@ -29,6 +29,10 @@ if(WHIPPLE_PYTHON)
   add_test(NAME site_pages COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/site_pages.py ${PROJECT_SOURCE_DIR}
            ${CMAKE_CURRENT_BINARY_DIR}/site)
   set_tests_properties(site_pages PROPERTIES LABELS "browser;long" TIMEOUT 300 COST 60 SKIP_RETURN_CODE 77)
+  # What shells and man read, from the parser of the program.
+  add_test(NAME app_completion COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/app_completion.py $<TARGET_FILE:whipple>
+           ${CMAKE_CURRENT_BINARY_DIR}/app_completion)
+  set_tests_properties(app_completion PROPERTIES LABELS fast TIMEOUT 120)
   add_test(NAME app_surroundings COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/app_surroundings.py
            ${PROJECT_BINARY_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml)
   set_tests_properties(app_surroundings PROPERTIES LABELS fast TIMEOUT 300)
