@@ -9,8 +9,8 @@ if [[ ${1:-} == -h || ${1:-} == --help || $# -gt 1 ]]; then
   exit $(($# > 1 ? 2 : 0))
 fi
 folder=$(realpath -m "${1:-build/packages}")
-cmake --preset release -B build/package -DWHIPPLE_TESTS=OFF >/dev/null
-cmake --build build/package --parallel "$(nproc)"
-(cd build/package && cpack -B "$folder")
+cmake --preset release >/dev/null
+cmake --build build/release --parallel "$(nproc)" --target whipple whipple-md whipple-fit whipple_python_eos whipple_manual
+(cd build/release && cpack -B "$folder")
 rm -rf "$folder/_CPack_Packages"
 ls -l "$folder"

@@ -77,3 +77,19 @@ string(REGEX REPLACE "^title: \"(.*)\"$" "\\1" title "${title}")
 add_test(NAME app_cite COMMAND whipple cite copper)
 set_tests_properties(app_cite PROPERTIES LABELS fast
   PASS_REGULAR_EXPRESSION "title = {${title}}.*copper.toml.* material +GRAY: Liu.* eos +Liu.* strength +Johnson.* failure +calibrated")
+
+# Tutorials, as they stand: those without the Python module, and those that need it.
+if(WHIPPLE_PYTHON AND NOT WHIPPLE_SANITIZE)
+  set(tutorials first_impact shield import steering own_metal)
+  if(TARGET whipple_python_eos)
+    list(APPEND tutorials python_study)
+  endif()
+  foreach(tutorial IN LISTS tutorials)
+    add_test(NAME tutorial_${tutorial} COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/tutorial.py
+             ${PROJECT_SOURCE_DIR}/docs/tutorials/${tutorial}.md ${CMAKE_CURRENT_BINARY_DIR}/tutorials/${tutorial})
+    set_tests_properties(tutorial_${tutorial} PROPERTIES LABELS fast TIMEOUT 300 ENVIRONMENT "${mpi_environment};\
+PYTHONPATH=${PROJECT_BINARY_DIR}/python;WHIPPLE_PROGRAM=$<TARGET_FILE:whipple>"
+      ENVIRONMENT_MODIFICATION "PATH=path_list_prepend:${PROJECT_BINARY_DIR}/bin")
+  endforeach()
+  set_tests_properties(tutorial_own_metal PROPERTIES LABELS "long" COST 40)
+endif()
