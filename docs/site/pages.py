@@ -6,8 +6,8 @@ Usage: pages.py FOLDER [--python PATH]
 
 FOLDER becomes the source folder of Sphinx. What differs from the documents: README.md is the first page; formulas are
 typeset (formulas.py) and can be linked to; a link to a file that is no page is a download, one to a folder goes to the
-README.md in it, or is plain text; docs/README.md gives the order of the pages. Made in addition: the index of the theory
-and the reference of the Python package from its stubs, with the docstrings of the modules below PATH.
+README.md in it, or is plain text; docs/README.md gives the order of the pages. Made in addition: the index of the theory, its
+sources, and the reference of the Python package from its stubs, with the docstrings of the modules below PATH.
 Exit code 1, with the pages, if a page is neither in docs/README.md nor in a folder that one of its pages lists.
 """
 import argparse
@@ -24,6 +24,7 @@ import furo  # noqa: E402
 import check_documents  # noqa: E402
 import formulas  # noqa: E402
 import python_reference  # noqa: E402
+import sources  # noqa: E402
 
 DOCUMENTS = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/**/*.md", "cases/**/README.md", "studies/**/README.md")
 INDEX = "docs/README.md"
@@ -172,13 +173,17 @@ def main():
         elif name not in known:
             lost.append(name)
         if name == INDEX:
-            text += contents(["/docs/theory/index", "/docs/python_reference"])
+            text += contents(["/docs/theory/index", "/docs/theory/sources", "/docs/python_reference"])
         if name == "index.md":
             text += contents(["/" + INDEX], "Documentation")
             text += "".join(contents(["/" + page for page in pages], chapter) for chapter, pages in order.items())
         (target / name).parent.mkdir(parents=True, exist_ok=True)
         (target / name).write_text(text, encoding="utf-8")
     (target / "docs" / "theory/index.md").write_text(theory_index(order["Theory"]), encoding="utf-8")
+    theory = [(ROOT / name).read_text(encoding="utf-8") for name in order["Theory"]]
+    (target / "docs" / "theory/sources.md").write_text(
+        sources.page([(pathlib.Path(name).name, text.split("\n", 1)[0][2:], text) for name, text in zip(order["Theory"], theory)]),
+        encoding="utf-8")
     (target / "docs" / "python_reference.md").write_text(python_reference.page(arguments.python), encoding="utf-8")
     write_assets(target)
     for name in lost:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Formulas as they are written in the documents become TeX that says the same; every numbered equation of the theory is
-one that is understood, and KaTeX accepts it where KaTeX and Node are installed.
+one that is understood, and KaTeX accepts it where KaTeX and Node are installed. Citations are found in sentences.
 
 Usage: site_formulas.py ROOT
 """
@@ -16,6 +16,7 @@ ROOT = pathlib.Path(sys.argv[1])
 sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "docs/site")]
 import check_documents  # noqa: E402
 import formulas  # noqa: E402
+import sources  # noqa: E402
 
 KATEX = "/usr/share/javascript/katex/katex.js"
 SAME = (
@@ -43,6 +44,11 @@ def main():
         except formulas.NoFormula:
             continue
         require(False, f"'{wrong}' is taken for a formula")
+    text = "as Nairn, CMES 10 (2005) 9 (heat), and Hu et al. (ACM Trans. Graph. 37 (2018) 150); D. C. Drucker and W. Prager, Q.\nAppl. Math. 10 (1952) 157"
+    require(list(sources.cited(text)) == [("Nairn", "2005", "Nairn, CMES 10 (2005) 9"),
+                                          ("Hu et al.", "2018", "Hu et al., ACM Trans. Graph. 37 (2018) 150"),
+                                          ("Drucker and W. Prager", "1952", "D. C. Drucker and W. Prager, Q. Appl. Math. 10 (1952) 157")],
+            f"{list(sources.cited(text))}")
     found, numbers = [], 0
     for page in sorted((ROOT / "docs/theory").glob("*.md")):
         lines = page.read_text(encoding="utf-8").split("\n")
