@@ -34,6 +34,7 @@ if(WHIPPLE_SANITIZE)
   # GCC 12 sees uninitialised values in the standard library where the sanitizers split it up.
   target_compile_options(whipple_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
     -fno-omit-frame-pointer -fno-var-tracking-assignments -Wno-maybe-uninitialized)
+  target_compile_definitions(whipple_flags INTERFACE _GLIBCXX_ASSERTIONS)  # empty optionals, indices out of range
   target_link_options(whipple_flags INTERFACE -fsanitize=address,undefined)
 endif()
 

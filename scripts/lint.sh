@@ -1,24 +1,25 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Format, documents and static checks.
-# usage: scripts/lint.sh [--format-only] [--fix] [--recent COMMITS [--seconds LIMIT]] [FILE.cpp...]
+# usage: scripts/lint.sh [--format-only] [--fix] [--recent COMMITS [--most FILES]] [FILE.cpp...]
 # Without files all are checked, documents too; clang-tidy takes 4 to 10 processor seconds a file then. --recent: clang-tidy
-# alone, of what the last commits changed, begun within LIMIT seconds (60); what is left out is named.
+# alone, of the lines that the last commits changed; with --most in those FILES sources in which they changed most, the rest
+# is named.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 format_only=false
 fix=false
 recent=0
-limit=0
+most=0
 files=()
 while (($# > 0)); do
   case $1 in
     --format-only) format_only=true ;;
     --fix) fix=true ;;
-    --recent) recent=${2:?--recent needs a number of commits}; limit=60; shift ;;
-    --seconds) limit=${2:?--seconds needs a number}; shift ;;
-    -h | --help) sed -n '3,6s/^# //p' "$0"; exit 0 ;;
+    --recent) recent=${2:?--recent needs a number of commits}; shift ;;
+    --most) most=${2:?--most needs a number of files}; shift ;;
+    -h | --help) sed -n '3,7s/^# //p' "$0"; exit 0 ;;
     -*) echo "lint.sh: unknown option '$1'" >&2; exit 2 ;;
     *) files+=("$1") ;;
   esac
@@ -30,8 +31,10 @@ require() {  # require TOOL OPTION: a check that cannot run fails
   exit 2
 }
 if ((recent > 0)); then
-  mapfile -t files < <(git log -n "$recent" --format= --name-only --diff-filter=d -- '*.cpp' '*.hpp' | awk '!seen[$0]++' |
-    while read -r file; do [[ -f $file ]] && echo "$file"; done)
+  # A copy without history has nothing to compare with.
+  base=$(git rev-parse --verify --quiet "HEAD~$recent") || { echo "clang-tidy: no commit before the last $recent"; exit 0; }
+  # Added lines, file: most first.
+  mapfile -t files < <(git diff --numstat --diff-filter=d "$base" HEAD -- '*.cpp' '*.hpp' | sort -k1,1nr -k3 | cut -f3)
 elif ((${#files[@]} == 0)); then
   scripts/check_documents.py
   mapfile -t files < <(git ls-files --cached --others --exclude-standard -- '*.cpp' '*.hpp')
@@ -62,26 +65,26 @@ cmake --preset release -B build/lint -DWHIPPLE_PRECOMPILED_HEADERS=OFF -DWHIPPLE
 # argument of an attribute that clang does not know. GCC's own headers use what they deprecate, and GCC has more warnings.
 arguments=(--quiet -p build/lint "--extra-arg=-idirafter$(g++ -print-file-name=include)"
   '--extra-arg=-D__malloc__(deallocator)=__malloc__' --extra-arg=-Wno-deprecated-declarations
-  --extra-arg=-Wno-unknown-warning-option --extra-arg=-Wno-unused-command-line-argument)
+  --extra-arg=-Wno-unknown-warning-option --extra-arg=-Wno-unknown-attributes
+  --extra-arg=-Wno-unused-command-line-argument)
 if ((recent > 0)); then  # findings in what changed, headers too
-  arguments+=("--line-filter=[$(printf '{"name":"%s"},' "${files[@]}" | sed 's/,$//')]")
+  changed=$(git diff --unified=0 --diff-filter=d "$base" HEAD -- "${files[@]}" | awk '
+    /^\+\+\+ b\// { file = substr($0, 7) }
+    /^@@/ {
+      split(substr($3, 2), at, ",")
+      count = at[2] == "" ? 1 : at[2]
+      if (count > 0) lines[file] = lines[file] (lines[file] == "" ? "" : ",") "[" at[1] "," at[1] + count - 1 "]"
+    }
+    END { for (file in lines) printf "{\"name\":\"%s\",\"lines\":[%s]},", file, lines[file] }')
+  arguments+=("--line-filter=[${changed%,}]")
 fi
-left_out=$(mktemp)
-trap 'rm -f "$left_out"' EXIT
-tidy() {  # tidy LIMIT LEFT_OUT FILE ARGUMENTS...
-  local limit=$1 left_out=$2 file=$3
-  shift 3
-  if ((limit > 0 && $(date +%s) >= limit)); then
-    echo "$file" >>"$left_out"
-  else
-    clang-tidy-19 "$@" "$file"
-  fi
-}
-export -f tidy
-((limit > 0)) && limit=$(($(date +%s) + limit))
+left_out=()
+if ((most > 0)); then
+  left_out=("${sources[@]:most}")
+  sources=("${sources[@]:0:most}")
+fi
 status=0
-printf '%s\0' "${sources[@]}" |
-  xargs -0 -P "$(nproc)" -I FILE bash -c 'tidy "$@"' tidy "$limit" "$left_out" FILE "${arguments[@]}" || status=1
-echo "clang-tidy: $((${#sources[@]} - $(wc -l <"$left_out"))) of ${#sources[@]} files"
-[[ -s $left_out ]] && sed 's/^/left out: /' "$left_out"
+printf '%s\0' "${sources[@]}" | xargs -0 -P "$(nproc)" -I FILE clang-tidy-19 "${arguments[@]}" FILE || status=1
+echo "clang-tidy: ${#sources[@]} of $((${#sources[@]} + ${#left_out[@]})) files"
+((${#left_out[@]} == 0)) || printf 'left out: %s\n' "${left_out[@]}"
 exit $status

@@ -64,8 +64,8 @@ cmake --build --preset "$preset" --parallel "$(nproc)"
 
 stage format
 check format scripts/lint.sh --format-only
-# 4 to 10 processor seconds a file: those of the last commit that begin within 10 s, so that two cores are done in 20.
-check "clang-tidy of the last commit" scripts/lint.sh --recent 1 --seconds 10
+# 4 to 10 processor seconds a file.
+check "clang-tidy of the last commit" scripts/lint.sh --recent 1 --most 4
 
 stage tests
 log=build/$preset/test.log

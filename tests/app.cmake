@@ -64,6 +64,13 @@ if(WHIPPLE_PYTHON AND NOT WHIPPLE_SANITIZE)
   set_tests_properties(installed_library PROPERTIES LABELS fast TIMEOUT 300 COST 20)
 endif()
 
+# Packages, and where it can be done their installation into an empty Debian: minutes.
+if(TARGET whipple_python_eos AND WHIPPLE_PYTHON AND NOT WHIPPLE_SANITIZE)
+  add_test(NAME packages COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/installed/packages.py ${PROJECT_BINARY_DIR}
+           ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/packages)
+  set_tests_properties(packages PROPERTIES LABELS long TIMEOUT 1200 COST 200)
+endif()
+
 # Coarse runs against stored numbers, half a minute of one core. Sanitizers would make it minutes.
 if(WHIPPLE_PYTHON AND NOT WHIPPLE_SANITIZE)
   add_test(NAME drift COMMAND ${WHIPPLE_PYTHON} ${PROJECT_SOURCE_DIR}/scripts/drift.py --threads 2
