@@ -16,9 +16,8 @@ FUNCTIONS = {name: f"\\operatorname{{{name}}}" for name in (
     name: "\\" + name for name in "ln exp cos sin tan sinh cosh coth tanh cot min max det".split()} | {
     "sum": "\\sum", "integral": "\\int", "int": "\\int", "grad": "\\nabla"}
 # Symbols of more than one letter, and words that are too short to be taken for one.
-SYMBOLS = {"up", "us", "Us", "ep", "KE", "CFL", "dP", "dU", "dC", "dV", "dS", "dA", "gm"}
+SYMBOLS = {"up", "us", "Us", "ep", "KE", "CFL", "gm"}
 WORDS = {"a", "at", "of", "if", "in", "to", "by", "on", "or", "is", "as", "it", "do", "no", "be", "from", "per", "the", "and"}
-ARTICLE = {"a"}
 SIGNS = (("+-", "\\pm "), ("-+", "\\mp "), ("<=", "\\le "), (">=", "\\ge "), ("!=", "\\ne "), ("<-", "\\leftarrow "),
          ("->", "\\to "), ("+=", "\\mathrel{+}= "), ("-=", "\\mathrel{-}= "), ("...", "\\ldots "))
 TOKEN = re.compile(r"\s+|\d+(?:\.\d+)?(?:e-?\d+)?|[A-Za-z]+\d*|\+-|-\+|<=|>=|!=|<-|->|\+=|-=|\.\.\.|.")
@@ -67,9 +66,11 @@ class Line:
         self.raised = 0  # depth of powers and subscripts, where fractions keep their slash
 
     def token(self, ahead=0):
+        """Return a token from here on, empty behind the end."""
         return self.tokens[self.at + ahead] if self.at + ahead < len(self.tokens) else ""
 
     def take(self):
+        """Return the token here and go on to the next."""
         self.at += 1
         return self.tokens[self.at - 1]
 
@@ -126,6 +127,7 @@ class Line:
         return result, below, above
 
     def dressed(self, base):
+        """Return a factor with the subscripts and powers that follow it."""
         marks, below, above = self.scripts()
         for accent in ("hat", "tilde"):
             if "\0" + accent in marks:
@@ -155,7 +157,7 @@ class Line:
         name, following = self.token(), self.token(1)
         if following and following in "_^'*":
             return False
-        if name in ARTICLE:
+        if name == "a":  # an article between words, else a symbol
             before = next((t for t in reversed(self.tokens[:self.at]) if not t.isspace()), "")
             after = next((t for t in self.tokens[self.at + 1:] if not t.isspace()), "")
             return (before.isalpha() and len(before) > 2 and symbol(before) is None) and \
@@ -233,6 +235,7 @@ class Line:
         return "".join(parts)
 
     def is_fraction(self, parts):
+        """Return whether the slash here stands between two factors. @param parts  what is read so far"""
         before = parts[-1] if parts else " "
         after = self.token(1)
         if self.raised or not before.strip() or before in ("d", "+", "-", "\\quad ") or before.startswith("\\text"):
@@ -254,6 +257,7 @@ class Line:
         return text
 
     def sign(self):
+        """Read a sign, or text between backquotes."""
         token = self.token()
         before = self.tokens[self.at - 1] if self.at else " "
         after = self.token(1) or " "

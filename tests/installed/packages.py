@@ -18,7 +18,7 @@ from checks import require  # noqa: E402
 PROGRAM, LIBRARY, PYTHON = "whipple", "libwhipple-dev", "python3-whipple"
 HOLDS = {
     PROGRAM: ("usr/bin/whipple", "usr/bin/whipple-md", "usr/bin/whipple-fit", "usr/share/whipple/materials/copper.toml",
-              "usr/share/man/man1/whipple.1", "usr/share/bash-completion/completions/whipple",
+              "usr/share/man/man1/whipple.1.gz", "usr/share/bash-completion/completions/whipple",
               "usr/share/zsh/vendor-completions/_whipple", "usr/share/fish/vendor_completions.d/whipple.fish",
               "usr/share/whipple/cases/whipple_shield/case.toml", "usr/share/doc/whipple/copyright"),
     LIBRARY: ("usr/include/whipple/solver/simulation.hpp", "usr/share/doc/libwhipple-dev/copyright"),
