@@ -11,3 +11,4 @@ whipple_test(test_material
 # Measured, not asserted: benchmark_material --benchmark_min_time=0.2
 add_executable(benchmark_material EXCLUDE_FROM_ALL benchmark/material_benchmark.cpp)
 target_link_libraries(benchmark_material PRIVATE whipple_flags whipple_material benchmark::benchmark)
+target_compile_definitions(benchmark_material PRIVATE WHIPPLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")

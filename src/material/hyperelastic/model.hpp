@@ -91,8 +91,8 @@ class HyperelasticModel final : public Constitutive {
   /// @param undeformed  specific volume of the undeformed solid, m^3/kg
   static double wave_speed(double bulk, const hyperelastic::Response& response, double undeformed) {
     const double along = bulk + undeformed * response.longitudinal, across = undeformed * response.transverse;
-    return std::sqrt(0.5 * (along + across) +
-                     std::hypot(0.5 * (along - across), undeformed * response.coupling));
+    const double half = 0.5 * (along - across), coupling = undeformed * response.coupling;
+    return std::sqrt(0.5 * (along + across) + std::sqrt(half * half + coupling * coupling));
   }
 
   /// Computes b' of each point and the response of the law.
