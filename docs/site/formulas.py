@@ -9,19 +9,20 @@ spaces it stays a slash: how far its sides reach is then known to the reader onl
 import re
 
 GREEK = {name: "\\" + name for name in (
-    "alpha beta gamma delta zeta eta theta kappa lambda mu nu xi pi rho sigma tau phi chi psi omega "
+    "alpha beta gamma delta epsilon zeta eta theta kappa lambda mu nu xi pi rho sigma tau phi chi psi omega "
     "Gamma Delta Theta Lambda Xi Pi Sigma Phi Psi Omega").split()} | {"eps": "\\varepsilon"}
 FUNCTIONS = {name: f"\\operatorname{{{name}}}" for name in (
-    "div tr dev sym skw skew erf diag arg unit clamp mean").split()} | {
+    "div tr dev sym skw skew erf diag arg unit clamp").split()} | {
     name: "\\" + name for name in "ln exp cos sin tan sinh cosh coth tanh cot min max det".split()} | {
     "sum": "\\sum", "integral": "\\int", "int": "\\int", "grad": "\\nabla"}
 # Symbols of more than one letter, and words that are too short to be taken for one.
-SYMBOLS = {"up", "us", "Us", "ep", "KE", "CFL", "gm"}
+SYMBOLS = {"up", "us", "Us", "ep", "KE", "CFL", "gm", "mv", "mc", "bC", "vbar", "qdot", "rate"}
 WORDS = {"a", "at", "of", "if", "in", "to", "by", "on", "or", "is", "as", "it", "do", "no", "be", "from", "per", "the", "and"}
 SIGNS = (("+-", "\\pm "), ("-+", "\\mp "), ("<=", "\\le "), (">=", "\\ge "), ("!=", "\\ne "), ("<-", "\\leftarrow "),
          ("->", "\\to "), ("+=", "\\mathrel{+}= "), ("-=", "\\mathrel{-}= "), ("...", "\\ldots "))
-TOKEN = re.compile(r"\s+|\d+(?:\.\d+)?(?:e-?\d+)?|[A-Za-z]+\d*|\+-|-\+|<=|>=|!=|<-|->|\+=|-=|\.\.\.|.")
+TOKEN = re.compile(r"\s+|\d+(?:\.\d+)?(?:e-?\d+)?|[A-Za-z]+(?:\d+[a-z]?(?![A-Za-z]))?|\+-|-\+|<=|>=|!=|<-|->|\+=|-=|\.\.\.|.")
 OPENING, CLOSING = "([{", ")]}"
+CALLED = {"ln", "exp", "erf", "max", "min"}  # also with other brackets than round ones
 BRACES = {"{": "\\{", "}": "\\}"}
 LABEL = re.compile(r"\((?P<label>(?:[A-Z]-?)?\d+(?:\.\d+)?[a-z]?|[A-Z]-[a-z]+)\)")
 
@@ -32,8 +33,8 @@ class NoFormula(Exception):
 
 def symbol(name):
     """Return the TeX of one name, none for a word."""
-    letters = name.rstrip("0123456789")
-    digits = name[len(letters):]
+    letters = re.match("[A-Za-z]*", name)[0]
+    digits = name[len(letters):]  # "1a" as well
     below = f"_{{{digits}}}" if digits else ""
     if not letters.isalpha():
         return None
@@ -90,7 +91,10 @@ class Line:
                 if self.token() in ("{", "("):
                     below += self.group()[1]
                 elif re.match(r"\w", self.token()):
-                    below += index(self.take())
+                    name = self.take()
+                    while re.match("[A-Za-z0-9]", self.token()):  # 0H
+                        name += self.take()
+                    below += index(name)
                     while self.token() == "," and re.fullmatch(r"[a-z]{1,2}", self.token(1)) and self.token(2) != "(":
                         self.take()
                         below += "," + index(self.take())
@@ -105,10 +109,16 @@ class Line:
                 if self.token() == "{":
                     above += self.group()[1]
                 elif self.token() == "(":
-                    above += sign + self.group()[1]
+                    opening, inside, closing = self.group()
+                    above += sign + (opening + inside + closing if sign else inside)
                 else:
-                    above += sign + (symbol(self.token()) or index(self.token()))
-                    self.take()
+                    name = self.take()
+                    above += sign + (symbol(name) or index(name))
+                    if self.token() == "_" and name.isalpha():  # p^n_f
+                        self.take()
+                        above += f"_{{{index(self.take())}}}"
+                    if sign and self.token() == "(":  # v^-2(a - b)
+                        above += "".join(self.group())
                     if sign and self.token() == "/" and self.token(1).isdigit():  # v^-1/2
                         above += self.take() + self.take()
             elif self.token() == "*" and not above:
@@ -155,21 +165,23 @@ class Line:
     def is_word(self):
         """Return whether the name here is a word and not a symbol."""
         name, following = self.token(), self.token(1)
-        if following and following in "_^'*":
+        if following and following in "_^*" or following == "'" and symbol(name):
             return False
         if name == "a":  # an article between words, else a symbol
             before = next((t for t in reversed(self.tokens[:self.at]) if not t.isspace()), "")
             after = next((t for t in self.tokens[self.at + 1:] if not t.isspace()), "")
             return (before.isalpha() and len(before) > 2 and symbol(before) is None) and \
-                (after.isalpha() and symbol(after) is None)
+                (after.isalpha() and after not in WORDS and symbol(after) is None)
         return name in WORDS or symbol(name) is None
 
     def words(self):
         """Read a run of words; signs between two of them belong to it."""
         text = self.take()
         while True:
+            if self.token() == "'" and self.token(1) == "s":
+                text += self.take() + self.take()
             gap = 0
-            while self.token(gap) and (self.token(gap).isspace() and len(self.token(gap)) == 1 or self.token(gap) in (",", ":", ";", "-", "'")):
+            while self.token(gap) and (self.token(gap).isspace() and len(self.token(gap)) == 1 or self.token(gap) in (",", ":", ";", "-", "'", ".")):
                 gap += 1
             here = self.at
             self.at += gap
@@ -184,7 +196,7 @@ class Line:
     def factor(self):
         """Read one factor with all that is attached to it."""
         token = self.token()
-        if re.fullmatch(r"[A-Za-z]+\d*", token):
+        if token[:1].isalpha():
             if token == "sqrt" and self.token(1) in ("(", "["):
                 self.take()
                 return f"\\sqrt{{{self.group()[1]}}}"
@@ -192,7 +204,7 @@ class Line:
                 return self.words()
             name = self.take()
             base = self.dressed(symbol(name) or f"\\mathrm{{{name}}}")
-            if self.token() == "(" and name not in ("sum", "integral", "grad"):
+            if self.token() == "(" and name not in ("sum", "integral", "grad") or name in CALLED and self.token() in ("[", "{"):
                 base += self.dressed("".join(self.group()))
             return base
         if token in OPENING:

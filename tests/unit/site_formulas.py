@@ -29,6 +29,11 @@ SAME = (
     ("|g_p| dx < 0.02", r"\lvert g_{p} \rvert dx < 0.02"),
     ("N/(N-1) (<U> - U_c)", r"\frac{N}{N-1} (\langle U\rangle - U_{c})"),
     ("A (1 - D + p*/T*)", r"A \left(1 - D + \frac{p^{*}}{T^{*}}\right)"),
+    ("g = g_e0 (V/V0)^gamma_e", r"g = g_{e0} \left(\frac{V}{V_{0}}\right)^{\gamma_{e}}"),
+    ("(1 - x)^-(a - b)", r"(1 - x)^{-(a - b)}"),
+    ("(1 - x)^-2(a - b) e^(a x)", r"(1 - x)^{-2(a - b)} e^{a x}"),
+    ("chi^2_k = P1a + E_0H", r"\chi_{k}^{2} = P_{1a} + E_{0H}"),
+    ("dD = dep/max{D1, eps_m}", r"dD = \frac{d\mathit{ep}}{\max\{D_{1}, \varepsilon_{m}\}}"),
     ("0 if the gap is open, else e_p^{n+1}", None),
 )
 
