@@ -40,7 +40,9 @@ fi
 if [[ -z $python ]] && compgen -G 'build/release/python/whipple/eos*.so' >/dev/null; then
   python=build/release/python
 fi
-/usr/bin/python3 docs/site/pages.py "$folder/source" ${python:+--python "$python"}
+cpp_flag=()
+$cpp && cpp_flag=(--cpp)
+/usr/bin/python3 docs/site/pages.py "$folder/source" ${python:+--python "$python"} "${cpp_flag[@]}"
 /usr/bin/python3 -m sphinx -q -W --keep-going -j 2 -b html -d "$folder/doctrees" "$folder/source" "$folder/html"
 if $cpp; then
   {

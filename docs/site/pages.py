@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Prepare the pages of the site: the documents of the repository in their places, as Sphinx and MyST read them.
 
-Usage: pages.py FOLDER [--python PATH]
+Usage: pages.py FOLDER [--python PATH] [--cpp]
 
 FOLDER becomes the source folder of Sphinx. What differs from the documents: README.md is the first page; formulas are
 typeset (formulas.py) and can be linked to; a link to a file that is no page is a download, one to a folder goes to the
@@ -158,6 +158,7 @@ def main():
     parser = argparse.ArgumentParser(description="Prepares the pages of the site for Sphinx.")
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--python", type=pathlib.Path, help="folder of the package whipple, whose docstrings are shown")
+    parser.add_argument("--cpp", action="store_true", help="the site has the reference of the C++ headers in its folder cpp")
     arguments = parser.parse_args()
     target = arguments.folder
     shutil.rmtree(target, ignore_errors=True)
@@ -172,6 +173,8 @@ def main():
             text = "---\norphan: true\n---\n\n" + text
         elif name not in known:
             lost.append(name)
+        if name == "docs/manual/library.md" and arguments.cpp:
+            text += '\n<p><a href="../../cpp/index.html">Reference of the C++ headers</a></p>\n'
         if name == INDEX:
             text += contents(["/docs/theory/index", "/docs/theory/sources", "/docs/python_reference"])
         if name == "index.md":
