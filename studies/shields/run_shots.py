@@ -145,10 +145,10 @@ def main():
         if name in done:
             print(f"{name}: has an outcome")
             continue
-        folder = folder_of(arguments.whipple, options, name, arguments.work)
         if tiles and entries[name]["sphere"]["angle"] > 0:
             print(f"{name}: oblique, not modelled by tiles")
             continue
+        folder = folder_of(arguments.whipple, options, name, arguments.work)
         if tiles:
             row = tile_row(arguments.whipple, arguments.threads, name, entries[name], folder, arguments.seed, arguments.coarser)
             append(arguments.outcomes, row)
