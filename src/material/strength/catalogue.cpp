@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "src/material/strength/deshpande_fleck.hpp"
 #include "src/material/strength/drucker_prager.hpp"
 #include "src/material/strength/elastic.hpp"
 #include "src/material/strength/granular_flow.hpp"
@@ -54,6 +55,7 @@ const Catalogue<ModelEntry>& catalogue() {
                                              entry<DruckerPrager, DruckerPragerModel>(),
                                              entry<MohrCoulomb, MohrCoulombModel>(),
                                              entry<GranularFlow, GranularFlowModel>(),
+                                             entry<DeshpandeFleck, DeshpandeFleckModel>(),
                                          });
   return all;
 }
