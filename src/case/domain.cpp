@@ -146,10 +146,11 @@ void Domain::check(const Case& setup, const Faults& faults) const {
   }
   const bool lets_part = boundary.any(grid::Boundary::separating) || boundary.any(grid::Boundary::friction);
   if (lets_part && setup.time.scheme == Scheme::usf) {
-    faults.add("boundary",
-               "a wall from which material may part is found to be in contact by the forces on the grid, "
-               "which scheme \"usf\" "
-               "does not determine yet where it needs them: take \"symplectic\", \"musl\" or \"usl\"");
+    faults.add(
+        "boundary",
+        "a separating wall, with or without friction, is found to be in contact by the forces on the grid, "
+        "which scheme \"usf\" "
+        "does not determine yet where it needs them: take \"symplectic\", \"musl\" or \"usl\"");
   }
 }
 

@@ -110,7 +110,7 @@ TEST(CaseLoads, WallsWithFrictionNeedTheirCoefficient) {
   expect_error(
       replaced(replaced(rough, "boundary", "friction = 0.3\nboundary"), "end =", "scheme = \"usf\"\nend =") +
           sphere,
-      {"a wall from which material may part"});
+      {"a separating wall, with or without friction"});
 }
 
 }  // namespace
