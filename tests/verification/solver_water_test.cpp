@@ -84,8 +84,8 @@ Wave standing_wave(int cells) {
   return wave;
 }
 
-// The free surface is spread over a cell, so that the period has first order; the compressibility of this water changes
-// it by less than (omega/(k c))^2 = 0.3 %.
+// The period converges with first order, likely because the free surface is spread over a cell. The compressibility of
+// this water changes it by less than (omega/(k c))^2 = 0.3 %.
 TEST(Water, AStandingWaveHasThePeriodOfTheLinearTheoryAndLosesLittle) {
   double last = 0.0;
   for (const int cells : {10, 20, 40}) {
