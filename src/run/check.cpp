@@ -98,11 +98,16 @@ nlohmann::json check_json(const CaseCheck& found) {
   const cases::Case& setup = found.setup;
   json bodies = json::array();
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    json account = json::array();
+    setup.bodies[b].shape->visit([&](const cases::Shape& part) {
+      for (const std::string& line : part.account()) account.push_back(line);
+    });
     bodies.push_back({{"name", setup.bodies[b].name},
                       {"material", setup.materials[b]->name},
                       {"parts", found.bodies[b].parts},
                       {"mass", found.bodies[b].mass},
-                      {"shape_mass", found.bodies[b].shape_mass}});
+                      {"shape_mass", found.bodies[b].shape_mass},
+                      {"account", account}});
   }
   json text = {{"file", setup.file.string()},
                {"title", setup.title},
@@ -134,6 +139,9 @@ std::string check_text(const CaseCheck& found) {
     text += fmt::format("body \"{}\" of {}: {}, {:.6g} g in the domain; whole shape {:.6g} g\n",
                         setup.bodies[b].name, setup.materials[b]->name, body.parts, 1e3 * body.mass,
                         1e3 * body.shape_mass);
+    setup.bodies[b].shape->visit([&](const cases::Shape& part) {
+      for (const std::string& line : part.account()) text += "  " + line + "\n";
+    });
     text += body.at_faces;
     if (const auto* table = dynamic_cast<const eos::Table*>(setup.materials[b]->eos.get())) {
       text += fmt::format("  equation of state: table of {}, {} kB, error {:.2g}, {:.4g} to {:.6g} kg/m^3\n",
