@@ -160,7 +160,7 @@ Audit repair(std::vector<Triangle>& triangles) {
   audit.repeated = drop_repeated(triangles, corners);
   if (triangles.empty()) {
     throw InputError(audit.triangles == 0
-                         ? std::string("holds no triangle")
+                         ? std::string("holds no triangle: it encloses nothing")
                          : fmt::format("none of its {} triangles has an area", audit.triangles));
   }
   const std::vector<Edge> edges = edges_of(corners);
