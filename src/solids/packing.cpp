@@ -52,7 +52,7 @@ std::vector<double> radii_of(const PackingOrder& order) {
 
 /// Pushes overlapping spheres apart. Returns the largest overlap before that, in parts of the sum of the two radii.
 double push_apart(std::vector<Ball>& balls, Bins& bins, const PackingOrder& order) {
-  constexpr double apart = 1.0 + 2e-3;  // a little farther than contact, so that pushing comes to an end
+  constexpr double apart = 1.0 + 5e-4;  // a little farther than contact, so that pushing comes to an end
   bins.clear();
   for (std::uint32_t i = 0; i < balls.size(); ++i) bins.add(balls[i].centre, i);
   std::vector<Vector3> moved(balls.size());
@@ -98,7 +98,7 @@ std::vector<Ball> pack(const PackingOrder& order) {
     balls.push_back(
         {order.lower + wall + part.cwiseProduct(order.upper - order.lower - 2.0 * wall), radii[i]});
   }
-  constexpr int most_rounds = 2000;
+  constexpr int most_rounds = 5000;
   const double apart = std::cbrt((order.upper - order.lower).prod() / static_cast<double>(balls.size()));
   Bins bins(order.lower, order.upper, std::max(2.01 * largest, 0.5 * apart));
   double overlap = 0.0;

@@ -283,7 +283,9 @@ TEST_F(Surfaces, RunsKeepTheirFiles) {
   write(binary_stl(block({20, 10, 10})));
   const SurfaceKeys keys{
       .file = (folder_ / "part.stl").string(), .unit = 1e-3, .digest = body->source()->digest};
-  EXPECT_NEAR(Surface(keys, folder_ / "run").volume(), 1e-6, 1e-12);
+  const Surface again(keys, folder_ / "run");
+  EXPECT_NEAR(again.volume(), 1e-6, 1e-12);
+  EXPECT_EQ(again.toml(), written);  // as a restart demands
   EXPECT_NE(message_of<InputError>([&] { Surface(keys, folder_); }).find("the file has changed"),
             std::string::npos);
 }

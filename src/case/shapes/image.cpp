@@ -68,7 +68,7 @@ VoxelBody::VoxelBody(ImageKeys keys, const std::filesystem::path& folder) : keys
     throw InputError("'values' is [LABEL] or [LEAST, GREATEST]");
   const bool is_raw = !keys_.size.empty();
   source_ = find_source(keys_.file, keys_.digest, folder, is_raw ? nullptr : &solids::Image::companion);
-  keys_.file = source_.path.string();
+  keys_.file = named_file(keys_.file, folder).string();
   keys_.digest = source_.digest;
   const solids::Image image =
       is_raw ? solids::Image::read_raw(source_.path, raw_header(keys_)) : solids::Image::read(source_.path);

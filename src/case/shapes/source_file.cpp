@@ -17,10 +17,14 @@ fs::path kept_name(const std::string& digest, const fs::path& path) {
   return fs::path("files") / digest.substr(0, distinct) / path.filename();
 }
 
+fs::path named_file(const std::string& file, const fs::path& folder) {
+  return fs::absolute(folder / file).lexically_normal();
+}
+
 SourceFile find_source(const std::string& file, const std::string& digest, const fs::path& folder,
                        fs::path (*companion)(const fs::path&)) {
   if (file.empty()) throw InputError("'file' is empty");
-  SourceFile source{.path = fs::absolute(folder / file).lexically_normal(), .digest = {}, .companions = {}};
+  SourceFile source{.path = named_file(file, folder), .digest = {}, .companions = {}};
   if (utf8(source.path.string()) !=
       source.path.string()) {  // run.toml contains the path, and TOML texts are UTF-8
     throw InputError(fmt::format("{}: a run could not name this file again: rename what is not UTF-8",

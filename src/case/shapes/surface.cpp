@@ -28,7 +28,7 @@ ParameterTable<SurfaceKeys> SurfaceKeys::parameters() {
 
 Surface::Surface(SurfaceKeys keys, const std::filesystem::path& folder)
     : keys_(std::move(keys)), source_(find_source(keys_.file, keys_.digest, folder)) {
-  keys_.file = source_.path.string();
+  keys_.file = named_file(keys_.file, folder).string();
   keys_.digest = source_.digest;
   std::vector<solids::Triangle> triangles = solids::read_surface(source_.path, keys_.unit);
   try {
