@@ -101,7 +101,7 @@ class Reader {
     do {
       if (!next()) return end_of_file();
     } while (trimmed(text_).empty() && index_);
-    if (const auto labelled = labelled_header()) return *labelled;
+    if (const auto labelled = labelled_header()) return labelled;
     const std::optional<int> flag = integer_in(text_, 0, 2);
     if (flag == 2) return std::nullopt;
     const auto material = integer_in(text_, 2, 6), table = integer_in(text_, 8, 6),

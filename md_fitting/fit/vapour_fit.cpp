@@ -51,7 +51,7 @@ class VapourProblem {
  public:
   VapourProblem(GrayConstants constants, const std::vector<SaturationState>& data, const ModelErrors& errors,
                 bool with_join)
-      : constants_(std::move(constants)), data_(data), errors_(errors), attraction_(1.0, {.lower = 0.0}) {
+      : constants_(constants), data_(data), errors_(errors), attraction_(1.0, {.lower = 0.0}) {
     constants_.vapour = eos::VapourCondition::attraction;
     attraction_ = {best_start(), {.lower = 0.0}};
     if (with_join) join_.emplace_back(constants_.join_volume_ratio, join_bounds);

@@ -20,7 +20,7 @@ class SharedNumbers {
     const MPI_Aint count = first_task + static_cast<MPI_Aint>(tasks);
     const MPI_Aint bytes = rank == 0 ? count * static_cast<MPI_Aint>(sizeof(long)) : 0;
     long* memory = nullptr;
-    MPI_Win_allocate(bytes, sizeof(long), MPI_INFO_NULL, communicator, &memory, &window_);
+    MPI_Win_allocate(bytes, sizeof(long), MPI_INFO_NULL, communicator, static_cast<void*>(&memory), &window_);
     MPI_Win_lock_all(0, window_);
     if (rank == 0) std::fill(memory, memory + count, 0L);
     MPI_Win_sync(window_);

@@ -269,7 +269,8 @@ std::optional<std::size_t> Wall::cell_at(const Vector3& position, const Vector3&
 
 double Wall::cell_area(std::size_t cell) const {
   if (frame_.dimension == grid::Dimension::space) return frame_.copies() * reach_ * reach_;
-  const double inner = columns_.lower()[0] + static_cast<double>(cell / cells_[1]) * reach_;
+  const std::size_t ring = cell / cells_[1];
+  const double inner = columns_.lower()[0] + static_cast<double>(ring) * reach_;
   return frame_.ring_area(inner, inner + reach_);
 }
 

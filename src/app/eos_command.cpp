@@ -40,7 +40,6 @@ using eos::curves::CurveTable;
 using eos::curves::DiagramKind;
 using eos::curves::Figure;
 using eos::curves::FigureCurve;
-using eos::curves::LineStyle;
 using eos::curves::Series;
 using eos::curves::Subjects;
 

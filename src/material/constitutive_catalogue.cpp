@@ -6,7 +6,11 @@
 
 #include "src/material/burn_model.hpp"
 #include "src/material/eos_strength/eos_strength.hpp"
-#include "src/material/neo_hookean.hpp"
+#include "src/material/hyperelastic/model.hpp"
+#include "src/material/hyperelastic/mooney_rivlin.hpp"
+#include "src/material/hyperelastic/neo_hookean.hpp"
+#include "src/material/hyperelastic/ogden.hpp"
+#include "src/material/hyperelastic/yeoh.hpp"
 
 namespace whipple::material {
 namespace {
@@ -26,9 +30,9 @@ ConstitutiveEntry entry() {
 }  // namespace
 
 const Catalogue<ConstitutiveEntry>& catalogue() {
-  static const Catalogue<ConstitutiveEntry> all("constitutive model", {
-                                                                          entry<NeoHookeanModel>(),
-                                                                      });
+  static const Catalogue<ConstitutiveEntry> all(
+      "constitutive model", {entry<HyperelasticModel<NeoHookean>>(), entry<HyperelasticModel<MooneyRivlin>>(),
+                             entry<HyperelasticModel<Yeoh>>(), entry<HyperelasticModel<Ogden>>()});
   return all;
 }
 

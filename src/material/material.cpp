@@ -15,6 +15,7 @@
 #include "src/material/eos_strength/eos_strength.hpp"
 #include "src/material/failure/fragment_size.hpp"
 #include "src/material/strength/brittle.hpp"
+#include "src/material/strength/foam.hpp"
 #include "src/material/strength/none.hpp"
 
 namespace whipple {
@@ -65,6 +66,12 @@ void require_parts_agree(const Material& material) {
       throw InputError(fmt::format(
           "strength model \"{}\" with 'bulking' takes an equation of state without pores", with_past));
     }
+  }
+  if (dynamic_cast<const strength::Foam*>(material.strength.get()) != nullptr &&
+      (material.eos->has_phases() || material.eos->initial_distension() > 1.0)) {
+    throw InputError(fmt::format(
+        "strength model \"{}\" takes the equation of state of the solid, without phases and pores",
+        material.strength->model()));
   }
   for (const auto& criterion : material.failure) {
     if (criterion->accumulates()) {
@@ -129,6 +136,9 @@ Material completed(Material material) {
   }
   if (const strength::Brittle* brittle = material.strength->brittle()) {
     if (brittle->bulks()) material.eos = std::make_shared<const eos::Distended>(material.eos);
+  }
+  if (const auto* foam = dynamic_cast<const strength::Foam*>(material.strength.get())) {
+    material.eos = std::make_shared<const eos::Distended>(material.eos, foam->initial_distension());
   }
   material.reference = initial_state(material);
   const double sound_speed = material.reference.sound_speed;

@@ -57,6 +57,11 @@ BENCHMARK_CAPTURE(update, linear_hardening_shuffled_list, "copper_taylor", Matte
 BENCHMARK_CAPTURE(update, lead_with_open_voids, "lead_mie_gruneisen", Matter::failed, false);
 BENCHMARK_CAPTURE(update, gray_johnson_cook, "copper", Matter::intact, false);
 BENCHMARK_CAPTURE(update, gray_with_open_voids, "copper", Matter::failed, false);
+BENCHMARK_CAPTURE(update, foam, WHIPPLE_SOURCE_DIR "/cases/foam_block/foam.toml", Matter::intact, false);
+BENCHMARK_CAPTURE(update, neo_hookean, WHIPPLE_SOURCE_DIR "/cases/rubber_rings/rubber.toml", Matter::intact,
+                  false);
+BENCHMARK_CAPTURE(update, neo_hookean_that_relaxes,
+                  WHIPPLE_SOURCE_DIR "/cases/rubber_rings/relaxing_rubber.toml", Matter::intact, false);
 
 /// Measures the plastic increments of a chunk of yielding points alone.
 void plastic_return(benchmark::State& state, const char* name) {

@@ -12,7 +12,8 @@
 #include "src/core/base/error.hpp"
 #include "src/material/burn_model.hpp"
 #include "src/material/eos_strength/eos_strength.hpp"
-#include "src/material/neo_hookean.hpp"
+#include "src/material/hyperelastic/model.hpp"
+#include "src/material/hyperelastic/neo_hookean.hpp"
 #include "tests/unit/eos_impact_constants.hpp"
 #include "tests/unit/material_support.hpp"
 
@@ -56,9 +57,9 @@ TEST(BurnModel, IsThatOfExplosivesThatBurnAlone) {
 }
 
 TEST(BurnModel, TakesThePlaceOfNoOtherModel) {
-  Material rubber =
-      make_material("rubber", tnt_with_strength().explosive->unreacted,
-                    std::make_shared<const material::NeoHookeanModel>(material::NeoHookean{2e6}));
+  Material rubber = make_material("rubber", tnt_with_strength().explosive->unreacted,
+                                  std::make_shared<const material::HyperelasticModel<material::NeoHookean>>(
+                                      material::NeoHookean{2e6, {}}));
   rubber.explosive = tnt_with_strength().explosive;
   EXPECT_THROW((void)burning(rubber), InputError);
 }

@@ -74,7 +74,8 @@ std::vector<HistoryField> EosStrength::fields() {
           cold_work_field, threshold_stress_field, fragment_size_field};
 }
 
-EosStrength::EosStrength(const Material& material) {
+EosStrength::EosStrength(const Material& material)
+    : foam(dynamic_cast<const strength::Foam*>(material.strength.get())) {
   if (is_brittle(material) || any_criterion(material, [](const auto& c) { return c.accumulates(); })) {
     damage = declare(damage_field);
   }
@@ -136,7 +137,9 @@ EosStrength::Parts EosStrength::parts_of(const Material& material, Energy energy
   take(integrates ? energy_by_work : energy_from_grid);
   take_if(stores, take_cold_work);
   section = &all.pressure;
-  if (distension != undeclared) {
+  if (foam != nullptr) {
+    take(evaluate_foam);
+  } else if (distension != undeclared) {
     take(has_phases ? evaluate_porous_phases : evaluate_porous);
   } else {
     take(has_phases ? evaluate_phases : evaluate_simple);

@@ -10,6 +10,7 @@
 #include "src/material/common.hpp"
 #include "src/material/constitutive.hpp"
 #include "src/material/failure/fragment_size.hpp"
+#include "src/material/strength/foam.hpp"
 
 /// Equation of state, strength and failure as one constitutive model (docs/theory/material.md).
 namespace whipple::material {
@@ -42,6 +43,7 @@ class EosStrength final : public Constitutive {
   /// Returns all fields that it may declare.
   static std::vector<HistoryField> fields();
 
+  const strength::Foam* foam = nullptr;              ///< its strength, if that is one of a foam
   const failure::FragmentSize* fragments = nullptr;  ///< of its failure; null: failed points keep no size
 
   /// First lanes of the history fields; fields that are not declared have a lane that nothing else uses.

@@ -56,6 +56,9 @@ void evaluate_simple(const EosStrength& model, const Step& in, Chunk& out);
 void evaluate_phases(const EosStrength& model, const Step& in, Chunk& out);
 void evaluate_porous(const EosStrength& model, const Step& in, Chunk& out);
 void evaluate_porous_phases(const EosStrength& model, const Step& in, Chunk& out);
+/// Evaluates the equation of state, crushes the foam to its yield surface, and evaluates it again with the new distension
+/// (docs/theory/foam.md).
+void evaluate_foam(const EosStrength& model, const Step& in, Chunk& out);
 /// Set the energy of the points to the solved one; the second adds the cold work.
 void accept_energy(const EosStrength& model, const Step& in, Chunk& out);
 void return_cold_work(const EosStrength& model, const Step& in, Chunk& out);

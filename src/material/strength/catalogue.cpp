@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "src/material/strength/deshpande_fleck.hpp"
 #include "src/material/strength/drucker_prager.hpp"
 #include "src/material/strength/elastic.hpp"
 #include "src/material/strength/granular_flow.hpp"
@@ -52,6 +53,7 @@ const Catalogue<ModelEntry>& catalogue() {
                                              entry<JohnsonHolmquist2, JohnsonHolmquist2Model>(),
                                              entry<DruckerPrager, DruckerPragerModel>(),
                                              entry<GranularFlow, GranularFlowModel>(),
+                                             entry<DeshpandeFleck, DeshpandeFleckModel>(),
                                          });
   return all;
 }
