@@ -86,7 +86,7 @@ bool Inside::contains(const Vector3& point) const {
       octant |= (upper ? 1 : 0) << a;
       middle[a] += upper ? half : -half;
     }
-    node = nodes_[static_cast<std::size_t>(node + octant)];
+    node = nodes_[static_cast<std::size_t>(node) + static_cast<std::size_t>(octant)];
   }
   if (node != mixed) return node == inside;
   return std::abs(tree_.winding_number(point)) > 0.5;

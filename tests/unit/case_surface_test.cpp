@@ -14,6 +14,7 @@
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
 #include "src/core/base/random_bits.hpp"
+#include "tests/unit/case_support.hpp"
 #include "tests/unit/folder_test.hpp"
 #include "tests/unit/shape_support.hpp"
 
@@ -288,6 +289,16 @@ TEST_F(Surfaces, RunsKeepTheirFiles) {
   EXPECT_EQ(again.toml(), written);  // as a restart demands
   EXPECT_NE(message_of<InputError>([&] { Surface(keys, folder_); }).find("the file has changed"),
             std::string::npos);
+}
+
+TEST_F(Surfaces, AWrongUnitIsAskedFor) {
+  write(binary_stl(block({5, 5, 5})));
+  const std::string text =
+      domain + replaced(sphere, R"(sphere = { center = ["0 mm", "0 mm", "-4 mm"], radius = "3 mm" })",
+                        "surface = { file = \"" + (folder_ / "part.stl").string() + "\", unit = \"1 mm\" }");
+  EXPECT_EQ(error_of(text), "");
+  expect_error(replaced(text, "unit = \"1 mm\"", "unit = \"1 inch\""),
+               {"\"sphere\" reaches", "outside of the domain", "is 'unit' of its file right?"});
 }
 
 TEST_F(Surfaces, TheUnitIsDemanded) {

@@ -30,6 +30,10 @@ struct Made {
       return nullptr;
     }
   }
+
+ private:
+  Made() = default;
+  friend Kind;
 };
 
 }  // namespace whipple::cases
