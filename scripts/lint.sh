@@ -34,7 +34,7 @@ if ((recent > 0)); then
   # A copy without history has nothing to compare with.
   base=$(git rev-parse --verify --quiet "HEAD~$recent") || { echo "clang-tidy: no commit before the last $recent"; exit 0; }
   # Added lines, file: most first.
-  mapfile -t files < <(git diff --numstat --diff-filter=d "$base" HEAD -- '*.cpp' '*.hpp' | sort -k1,1nr -k3 | cut -f3)
+  mapfile -t files < <(git diff --no-renames --numstat --diff-filter=d "$base" HEAD -- '*.cpp' '*.hpp' | sort -k1,1nr -k3 | cut -f3)
 elif ((${#files[@]} == 0)); then
   scripts/check_documents.py
   mapfile -t files < <(git ls-files --cached --others --exclude-standard -- '*.cpp' '*.hpp')
@@ -68,7 +68,7 @@ arguments=(--quiet -p build/lint "--extra-arg=-idirafter$(g++ -print-file-name=i
   --extra-arg=-Wno-unknown-warning-option --extra-arg=-Wno-unknown-attributes
   --extra-arg=-Wno-unused-command-line-argument)
 if ((recent > 0)); then  # findings in what changed, headers too
-  changed=$(git diff --unified=0 --diff-filter=d "$base" HEAD -- "${files[@]}" | awk '
+  changed=$(git diff --no-renames --unified=0 --diff-filter=d "$base" HEAD -- "${files[@]}" | awk '
     /^\+\+\+ b\// { file = substr($0, 7) }
     /^@@/ {
       split(substr($3, 2), at, ",")
@@ -76,6 +76,7 @@ if ((recent > 0)); then  # findings in what changed, headers too
       if (count > 0) lines[file] = lines[file] (lines[file] == "" ? "" : ",") "[" at[1] "," at[1] + count - 1 "]"
     }
     END { for (file in lines) printf "{\"name\":\"%s\",\"lines\":[%s]},", file, lines[file] }')
+  [[ -n $changed ]] || { echo "clang-tidy: no lines were added"; exit 0; }
   arguments+=("--line-filter=[${changed%,}]")
 fi
 left_out=()

@@ -21,6 +21,8 @@ class Distended final : public Modified {
 
   [[nodiscard]] double reference_density() const override { return base().reference_density() / initial_; }
   [[nodiscard]] double initial_distension() const override { return initial_; }
+  /// Returns that of the material as it is made; a foam that has been crushed is denser.
+  [[nodiscard]] double maximum_density() const override { return base().maximum_density() / initial_; }
   [[nodiscard]] double minimum_energy(double density) const override {
     return base().minimum_energy(density * initial_);
   }

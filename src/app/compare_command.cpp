@@ -290,7 +290,10 @@ void run(const CompareOptions& options) {
   require_new_figure(options.plot, options.force);
   const std::optional<double> temperature = quantity("--temperature", options.temperature, "K");
   std::vector<Material> materials;
-  for (const std::string& name : options.materials) materials.push_back(read_material(name));
+  for (const std::string& name : options.materials) {
+    materials.push_back(read_material(name));
+    refuse_foam(materials.back());
+  }
   std::vector<Experiment> experiments;
   for (const std::string& name : options.experiments) {
     std::ranges::move(eos::experiments::read_experiments(find_experiment(name), temperature),

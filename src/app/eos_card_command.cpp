@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "src/app/eos_options.hpp"
 #include "src/app/eos_table.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
@@ -32,6 +33,7 @@ void write_card(const CardOptions& o) {
   }
   if (!o.file.empty()) require_new_file(o.file, o.force);
   const Material material = read_material(o.material);
+  refuse_foam(material);
   const auto format = value_of<decks::CardFormat>(o.format).value();
   const std::string card = decks::eos_card(material.name, *material.eos, format, *units, o.number);
   if (o.file.empty()) {

@@ -16,6 +16,7 @@
 #include "src/core/base/option_quantity.hpp"
 #include "src/core/base/text.hpp"
 #include "src/core/base/units.hpp"
+#include "src/material/strength/foam.hpp"
 
 namespace whipple::app {
 namespace {
@@ -174,9 +175,20 @@ double impact_velocity(const EosOptions& o) {
   return *velocity;
 }
 
+void refuse_foam(const Material& material) {
+  if (dynamic_cast<const strength::Foam*>(material.strength.get()) == nullptr) return;
+  throw InputError(fmt::format(
+      "material \"{}\" is a foam, which its strength model \"{}\" crushes: its states do not follow "
+      "from the equation of state, which is that of the solid; name the solid instead",
+      material.name, material.strength->model()));
+}
+
 eos::curves::Subjects subjects_of(std::span<const Material> materials) {
   eos::curves::Subjects subjects;
-  for (const Material& material : materials) subjects.push_back({material.name, material.eos});
+  for (const Material& material : materials) {
+    refuse_foam(material);
+    subjects.push_back({material.name, material.eos});
+  }
   return subjects;
 }
 

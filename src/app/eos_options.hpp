@@ -43,6 +43,10 @@ eos::curves::Variable curve_variable(const EosOptions& options,
 eos::curves::CurveRange curve_range(const EosOptions& options, eos::curves::Variable variable);
 double impact_velocity(const EosOptions& options);
 
+/// Refuses a foam (docs/theory/foam.md), which has no shock curve or isotherm of its equation of state alone.
+/// @throws InputError
+void refuse_foam(const Material& material);
+
 /// Returns the equations of state of materials with their names.
 eos::curves::Subjects subjects_of(std::span<const Material> materials);
 

@@ -56,6 +56,10 @@ eos::State state_at_pressure(const eos::EquationOfState& model, double pressure,
   }
 }
 
+bool is_foam(const Material& material) {
+  return dynamic_cast<const strength::Foam*>(material.strength.get()) != nullptr;
+}
+
 /// Requires that the parts of a material are compatible.
 /// @throws InputError if they are not
 void require_parts_agree(const Material& material) {
@@ -67,8 +71,7 @@ void require_parts_agree(const Material& material) {
           "strength model \"{}\" with 'bulking' takes an equation of state without pores", with_past));
     }
   }
-  if (dynamic_cast<const strength::Foam*>(material.strength.get()) != nullptr &&
-      (material.eos->has_phases() || material.eos->initial_distension() > 1.0)) {
+  if (is_foam(material) && (material.eos->has_phases() || material.eos->initial_distension() > 1.0)) {
     throw InputError(fmt::format(
         "strength model \"{}\" takes the equation of state of the solid, without phases and pores",
         material.strength->model()));
@@ -83,7 +86,7 @@ void require_parts_agree(const Material& material) {
       with_past = criterion->model();
     }
     if (!criterion->grows_voids()) continue;
-    if (!grows_voids.empty() || material.strength->brittle() != nullptr) {
+    if (!grows_voids.empty() || material.strength->brittle() != nullptr || is_foam(material)) {
       throw InputError(fmt::format("models \"{}\" and \"{}\" both open voids: one of them may",
                                    grows_voids.empty() ? material.strength->model() : grows_voids,
                                    criterion->model()));
@@ -215,7 +218,7 @@ Material unreacted(const Material& material) {
 
 void set_taylor_quinney(Material& material, double share) {
   const bool returns_deviator = material.void_growth != nullptr && material.void_growth->returns_deviator();
-  const bool brittle = material.strength->brittle() != nullptr;
+  const bool brittle = material.strength->brittle() != nullptr || is_foam(material);
   if (share < 1.0 && (brittle || returns_deviator || !material.strength->carries_deviator())) {
     const std::string_view model =
         returns_deviator ? material.void_growth->model() : material.strength->model();

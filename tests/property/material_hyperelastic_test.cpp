@@ -370,6 +370,8 @@ TEST(Hyperelastic, InconsistentConstantsAreRefused) {
   EXPECT_THROW(solid_of(material::NeoHookean{1e6, {.fractions = {0.5}, .times = {}}}), InputError);
   EXPECT_THROW(solid_of(material::NeoHookean{1e6, {.fractions = {0.5, 0.5}, .times = {1.0, 2.0}}}),
                InputError);
+  EXPECT_THROW(solid_of(material::NeoHookean{1e6, {.fractions = {0.6, 0.3, 0.1}, .times = {1.0, 2.0, 3.0}}}),
+               InputError);  // 1 but for round-off
   EXPECT_THROW(
       solid_of(material::NeoHookean{1e6, {.fractions = {0.1, 0.1, 0.1, 0.1}, .times = {1.0, 2.0, 3.0, 4.0}}}),
       InputError);

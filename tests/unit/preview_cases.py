@@ -23,6 +23,7 @@ PICKS = """
 const [seed, count] = arguments, viewer = window.whippleViewer, { cloud, state, canvas } = viewer, { head } = cloud;
 state.completed = false;
 viewer.reset();
+state.camera.side = [0, 1];  // along the third axis, wherever the projectile comes from
 viewer.setView('front');
 viewer.updateReach();
 const { camera } = state, right = (camera.up + 2) % 3, toEye = (camera.up + 1) % 3, aspect = canvas.width / canvas.height;

@@ -195,6 +195,11 @@ void EosStrength::start(const eos::State& state, MaterialPoints& points, std::si
   }
 }
 
+double EosStrength::maximum_density(const Material& material, const Chunk& chunk, std::size_t k) const {
+  if (foam == nullptr) return Constitutive::maximum_density(material, chunk, k);
+  return material.eos->maximum_density() * foam->initial_distension() / chunk.history[distension][k];
+}
+
 void EosStrength::void_share(const Chunk& chunk, Lanes& share) const {
   share_ != nullptr ? share_(*this, chunk, share) : Constitutive::void_share(chunk, share);
 }

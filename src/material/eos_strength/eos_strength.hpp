@@ -31,6 +31,8 @@ class EosStrength final : public Constitutive {
   [[nodiscard]] double sound_speed(const Material& material, const eos::State& state) const override;
   void start(const eos::State& state, MaterialPoints& points, std::size_t begin,
              std::size_t end) const override;
+  [[nodiscard]] double maximum_density(const Material& material, const Chunk& chunk,
+                                       std::size_t k) const override;
   void void_share(const Chunk& chunk, Lanes& share) const override;
   void update(const Step& in, Chunk& out) const override;
 

@@ -9,7 +9,8 @@ namespace whipple::material::parts {
 
 void evaluate_foam(const EosStrength& model, const Step& step, Chunk& chunk) {
   Lanes& distension = chunk.history[model.distension];
-  const Lanes prepared = chunk.energy;  // the equation of state may replace it by the energy after the step
+  const Lanes before = chunk.pressure;
+  const MaterialReport reported = chunk.report;
   evaluate_equation_of_state<false>(step, chunk, chunk.view(distension));
   Lanes bulk, equivalent, work;
   for (std::size_t k = 0; k < chunk.size; ++k) {
@@ -30,10 +31,14 @@ void evaluate_foam(const EosStrength& model, const Step& step, Chunk& chunk) {
     if (!(equivalent[k] < chunk.motion.trial[k])) continue;
     for (Lanes& lane : chunk.motion.deviator) lane[k] *= equivalent[k] / chunk.motion.trial[k];
   }
+  if (!(sum > 0.0)) return;
+  // The same step again, with the stress and the distension that it ends with; the trial state is not reported.
+  chunk.report = reported;
   chunk.report.plastic_work += sum;
   chunk.report.dissipation += sum;
-  if (!(sum > 0.0)) return;
-  chunk.energy = prepared;
+  chunk.pressure = before;
+  step.energy == Energy::from_grid ? energy_from_grid(model, step, chunk)
+                                   : energy_by_work(model, step, chunk);
   evaluate_equation_of_state<false>(step, chunk, chunk.view(distension));
 }
 

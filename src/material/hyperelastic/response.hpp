@@ -96,7 +96,9 @@ struct Relaxation {
       throw InputError("'relaxing_fractions' and 'relaxation_times' must have as many entries");
     }
     if (fractions.size() > most) throw InputError("'relaxing_fractions' has more than three entries");
-    if (!(lasting() > 0.0)) throw InputError("the sum of 'relaxing_fractions' must be below 1");
+    constexpr double least = 1e-6;  // the sudden stress is found from what lasts
+    if (!(lasting() >= least))
+      throw InputError("the sum of 'relaxing_fractions' must be below 1 by 1e-6 at least");
   }
 };
 

@@ -96,7 +96,7 @@ void DeshpandeFleckModel::crush_point(const FoamState& state, std::size_t i) con
   state.equivalent[i] = state.trial[i];
   state.plastic_increment[i] = 0.0;
   state.dissipation[i] = 0.0;
-  if (state.distension[i] > closed || state.pressure[i] < 0.0) {
+  if (state.distension[i] > closed) {
     flow(state, i);
     return;
   }
