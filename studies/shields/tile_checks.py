@@ -4,15 +4,16 @@
 
 Usage: python3 -m studies.shields.tile_checks [--work FOLDER] [--whipple PROGRAM]
 
-Reads the folders of `run_shots --model tile` and prints for each tile that has ended: radius R of the core, momentum per area I of
-its load, size and number of its grains, speed v of the rear half of the wall at the end, v over I/(rho t), the distance in which the rim
-stops v over the thickness t (not a number where the tile has a hole), and the mass that the rear half has lost by the end. Then, for tiles of the rule (seed 1, coarser 1):
-how many verdicts come out the same with v = k I/(rho t), without a tile, and how many of the measured results; and, where a shot was
-repeated with other cells, the speed that a straight line through the sizes of cells has at none (decision 25).
+Reads the folders of `run_shots --model tile` and prints for each tile that has ended: radius R of the core, momentum per area I of its
+load, size and number of its grains, speed v of the rear half of the wall at the end, v over I/(rho t), the distance in which the rim
+stops v over the thickness t (not a number where the tile has a hole), and the mass that the rear half has lost by the end.
+
+Then, for tiles of the rule (seed 1, coarser 1): how many verdicts come out the same with v = k I/(rho t), without a tile, and how many of
+the measured results; and, where a shot was repeated with other cells, the speed that a straight line through the sizes of cells has at
+none (decision 25).
 """
 import argparse
 import dataclasses
-import json
 import pathlib
 import tomllib
 

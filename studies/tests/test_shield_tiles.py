@@ -10,7 +10,7 @@ import unittest
 import h5py
 import numpy as np
 
-from studies.shields import tile
+from studies.shields import tile, tile_checks
 
 DELAYS = np.linspace(-0.1, 0.3, 401)
 LOAD = tile.Load(7.5, 0.1, 5.0, 0.4, DELAYS, np.ones(401), 0.8, 0.05)
@@ -250,6 +250,34 @@ class Runs(unittest.TestCase):
         self.assertAlmostEqual(time, 4.0)
         self.assertAlmostEqual(left.speed, 30.0)
         self.assertTrue(left.closed)
+
+
+    def test_checks_compare_the_rear_half_with_its_load_and_count_what_has_left(self):
+        places = lattice((0, 0, 0), (1.5, 2, 2), 0.0625)
+        rear = places[:, 0] > 0.75
+        kept = ~rear | (places[:, 1] < 1.0)
+        fields = {"failed": 0.0, "phase": 0, "plastic_strain": 0.1}
+        first = particles(places, 0.0, 1e-9, id=np.arange(len(places)), **fields)
+        last = particles(places[kept], np.where(rear[kept], 300.0, 0.0), 1e-9, id=np.flatnonzero(kept), **fields)
+        made_up_run(self.folder, {0.0: {"wall": first}, 2e-6: {"wall": last}, 4e-6: {"wall": last}})
+        grain = '{ sphere = { center = ["0 mm", "0 mm", "0 mm"], radius = "0.0002 m" } }'
+        (self.folder / "run.toml").write_text(f"""[domain]
+upper = ["3 mm", "2 mm", "0.002 m"]
+cell_size = "0.125 mm"
+[[body]]
+name = "wall"
+shape = {{ union = [{grain}, {grain}] }}
+""", encoding="utf-8")
+        wall = {"name": "wall", "material": "aluminium_6061_mie_gruneisen.toml"}
+        shot = tile.Shot({"source": "S", "name": "1", "wall": {"thickness": 1.5e-3}}, {"body": [wall]}, self.folder)
+        found = tile_checks.check_of(shot, LOAD, self.folder)
+        density, shear = tile.value_of(wall["material"], "eos", "reference_density"), tile.shear_yield(wall["material"])
+        self.assertEqual((found.shot, found.grains, found.cell), ("S/1", 2, 0.125))
+        self.assertAlmostEqual(found.lost, 0.5)
+        self.assertAlmostEqual(found.speed, 300.0)
+        self.assertAlmostEqual(found.spread, 1e3 * 0.5 / (density * 1.5))
+        self.assertAlmostEqual(found.stopped, tile.held_within(density, 7.5, 300.0, shear) / 1.5)
+        self.assertAlmostEqual(found.spread_stopped / found.stopped, (found.spread / 300.0)**2)
 
 
 class Materials(unittest.TestCase):

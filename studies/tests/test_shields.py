@@ -101,6 +101,10 @@ class Page(unittest.TestCase):
         self.assertIn("| section, tile | 0 | 1 | 1 | 0 | 1 |", text)
         self.assertIn("Of 2 shots 1 change between defeated and not.", text)
         self.assertIn("| b | detached spall | perforated |", text)
+        self.assertIn("chosen when the outcomes of all shots were known", text.lower())
+        before, tiles = text.split("## Runs: tile")
+        self.assertIn("a model that was amended while it was scored", tiles)
+        self.assertNotIn("amended", before)
 
 
 PROGRAM = """#!/usr/bin/python3
