@@ -35,6 +35,9 @@ SAME = (
     ("(1 - x)^-2(a - b) e^(a x)", r"(1 - x)^{-2(a - b)} e^{a x}"),
     ("chi^2_k = P1a + E_0H", r"\chi_{k}^{2} = P_{1a} + E_{0H}"),
     ("dD = dep/max{D1, eps_m}", r"dD = \frac{d\mathit{ep}}{\max\{D_{1}, \varepsilon_{m}\}}"),
+    ("beta_1 = (f x b + c x e)/3", r"\beta_{1} = \frac{f \times b + c \times e}{3}"),
+    ("3 x 1.54 e^(a x)/x", r"3 \times 1.54 \frac{e^{a x}}{x}"),
+    ("2 x y + x_a x f_a", r"2 x y + x_{a} \times f_{a}"),
     ("0 if the gap is open, else e_p^{n+1}", None),
 )
 
