@@ -43,6 +43,16 @@ class Sections(unittest.TestCase):
             with self.subTest(shape=shape[:12]):
                 self.assertAlmostEqual(area(shape), expected, delta=0.6)
 
+    def test_keys_that_may_be_left_out(self):
+        for shape, expected in (
+                ('{ cylinder = { center = ["0 m", "0 m", "0 m"], radius = "3 mm", height = "8 mm" } }', 48),
+                ('{ cone = { base = ["0 m", "0 m", "-5 mm"], base_radius = "4 mm", height = "10 mm" } }', 40),
+                ('{ ogive = { base = ["0 m", "0 m", "-4 mm"], radius = "4 mm", nose_length = "8 mm" } }', 2 * (100 * 0.5 * 0.9272952180 - 0.5 * 6 * 8)),
+                ('{ prism = { base = ["0 m", "0 m", "-4 mm"], sides = 4, inner_radius = "3 mm", height = "8 mm" } }', 48),
+                ('{ moved = { shape = { cylinder = { center = ["0 m", "0 m", "0 m"], radius = "3 mm", height = "8 mm" } } } }', 48)):
+            with self.subTest(shape=shape[:12]):
+                self.assertAlmostEqual(area(shape), expected, delta=0.6)
+
     def test_what_is_cut_out(self):
         plate = '{ box = { lower = ["-9 mm", "-9 mm", "-1 mm"], upper = ["9 mm", "9 mm", "1 mm"] } }'
         hole = '{ cylinder = { center = ["0 mm", "0 mm", "0 mm"], axis = "z", radius = "2 mm", height = "9 mm" } }'

@@ -44,14 +44,14 @@ def minus(points, place):
 
 def ahead(shape, points):
     """Return height above the base along the axis, and the coordinates along the two axes behind it: of z, x and y."""
-    axis = "xyz".index(shape["axis"])
+    axis = "xyz".index(shape.get("axis", "z"))
     offset = minus(points, vector(shape["base"]))
     return offset[axis], offset[(axis + 1) % 3], offset[(axis + 2) % 3]
 
 
 def along(shape, points, base):
     """Return height above the base along the axis, and distance from it."""
-    axis = "xyz".index(shape["axis"])
+    axis = "xyz".index(shape.get("axis", "z"))
     offset = minus(points, base)
     return offset[axis], np.hypot(*(offset[i] for i in range(3) if i != axis))
 
@@ -94,7 +94,7 @@ def cone(shape, points):
 
 def ogive(shape, points):
     height, radius = along(shape, points, vector(shape["base"]))
-    shank, nose, wide = (number(shape[key]) for key in ("shank_length", "nose_length", "radius"))
+    shank, nose, wide = number(shape.get("shank_length", 0.0)), number(shape["nose_length"]), number(shape["radius"])
     arc = (wide**2 + nose**2) / (2 * wide)  # radius of the arc, tangent to the shank
     tip = np.sqrt(np.maximum(arc**2 - (height - shank) ** 2, 0)) - (arc - wide)
     return (0 <= height) & (height <= shank + nose) & (radius <= np.where(height > shank, tip, wide))
