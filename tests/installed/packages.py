@@ -56,7 +56,7 @@ def check_tarball(tarball):
 
 
 def check_clean_root(packages, mirror):
-    require(os.geteuid() == 0 and shutil.which("mmdebstrap"), "an empty root is made by root, with mmdebstrap (scripts/install_deps.sh --site)")
+    require(os.geteuid() == 0 and shutil.which("mmdebstrap"), "an empty root is made by root, with mmdebstrap (Debian has a package of this name)")
     root = FOLDER / "root"
     shutil.rmtree(root, ignore_errors=True)
     output("mmdebstrap", "--quiet", "--variant=minbase", "bookworm", root, *([] if mirror == "default" else [mirror]))
