@@ -48,6 +48,11 @@ class Scaled final : public Shape {
     return {image(box.lower), image(box.upper)};
   }
   [[nodiscard]] double volume() const override { return scaling_.factors.prod() * shape_->volume(); }
+  /// Returns that of the shape times the smallest factor: the true one or, where its direction is stretched more, less.
+  [[nodiscard]] double smallest_extent(const Vector3& direction) const override {
+    return scaling_.factors.minCoeff() *
+           shape_->smallest_extent(direction.cwiseQuotient(scaling_.factors).eval());
+  }
   void visit(const std::function<void(const Shape&)>& f) const override {
     f(*this);
     shape_->visit(f);
