@@ -300,7 +300,8 @@ TEST_F(Images, WordsOfHeadersCount) {
 
 /// A line of values is named as an editor counts it.
 TEST_F(Images, LinesOfValuesCountFromTheStartOfTheFile) {
-  EXPECT_NE(refusal(nrrd("int", "encoding: ascii\n") + "0 1\n0 x\n").find("head:12: expected a number"),
+  EXPECT_NE(refusal(nrrd("int", "encoding: ascii\n") + "0 1\n0 x\n" + text_values())
+                .find("head:13: expected a number"),
             std::string::npos);
 }
 
