@@ -15,6 +15,20 @@ std::optional<double> if_given(double value) {
 
 }  // namespace
 
+ParameterTable<Lithostatic> Lithostatic::parameters() {
+  return {real("surface", &Lithostatic::surface, "m", range::any(),
+               "coordinate of the free surface along the axis of gravity, not below the body"),
+          real("k0", &Lithostatic::k0, "", range::any(),
+               "horizontal over vertical stress: nu/(1 - nu) of elastic rest, 1 - sin(phi) of soil "
+               "deposited, 1 of a fluid")};
+}
+
+std::span<const Section<InitialState>> InitialState::sections() {
+  static const std::array all = {
+      section<&InitialState::lithostatic>("lithostatic", ", in equilibrium with the gravity of the case")};
+  return all;
+}
+
 ParameterTable<InitialState> InitialState::parameters() {
   using I = InitialState;
   return {
@@ -24,12 +38,12 @@ ParameterTable<InitialState> InitialState::parameters() {
       real("density", &I::density, "kg/m^3", range::positive(), "density").optional("from the others")};
 }
 
-bool InitialState::given() const {
+bool InitialState::gives_state() const {
   return std::isfinite(pressure) || std::isfinite(temperature) || std::isfinite(density);
 }
 
 eos::State InitialState::of(const Material& material) const {
-  if (!given()) return material.reference;
+  if (!gives_state()) return material.reference;
   return initial_state(material, if_given(density), if_given(temperature), if_given(pressure));
 }
 

@@ -4,20 +4,33 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <span>
 
 #include "src/case/section.hpp"
 #include "src/material/material.hpp"
 
 namespace whipple::cases {
 
+/// Describes `initial.lithostatic` of a body: the stress of material that was deposited under its own weight.
+struct Lithostatic {
+  double surface = 0.0;  ///< height of the free surface against gravity, coordinate along its axis, m
+  double k0 = 1.0;       ///< horizontal over vertical stress
+  static ParameterTable<Lithostatic> parameters();
+};
+
 /// Describes `initial` of a body: at most two of pressure, temperature and density; infinite: not given.
 struct InitialState {
   double pressure = std::numeric_limits<double>::infinity();     ///< Pa
   double temperature = std::numeric_limits<double>::infinity();  ///< K
   double density = std::numeric_limits<double>::infinity();      ///< kg/m^3
+  std::optional<Lithostatic> lithostatic;
   static ParameterTable<InitialState> parameters();
+  static std::span<const Section<InitialState>> sections();
 
-  [[nodiscard]] bool given() const;
+  [[nodiscard]] bool given() const { return gives_state() || lithostatic.has_value(); }
+  /// Returns whether pressure, temperature or density are given.
+  [[nodiscard]] bool gives_state() const;
   /// Returns the initial state. @throws InputError if the material has no such state, or if too many quantities are
   /// given
   [[nodiscard]] eos::State of(const Material& material) const;

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "src/case/build/bars.hpp"
+#include "src/case/build/lithostatic.hpp"
 #include "src/case/build/placement.hpp"
 #include "src/case/shapes/mesh_shape.hpp"
 #include "src/core/base/error.hpp"
@@ -36,6 +37,7 @@ std::span<const Section<Case>> Case::sections() {
       section<&Case::burn>("burn", ", of explosives", [](const Case& setup) { return setup.has_burn(); }),
       section<&Case::output>("output"),
       section<&Case::bodies>("body"),
+      section<&Case::loads>("load", ", adds up with the others"),
       section<&Case::detonations>("detonation"),
       section<&Case::gauges>("gauge"),
       section<&Case::tracers>("tracers"),
@@ -210,6 +212,8 @@ std::vector<InputFault> settle(Case& setup) {
   for (const PlacementFault& fault : placement_faults(setup))
     bodies.in(fault.body).add("shape", fault.message);
   check_places_of_gauges(setup, faults);
+  check_places_of_loads(setup, faults);
+  check_lithostatic(setup, faults);
   return list;
 }
 
@@ -236,6 +240,11 @@ Case read(input::Document document, const std::vector<std::pair<std::string, std
   if (section.is_planar()) {
     setup.domain.boundary =
         setup.domain.boundary.in_section(static_cast<std::size_t>(index_of(section.axis)));
+    for (AppliedLoad& load : setup.loads) {
+      if (load.face == Face::none) continue;
+      load.face = static_cast<Face>(
+          (static_cast<int>(load.face) + 6 - 2 * static_cast<int>(index_of(section.axis))) % 6);
+    }
     setup.domain.axis = Axis::x;
   }
   document.add(settle(setup));

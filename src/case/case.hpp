@@ -18,6 +18,7 @@
 #include "src/case/gauges.hpp"
 #include "src/case/gravity.hpp"
 #include "src/case/heat.hpp"
+#include "src/case/load.hpp"
 #include "src/case/output_control.hpp"
 #include "src/case/splitting.hpp"
 #include "src/case/stop.hpp"
@@ -43,6 +44,7 @@ struct Case {
   BurnControl burn;
   OutputControl output;
   std::vector<Body> bodies;
+  std::vector<AppliedLoad> loads;
   std::vector<Detonation> detonations;
   std::vector<Gauge> gauges;
   std::vector<Tracers> tracers;

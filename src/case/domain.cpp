@@ -14,8 +14,7 @@ ParameterTable<Faces> Faces::parameters() {
   const auto face = [](const char* name, grid::Boundary Faces::* member) {
     return choice(name, member,
                   "material leaves the domain and is counted | frictionless mirror plane | no-slip wall | "
-                  "frictionless "
-                  "wall that transmits compression only")
+                  "frictionless wall that transmits compression only | the same with Coulomb friction")
         .optional();
   };
   return {face("x_lower", &Faces::x_lower), face("x_upper", &Faces::x_upper),
@@ -38,6 +37,9 @@ ParameterTable<Domain> Domain::parameters() {
              "upper corner; moved outwards to whole cells at outflow faces"),
       real("cell_size", &Domain::cell_size, "m", range::positive(),
            "edge of the cells of the background grid"),
+      real("friction", &Domain::friction, "", range::non_negative(),
+           "Coulomb coefficient of the faces of kind friction")
+          .optional("none"),
       choice("dimension", &Domain::dimension,
              "three dimensions | uniform along z, 1 m thick | x along the axis, y >= 0 the radius, masses of "
              "whole rings; in two dimensions bodies are defined by their section z = 0, and vectors may have "
@@ -81,6 +83,7 @@ grid::Geometry Domain::geometry() const {
   g.cell_size = cell_size;
   g.boundary = boundary.in_order();
   g.dimension = dimension;
+  if (std::isfinite(friction)) g.friction = friction;
   if (is_planar()) {
     g.lower[2] = 0.0;
     g.boundary[4] = g.boundary[5] = grid::Boundary::outflow;  // not reached
@@ -136,10 +139,18 @@ void Domain::check(const Case& setup, const Faults& faults) const {
       faults.add("boundary", "'y_lower' is the axis, a mirror plane: leave it out");
     }
   }
-  if (boundary.any(grid::Boundary::separating) && setup.time.scheme == Scheme::usf) {
-    faults.add("boundary",
-               "a separating wall is found to be in contact by the forces on the grid, which scheme \"usf\" "
-               "does not determine yet where it needs them: take \"symplectic\", \"musl\" or \"usl\"");
+  if (boundary.any(grid::Boundary::friction) != std::isfinite(friction)) {
+    faults.add("friction", std::isfinite(friction)
+                               ? "'friction' is the coefficient of faces of kind \"friction\": there is none"
+                               : "faces of kind \"friction\" need the coefficient 'domain.friction'");
+  }
+  const bool lets_part = boundary.any(grid::Boundary::separating) || boundary.any(grid::Boundary::friction);
+  if (lets_part && setup.time.scheme == Scheme::usf) {
+    faults.add(
+        "boundary",
+        "a separating wall, with or without friction, is found to be in contact by the forces on the grid, "
+        "which scheme \"usf\" "
+        "does not determine yet where it needs them: take \"symplectic\", \"musl\" or \"usl\"");
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <span>
 
 #include "src/case/section.hpp"
@@ -29,6 +30,8 @@ struct Domain {
   Vector3 lower = Vector3::Zero();  ///< m
   Vector3 upper = Vector3::Zero();  ///< m
   double cell_size = 0.0;           ///< m
+  double friction =
+      std::numeric_limits<double>::infinity();  ///< of faces of kind `friction`; infinite: not given
   grid::Dimension dimension = grid::Dimension::space;
   /// Selects the spatial direction that becomes the first one of a section, as read from `axis`; after reading, the
   /// case uses the directions of the section.

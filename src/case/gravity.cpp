@@ -6,17 +6,25 @@
 namespace whipple::cases {
 
 ParameterTable<Gravity> Gravity::parameters() {
-  return {
-      vector("acceleration", &Gravity::acceleration, "m/s^2", range::any(), "acceleration of all material")
-          .optional(),
-      real("rise_time", &Gravity::rise_time, "s", range::non_negative(),
-           "time over which it increases from 0, so that bodies at rest do not begin to vibrate")
-          .optional()};
+  return with_part(
+      ParameterTable<Gravity>{
+          vector("acceleration", &Gravity::acceleration, "m/s^2", range::any(),
+                 "acceleration of all material")
+              .optional(),
+          real("rise_time", &Gravity::rise_time, "s", range::non_negative(),
+               "time over which it increases from 0, so that bodies at rest do not begin to vibrate")
+              .optional()},
+      &Gravity::table, TimeTable::parameters());
 }
 
 void Gravity::check(const Case& setup, const Faults& faults) const {
   if (!acceleration.isZero(0.0) && setup.transfer.free_flight) {
     faults.add("acceleration", "'acceleration': particles of transfer.free_flight would not fall");
+  }
+  table.check(faults);
+  if (rise_time > 0.0 && table.times.size() > 1) {
+    faults.add("rise_time",
+               "gravity increases with 'rise_time' or by the table of 'times' and 'factors', not both");
   }
 }
 

@@ -55,12 +55,56 @@ double loss(Lanes own_velocity, Lanes own_increment, const grid::NodeMotion& tak
          sum3((own_increment - d) * (v + 0.5 * d) - (own_velocity - v) * ((1.0 - beta) * d - beta * v));
 }
 
+/// Describes a node in contact with its image at a wall with friction, before and after the normal contact.
+struct Rubbing {
+  const Lanes* uncoupled;  // velocity and increment
+  double mass;             // kg
+  Lanes velocity, increment;
+  grid::NodeMotion& motion;
+
+  /// Returns the normal velocity (m/s) that the contact gave to the points of the node.
+  [[nodiscard]] double given(int axis) const {
+    const Lanes change = motion.increment_and_heat - increment +
+                         motion.relaxation() * (motion.velocity_and_relaxation - velocity);
+    return change[axis];
+  }
+  [[nodiscard]] Lanes after() const { return motion.velocity_and_relaxation + motion.increment_and_heat; }
+  /// Returns the velocity z by which the work of an impulse on the points is computed (3.13).
+  [[nodiscard]] Lanes mean() const {
+    const double beta = motion.relaxation();
+    return beta * motion.velocity_and_relaxation + (1.0 - beta) * uncoupled[0] + motion.increment_and_heat -
+           0.5 * uncoupled[1];
+  }
+};
+
+/// Applies the Coulomb friction of a wall (3.13): the image moves along the wall as the material does, in the opposite
+/// direction, so that material and image at rest with each other are at rest with the wall.
+/// @param outward  component of the normal of the wall along the axis, 1 or -1
+void rub(const Rubbing& at_node, const Rubbing& at_mirror, bool on_plane, double friction, int axis,
+         double outward) {
+  Lanes along = broadcast(1.0);
+  along[3] = along[axis] = 0.0;
+  const Lanes slip = along * (at_node.after() + at_mirror.after());
+  const double speed2 = sum3(slip * slip);
+  if (!(speed2 > 0.0)) return;
+  const double reduced = at_node.mass * at_mirror.mass / (at_node.mass + at_mirror.mass);
+  const double power = sum3(slip * (at_node.mean() + at_mirror.mean()));
+  const double grip = 2.0 * reduced * std::max(power / speed2, 0.0);
+  const double pressed = -std::max(outward * at_node.mass * at_node.given(axis),
+                                   outward * at_mirror.mass * at_mirror.given(axis));
+  const double limit = friction * std::max(pressed, 0.0) / std::sqrt(speed2);
+  const Lanes impulse = std::min({reduced, grip, limit}) * slip;
+  at_node.motion.increment_and_heat -= impulse / at_node.mass;
+  if (!on_plane) at_mirror.motion.increment_and_heat -= impulse / at_mirror.mass;
+}
+
 }  // namespace
 
 void MirrorContact::lay_out(const BlockGrid& grid) {
   if (layout_ == grid.layout()) return;
   layout_ = grid.layout();
   cell_size_ = grid.geometry().cell_size;
+  friction_ = grid.geometry().friction;
   planes_.clear();
   first_of_block_.clear();
   folded_.clear();
@@ -276,6 +320,10 @@ double MirrorContact::meet(const Plane& plane, const Couple& couple, std::span<N
     const double own_part = part[plane.of.axis];
     node.increment_and_heat[plane.of.axis] -= (1.0 - own_part) * n * stopped;
     if (!on_plane) mirror.increment_and_heat[plane.of.axis] -= own_part * n * stopped;
+  }
+  if (plane.of.kind == grid::Boundary::friction) {
+    rub({own, mass, v, d, node}, {own_of_mirror, other_mass, sign * v_image, sign * d_image, mirror},
+        on_plane, friction_, plane.of.axis, n);
   }
   const double after = loss(own[0], own[1], node) + loss(own_of_mirror[0], own_of_mirror[1], mirror);
   const double half = 0.5 * (after - before);

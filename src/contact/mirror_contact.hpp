@@ -16,7 +16,7 @@ namespace whipple::contact {
 
 /// Computes the contact of material with its own image beyond mirror planes and walls where it is not continuous with
 /// it (grid::BlockGrid::bond_at_planes): the image is another body at the reflected nodes (docs/theory/mpm.md,
-/// equations 3.7 to 3.12). Material that moves towards a plane does not interact with it before contact.
+/// equations 3.7 to 3.13). Material that moves towards a plane does not interact with it before contact.
 ///
 /// A node and its mirror node may belong to different ranks. Every rank that uses either has both active and computes
 /// their contact redundantly from the values of their owners.
@@ -87,6 +87,7 @@ class MirrorContact {
 
   std::size_t layout_ = static_cast<std::size_t>(-1);  // of the grid
   double cell_size_ = 0.0;                             // m
+  double friction_ = 0.0;                              // of walls of kind `friction`
   std::vector<Plane> planes_;
   // Index of the values of the first node of each block of nodes
   std::vector<std::uint32_t> first_of_block_;

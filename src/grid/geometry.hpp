@@ -49,13 +49,17 @@ enum class Boundary : std::uint8_t {
   symmetry,    ///< mirror plane: frictionless, material neither passes nor separates
   no_slip,     ///< no-slip wall
   separating,  ///< frictionless wall: transmits compression, no tension
+  friction,    ///< separating wall with Coulomb friction
 };
-constexpr std::array<Word<Boundary>, 4> words(Boundary) {
+constexpr std::array<Word<Boundary>, 5> words(Boundary) {
   return {{{Boundary::outflow, "outflow"},
            {Boundary::symmetry, "symmetry"},
            {Boundary::no_slip, "no_slip"},
-           {Boundary::separating, "separating"}}};
+           {Boundary::separating, "separating"},
+           {Boundary::friction, "friction"}}};
 }
+/// Returns whether material may part from a face that it touched: no field is continuous with its image there.
+constexpr bool lets_part(Boundary kind) { return kind == Boundary::separating || kind == Boundary::friction; }
 
 /// Selects the dimensions of the problem. In two dimensions all points are and remain in the plane z = lower.
 enum class Dimension : std::uint8_t {
@@ -77,6 +81,7 @@ struct Geometry {
   double cell_size = 0.0;               ///< dx, m
   /// Faces in the order x_lower, x_upper, y_lower, y_upper, z_lower, z_upper.
   std::array<Boundary, 6> boundary{};
+  double friction = 0.0;  ///< Coulomb coefficient of the walls of kind `friction`
   Dimension dimension = Dimension::space;
 
   /// Returns a position in cells from the lower corner, directions in lanes. All computations of cell, block or stencil
@@ -118,7 +123,7 @@ struct Geometry {
   [[nodiscard]] bool has_left(const Vector3& position) const {
     for (int axis = 0; axis < 3; ++axis) {
       const bool low = position[axis] < lower[axis], beyond = low || position[axis] > upper(axis);
-      const auto face = static_cast<std::size_t>(2 * axis + (low ? 0 : 1));
+      const std::size_t face = 2 * static_cast<std::size_t>(axis) + (low ? 0 : 1);
       if (beyond && boundary[face] == Boundary::outflow) return true;
     }
     return false;

@@ -22,11 +22,10 @@ NodeStore::NodeStore(const Geometry& geometry, MPI_Comm communicator)
     plane.axis = face / 2;
     plane.kind = boundary;
     planes_.push_back(std::move(plane));
-    bonded_[static_cast<std::size_t>(face)] = boundary == Boundary::separating ? 0 : ~std::uint64_t{0};
-    set_apart_at(static_cast<std::size_t>(face), boundary == Boundary::separating);
+    bonded_[static_cast<std::size_t>(face)] = lets_part(boundary) ? 0 : ~std::uint64_t{0};
+    set_apart_at(static_cast<std::size_t>(face), lets_part(boundary));
   }
-  std::ranges::stable_sort(planes_, {},
-                           [](const MirrorPlane& plane) { return plane.kind == Boundary::separating; });
+  std::ranges::stable_sort(planes_, {}, [](const MirrorPlane& plane) { return lets_part(plane.kind); });
 }
 
 void NodeStore::lay_out_nodes() {
@@ -51,7 +50,7 @@ void NodeStore::clear() {
 void NodeStore::bond_at_planes(const std::array<std::uint64_t, 6>& fields) {
   for (MirrorPlane& plane : planes_) {
     const auto face = static_cast<std::size_t>(plane.face);
-    bonded_[face] = plane.kind == Boundary::separating ? 0 : fields[face];
+    bonded_[face] = lets_part(plane.kind) ? 0 : fields[face];
     set_apart_at(face, ~bonded_[face] != 0);
   }
   lay_out_nodes();

@@ -29,7 +29,7 @@ class NodeStore : public VelocityFields {
   [[nodiscard]] std::size_t layout() const { return layout_; }
 
   /// Sets the fields that are continuous with their images at the mirror planes: one bit per field for each
-  /// face. By default all are, except at separating walls. Call before `bin`.
+  /// face. By default all are, except at walls from which material may part. Call before `bin`.
   void bond_at_planes(const std::array<std::uint64_t, 6>& fields);
   /// Returns whether a field is continuous with its image at a face.
   [[nodiscard]] bool is_bonded_at(std::size_t face, unsigned field) const {

@@ -20,10 +20,7 @@ Load gravity(const cases::Gravity& gravity) {
   return uniform_load("gravity", [gravity](double time) { return gravity.at(time); });
 }
 
-void Loads::evaluate(const LoadedPoints& points, double time, std::vector<Vector3>& acceleration) const {
-  acceleration.clear();
-  if (next_event(time) > time) return;
-  acceleration.resize(points.position.size(), Vector3::Zero());
+void Loads::add_to(const LoadedPoints& points, double time, std::span<Vector3> acceleration) const {
   for (const Load& load : loads_) {
     if (load.next_event(time) <= time) load.add(points, time, acceleration);
   }

@@ -14,11 +14,12 @@
 
 namespace whipple::solver {
 
-/// Describes the points on which a load acts: particles, or the nodes of elements.
+/// Describes the points of a body on which a load acts: particles, or the nodes of elements.
 struct LoadedPoints {
   std::span<const std::uint64_t> id;
   std::span<const Vector3> position;  ///< m
   std::span<const Vector3> velocity;  ///< m/s
+  std::size_t body = 0;
 };
 
 /// Describes an acceleration by external forces.
@@ -43,9 +44,10 @@ class Loads {
  public:
   void add(Load load) { loads_.push_back(std::move(load)); }
 
-  /// Sums the accelerations (m/s^2) of points at a time (s).
-  /// @param acceleration  one per point; empty if no load acts at this time
-  void evaluate(const LoadedPoints& points, double time, std::vector<Vector3>& acceleration) const;
+  /// Returns whether any load acts at a time (s).
+  [[nodiscard]] bool act(double time) const { return next_event(time) <= time; }
+  /// Adds the accelerations (m/s^2) of the points at a time (s) to those given.
+  void add_to(const LoadedPoints& points, double time, std::span<Vector3> acceleration) const;
 
   /// Returns the first time (s), not before the given one, at which any load acts; infinite if none acts again.
   [[nodiscard]] double next_event(double time) const;

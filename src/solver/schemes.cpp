@@ -19,11 +19,12 @@ using transfer::Stretch;
 using transfer::Sweep;
 
 /// Sets dt to the minimum of its bounds (6.1), then splits particles with too long domains where the case requests it
-/// (2.5).
+/// (2.5), and evaluates the loads of the case in this step (3.5b) to (3.5d).
 void begin_step(Stages& s, double until) {
   s.time_step.begin(until);
   s.contact.watch_touches(s.time_step.accurate_step());
   domains::split(s.state, s.carriers, s.particles);
+  s.applied_loads.begin();
 }
 
 /// Conducts heat where the case requests it: in shocks (docs/theory/dissipation.md), and between particles

@@ -12,6 +12,7 @@ Stages::Stages(const cases::Case& setup, MPI_Comm communicator, const RunState& 
       particles(state),
       hexahedra(state, loads, std::move(meshes)),
       trusses(state, loads, std::move(bars)),
+      applied_loads(state, carriers),
       activity(state, loads),
       material(state, activity),
       transfers(state, loads, activity),
@@ -27,6 +28,7 @@ Stages::Stages(const cases::Case& setup, MPI_Comm communicator, const RunState& 
     if (!carrier->empty()) carriers.push_back(carrier);
   }
   if (!setup.gravity.acceleration.isZero(0.0)) loads.add(gravity(setup.gravity));
+  applied_loads.add_to(loads);
   // The force on driven bodies is computed from all others (Drive); registered as a load, it prevents inactive blocks.
   if (std::ranges::any_of(setup.bodies, &cases::Body::driven))
     loads.add(uniform_load("drive", [](double) { return Vector3(Vector3::Zero()); }));

@@ -6,6 +6,7 @@
 #include "src/solver/carriers/trusses.hpp"
 #include "src/solver/loads.hpp"
 #include "src/solver/stages/activity.hpp"
+#include "src/solver/stages/applied_loads.hpp"
 #include "src/solver/stages/balance.hpp"
 #include "src/solver/stages/contact.hpp"
 #include "src/solver/stages/elements.hpp"
@@ -32,6 +33,7 @@ struct Stages {
   Hexahedra hexahedra;
   Trusses trusses;
   Carriers carriers;  ///< the carriers that the case has
+  AppliedLoads applied_loads;
   Activity activity;
   MaterialStage material;
   Transfers transfers;

@@ -61,6 +61,11 @@ name = "line"
 from = ["0 mm", "0 mm", "-3 mm"]
 to = ["4 mm", "0 mm", "-3 mm"]
 count = 3
+[[load]]
+body = "disk"
+force = ["0 N", "0 N", "-50 kN"]
+times = ["0.5 us", "1.5 us", "3.5 us"]
+factors = [0, 1, -1]
 )";
 
 class Run : public testing::Test {

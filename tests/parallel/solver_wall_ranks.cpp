@@ -13,8 +13,13 @@
 namespace whipple::solver {
 namespace {
 
+/// Selects what the blocks meet, as lines of the case.
+struct Corner {
+  const char *contact, *wall, *domain;
+};
+
 /// Returns a case of three blocks that fly into the corner of three walls.
-cases::Case blocks_into_corner(const std::string& contact) {
+cases::Case blocks_into_corner(const Corner& corner) {
   using namespace verification;
   constexpr double cell = 1e-3;
   const std::string material = aluminium("aluminium_of_ranks", "0.3 GPa");
@@ -24,16 +29,16 @@ cases::Case blocks_into_corner(const std::string& contact) {
            "\"\nvelocity = " + vector3(velocity) + "\nshape = { " + box(cell * lower, cell * upper) + " }\n";
   };
   return cases::read_case_text(
-      Method{}.time_toml(2e-6) + Method{}.toml() + contact +
-          "[domain]\nlower = [0, 0, 0]\nupper = [0.024, 0.024, 0.024]\ncell_size = 0.001\nboundary = { "
-          "x_lower = \"symmetry\", y_lower = \"separating\", z_lower = \"no_slip\" }\n" +
-          block("first", {0.4, 0.9, 0.7}, 6, {-700, -1500, -800}) +
+      Method{}.time_toml(2e-6) + Method{}.toml() + corner.contact +
+          "[domain]\nlower = [0, 0, 0]\nupper = [0.024, 0.024, 0.024]\ncell_size = 0.001\n" + corner.domain +
+          "boundary = { x_lower = \"symmetry\", y_lower = \"" + corner.wall +
+          "\", z_lower = \"no_slip\" }\n" + block("first", {0.4, 0.9, 0.7}, 6, {-700, -1500, -800}) +
           block("second", {0.3, 7.6, 0.7}, 5, {-900, -2500, -300}) +
           block("third", {0.5, 1.1, 8.0}, 6, {-900, -800, -1900}),
       "corner.toml");
 }
 
-class WallRanks : public testing::TestWithParam<const char*> {};
+class WallRanks : public testing::TestWithParam<Corner> {};
 
 TEST_P(WallRanks, AgreeWithOneRank) {
   const cases::Case setup = blocks_into_corner(GetParam());
@@ -48,8 +53,14 @@ TEST_P(WallRanks, AgreeWithOneRank) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Contact, WallRanks,
-                         testing::Values("[contact]\nmethod = \"none\"\n",
-                                         "[contact]\nmethod = \"multi_field\"\nfriction = 0.2\n"));
+                         testing::Values(Corner{"[contact]\nmethod = \"none\"\n", "separating", ""},
+                                         Corner{"[contact]\nmethod = \"multi_field\"\nfriction = 0.2\n",
+                                                "separating", ""},
+                                         Corner{"[contact]\nmethod = \"multi_field\"\nfriction = 0.2\n"
+                                                "[[load]]\nbody = \"second\"\nforce = [3e4, 1e4, -2e4]\n"
+                                                "times = [0, 1e-6, 2e-6]\nfactors = [0, 1, -1]\n"
+                                                "[[load]]\npressure = 1e8\nface = \"x_lower\"\n",
+                                                "friction", "friction = 0.3\n"}));
 
 /// Tests a bar between two grips that move apart, one of them driven, the other held by a separating plane.
 TEST(DrivenRanks, AgreeWithOneRank) {

@@ -93,7 +93,7 @@ void hold_at_planes(const Case& setup, fem::Mesh& mesh, Vector3& wall_impulse) {
   fem::Nodes& nodes = mesh.nodes;
   std::vector<double> heat(nodes.size(), 0.0);
   for (const Plane& plane : planes_of(setup)) {
-    if (plane.kind == grid::Boundary::separating) continue;
+    if (grid::lets_part(plane.kind)) continue;
     const std::uint8_t directions =
         plane.kind == grid::Boundary::no_slip ? fem::constraint::all : fem::constraint::axis(plane.axis);
     const std::vector<std::uint32_t> held =

@@ -6,6 +6,7 @@
 #include "src/case/build/bars.hpp"
 #include "src/case/build/lattice.hpp"
 #include "src/case/build/lighting.hpp"
+#include "src/case/build/lithostatic.hpp"
 #include "src/case/build/meshing.hpp"
 
 namespace whipple::cases {
@@ -119,6 +120,7 @@ Seeding seed(const Case& setup, int rank, int ranks) {
       }
     });
     initialise(material, particles, summary.first, end, state);
+    if (body.initial.lithostatic) set_lithostatic(setup, b, particles, summary.first, end);
     if (body.varies_failure()) {
       particles.failure_threshold_factor.resize(summary.first, 1.0);
       particles.failure_threshold_factor.insert(particles.failure_threshold_factor.end(),

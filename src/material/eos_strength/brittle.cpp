@@ -2,7 +2,9 @@
 #include "src/material/strength/brittle.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include "src/material/eos_strength/parts.hpp"
 #include "src/material/principal.hpp"
@@ -31,6 +33,31 @@ void equivalent_rate(const Step& step, const Chunk& chunk, Lanes& rate) {
   }
 }
 
+/// Holds the deviators of a law that returns them in another direction than to zero.
+struct Turned {
+  std::array<SymmetricTensor, chunk_size> deviator;  // Pa
+  Lanes work;                                        // plastic, J/m^3
+
+  explicit Turned(const Chunk& chunk) {
+    for (std::size_t k = 0; k < chunk.size; ++k) {
+      deviator[k] = tensor(chunk.motion.deviator, k);
+      work[k] = 0.0;
+    }
+  }
+  /// Writes them back, books their work, and marks their equivalent stress as that of the trial: nothing is left to
+  /// return along the deviator.
+  void store(Chunk& chunk, Lanes& equivalent) const {
+    SymmetricLanes& to = chunk.motion.deviator;
+    for (std::size_t k = 0; k < chunk.size; ++k) {
+      if (chunk.failed[k] != failure::intact) continue;
+      const SymmetricTensor& s = deviator[k];
+      to[0][k] = s.xx, to[1][k] = s.yy, to[2][k] = s.zz, to[3][k] = s.xy, to[4][k] = s.yz, to[5][k] = s.zx;
+      chunk.report.plastic_work += work[k] * chunk.volume[k];
+      equivalent[k] = chunk.motion.trial[k];
+    }
+  }
+};
+
 }  // namespace
 
 void relax_brittle(const EosStrength& model, const Step& step, Chunk& chunk) {
@@ -57,23 +84,29 @@ void relax_brittle(const EosStrength& model, const Step& step, Chunk& chunk) {
     equivalent[k] = chunk.motion.trial[k];
     gained[k] = 0.0;
   }
-  law.relax({.bulk_modulus = step.material.reference_bulk_modulus,
-             .pressure = chunk.view(pressure),
-             .modulus = chunk.view(chunk.motion.modulus),
-             .solid_fraction = chunk.view(chunk.solid_fraction),
-             .trial = chunk.view(chunk.motion.trial),
-             .rate = chunk.view(rate),
-             .lode_cosine = std::span<const double>(lode.data(), law.needs_lode_angle() ? chunk.size : 0),
-             .compaction = chunk.view(compaction),
-             .crush_pressure = chunk.view(crush),
-             .threshold_factor = chunk.view(factor),
-             .equivalent = chunk.view(equivalent),
-             .plastic_increment = chunk.view(chunk.increment),
-             .plastic_strain = chunk.view(chunk.plastic_strain),
-             .damage = chunk.view(damage),
-             .least_pressure = chunk.view(chunk.least_pressure),
-             .bulking_pressure = chunk.view(gained)});
   const double work_before = chunk.report.plastic_work;
+  std::optional<Turned> turned;
+  if (law.turns_deviator()) turned.emplace(chunk);
+  law.relax(
+      {.bulk_modulus = step.material.reference_bulk_modulus,
+       .pressure = chunk.view(pressure),
+       .modulus = chunk.view(chunk.motion.modulus),
+       .solid_fraction = chunk.view(chunk.solid_fraction),
+       .trial = chunk.view(chunk.motion.trial),
+       .rate = chunk.view(rate),
+       .lode_cosine = std::span<const double>(lode.data(), law.needs_lode_angle() ? chunk.size : 0),
+       .compaction = chunk.view(compaction),
+       .crush_pressure = chunk.view(crush),
+       .threshold_factor = chunk.view(factor),
+       .equivalent = chunk.view(equivalent),
+       .plastic_increment = chunk.view(chunk.increment),
+       .plastic_strain = chunk.view(chunk.plastic_strain),
+       .damage = chunk.view(damage),
+       .least_pressure = chunk.view(chunk.least_pressure),
+       .bulking_pressure = chunk.view(gained),
+       .deviator = turned ? std::span(turned->deviator.data(), chunk.size) : std::span<SymmetricTensor>(),
+       .work = turned ? chunk.view(turned->work) : std::span<double>()});
+  if (turned) turned->store(chunk, equivalent);
   for (std::size_t k = 0; k < chunk.size; ++k) {
     if (chunk.failed[k] != failure::intact) continue;
     if (equivalent[k] < chunk.motion.trial[k]) {

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "src/core/base/parameter_table.hpp"
+#include "src/core/base/tensor.hpp"
 #include "src/material/strength/elastic_constants.hpp"
 #include "src/material/strength/strength.hpp"
 
@@ -33,6 +34,8 @@ struct BrittleState {
   std::span<double> damage;                  ///< in and out
   std::span<double> least_pressure;          ///< pressure at which voids open, Pa; out
   std::span<double> bulking_pressure;        ///< pressure gained by bulking, Pa; out
+  std::span<SymmetricTensor> deviator;  ///< trial deviator, Pa; in and out; empty unless the law turns it
+  std::span<double> work;               ///< plastic work, J/m^3; out; with the deviator
 };
 
 /// Interface of the part of a strength model that acts once the pressure of the step is known, with one virtual call
@@ -44,6 +47,8 @@ class Brittle {
   virtual void relax(const BrittleState& state) const = 0;
   /// Returns whether lost shear energy is converted to pressure (bulking).
   [[nodiscard]] virtual bool bulks() const { return false; }
+  /// Returns whether the law returns the deviator itself, in another direction than to zero.
+  [[nodiscard]] virtual bool turns_deviator() const { return false; }
   /// Returns whether the strength depends on the Lode angle.
   [[nodiscard]] virtual bool needs_lode_angle() const { return false; }
 };

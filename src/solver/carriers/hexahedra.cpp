@@ -37,7 +37,7 @@ void Hexahedra::compute_forces() {
   of_mesh_.resize(meshes_.size());
   for (std::size_t m = 0; m < meshes_.size(); ++m) {
     fem::internal_forces(meshes_[m]);
-    add_loads(loads_, state_.run.time, meshes_[m].nodes, of_mesh_[m].acceleration);
+    add_loads(loads_, state_.run.time, meshes_[m].body, meshes_[m].nodes, of_mesh_[m].acceleration);
   }
 }
 

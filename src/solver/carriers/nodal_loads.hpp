@@ -11,11 +11,14 @@
 /// Loads on the nodes of elements.
 namespace whipple::solver {
 
-/// Evaluates the accelerations of the nodes at a time (s) and adds the forces.
+/// Evaluates the accelerations of the nodes of a body at a time (s) and adds the forces.
 /// @param acceleration  result for `book_loads`, m/s^2; empty without a load
-inline void add_loads(const Loads& loads, double time, fem::Nodes& nodes,
+inline void add_loads(const Loads& loads, double time, std::size_t body, fem::Nodes& nodes,
                       std::vector<Vector3>& acceleration) {
-  loads.evaluate({nodes.id, nodes.position, nodes.velocity}, time, acceleration);
+  acceleration.clear();
+  if (!loads.act(time)) return;
+  acceleration.resize(nodes.size(), Vector3::Zero());
+  loads.add_to({nodes.id, nodes.position, nodes.velocity, body}, time, acceleration);
   for (std::size_t a = 0; a < acceleration.size(); ++a) nodes.force[a] += nodes.mass[a] * acceleration[a];
 }
 

@@ -29,7 +29,7 @@ void Trusses::compute_forces() {
   acceleration_.resize(bars_.size());
   for (std::size_t b = 0; b < bars_.size(); ++b) {
     fem::internal_forces(bars_[b]);
-    add_loads(loads_, state_.run.time, bars_[b].nodes, acceleration_[b]);
+    add_loads(loads_, state_.run.time, bars_[b].body, bars_[b].nodes, acceleration_[b]);
   }
 }
 

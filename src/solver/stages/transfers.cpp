@@ -56,7 +56,17 @@ Transfers::Transfers(State& state, const Loads& loads, const Activity& activity)
 
 void Transfers::evaluate_loads() {
   const Particles& particles = state_.particles;
-  loads_.evaluate({particles.id, particles.position, particles.velocity}, state_.run.time, acceleration_);
+  acceleration_.clear();
+  if (loads_.act(state_.run.time)) {
+    acceleration_.resize(particles.size(), Vector3::Zero());
+    for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
+      const std::size_t first = state_.bodies[b].first, count = state_.bodies[b].count;
+      loads_.add_to(
+          {std::span(particles.id).subspan(first, count), std::span(particles.position).subspan(first, count),
+           std::span(particles.velocity).subspan(first, count), b},
+          state_.run.time, std::span(acceleration_).subspan(first, count));
+    }
+  }
   drive_.add(state_, acceleration_);
   for (std::size_t p = 0; p < acceleration_.size(); ++p) {
     state_.booked.external_impulse += particles.mass[p] * state_.run.time_step * acceleration_[p];

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+
+#include "src/case/case.hpp"
+#include "src/particles/particles.hpp"
+
+/// The initial stress of bodies under their own weight (docs/theory/soil.md, section 4).
+namespace whipple::cases {
+
+/// Sets the particles [begin, end) of a body, initialised without stress, to the stress of `initial.lithostatic`: the
+/// density is that of the pressure at the initial temperature, the volume stays that of the lattice, and the internal
+/// energy is that of the equation of state and of the elastic deviator, so that there is no heat beside it.
+void set_lithostatic(const Case& setup, std::size_t body, Particles& particles, std::size_t begin,
+                     std::size_t end);
+
+/// Adds a fault for each body whose lithostatic state cannot exist or cannot stay at rest. Requires shapes and
+/// materials.
+void check_lithostatic(const Case& setup, const Faults& faults);
+
+}  // namespace whipple::cases

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/material/strength/mohr_coulomb.hpp"
+
+#include <Eigen/Eigenvalues>
+
+#include "src/material/principal.hpp"
+
+namespace whipple::strength {
+namespace {
+
+/// Returns whether a deviator is below the pyramid at a pressure (Pa), from the invariants alone: s1 - s3 = 2 r sin(theta
+/// + pi/3) and s1 + s3 = 2 r cos(theta + pi/3) - 2 p with r = q/sqrt(3) and the Lode angle theta.
+bool is_below(const Pyramid& pyramid, const SymmetricTensor& s, double pressure) {
+  const double radius = std::sqrt(0.5 * s.squared_norm());
+  if (radius * 2.0 <= pyramid.intercept + 2.0 * pressure * pyramid.sine - 2.0 * radius * pyramid.sine)
+    return true;
+  const double angle = std::acos(material::lode_cosine(s)) / 3.0 + std::numbers::pi / 3.0;
+  const double scale = 2.0 * radius;
+  const double difference = scale * std::sin(angle);
+  const double sum = scale / std::numbers::sqrt3 * std::cos(angle) - 2.0 * pressure;
+  return difference + sum * pyramid.sine <= pyramid.intercept;
+}
+
+}  // namespace
+
+void MohrCoulombModel::relax(const BrittleState& state) const {
+  const double least = law_.least_pressure();
+  for (std::size_t i = 0; i < state.trial.size(); ++i) {
+    state.least_pressure[i] = least;
+    state.plastic_increment[i] = 0.0;
+    const double shear = state.modulus[i], solid = state.solid_fraction[i];
+    if (!(shear > 0.0) || !(solid > 0.0)) {
+      state.equivalent[i] = solid > 0.0 ? state.trial[i] : 0.0;
+      continue;
+    }
+    const double pressure = std::max(state.pressure[i], least);
+    const SymmetricTensor s = state.deviator[i];
+    if (is_below(pyramid_, s, pressure)) continue;
+    const Eigen::SelfAdjointEigenSolver<Matrix3> solver(s.matrix());  // ascending
+    const Vector3& values = solver.eigenvalues();
+    const PrincipalStress trial = {values[2] - pressure, values[1] - pressure, values[0] - pressure};
+    const PrincipalStress now = return_to(pyramid_, state.bulk_modulus, shear, trial);
+    const Vector3 kept(now[2] + pressure, now[1] + pressure, now[0] + pressure);
+    const Vector3 flow = (values - kept) / (2.0 * shear);
+    state.deviator[i] =
+        SymmetricTensor::from(solver.eigenvectors() * kept.asDiagonal() * solver.eigenvectors().transpose());
+    state.equivalent[i] = std::sqrt(1.5) * kept.norm();
+    state.plastic_increment[i] = std::sqrt(2.0 / 3.0) * flow.norm();
+    state.plastic_strain[i] += state.plastic_increment[i];
+    state.work[i] = std::max(kept.dot(flow), 0.0);
+  }
+}
+
+}  // namespace whipple::strength

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Loads, tables of time, lithostatic states and walls with friction: the keys of a case and one message per fault.
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "tests/unit/case_support.hpp"
+
+namespace whipple::cases {
+namespace {
+
+std::string load(const std::string& keys) { return domain + sphere + "[[load]]\n" + keys; }
+
+TEST(CaseLoads, TablesAreLinearWithExactMeansAndNextEvents) {
+  TimeTable table;
+  EXPECT_EQ(table.at(-1.0), 1.0);
+  EXPECT_EQ(table.mean(2.0, 3.0), 1.0);
+  table.times = {1.0, 2.0, 4.0, 5.0};
+  table.factors = {0.0, 2.0, 2.0, 0.0};
+  EXPECT_EQ(table.at(0.0), 0.0);
+  EXPECT_EQ(table.at(1.25), 0.5);
+  EXPECT_EQ(table.at(9.0), 0.0);
+  EXPECT_DOUBLE_EQ(table.mean(0.0, 10.0), (1.0 + 4.0 + 1.0) / 10.0);
+  EXPECT_DOUBLE_EQ(table.mean(1.5, 1.0), 0.5 * 1.5 + 0.5 * 2.0);
+  EXPECT_EQ(table.next_event(0.0), 1.0);
+  EXPECT_EQ(table.next_event(3.0), 3.0);
+  EXPECT_EQ(table.next_event(5.0), std::numeric_limits<double>::infinity());
+  table.factors = {3.0, 0.0, 0.0, 1.0};
+  EXPECT_EQ(table.next_event(0.0), 0.0);
+  EXPECT_EQ(table.next_event(2.5), 4.0);
+  EXPECT_EQ(table.next_event(7.0), 7.0);
+}
+
+TEST(CaseLoads, FaultsNameTheKeyAndWhatIsAccepted) {
+  const std::string force = "force = [1, 0, 0]\n";
+  EXPECT_EQ(error_of(load(force)), "");
+  expect_error(load(force + "times = [0, 2e-6, 1e-6]\nfactors = [0, 1, 2]\n"),
+               {"case.toml", "'times' are not in the order of time: entry 1 is 2e-06 s, entry 2 is 1e-06 s"});
+  expect_error(load(force + "times = [0, 1e-6]\n"), {"2 'times' and 1 'factors'"});
+  expect_error(load(force + "body = \"sfere\"\n"), {"there is no body \"sfere\" (accepted: sphere)"});
+  expect_error(load(force + "acceleration = [0, 1, 0]\n"), {"a load is one of", "2 given"});
+  expect_error(load("body = \"sphere\"\n"), {"a load is one of", "0 given"});
+  expect_error(load("pressure = \"1 MPa\"\n"), {"a 'pressure' needs the 'face'"});
+  expect_error(load(force + "face = \"x_lower\"\n"), {"'face' is that of a 'pressure'"});
+  expect_error(load("damping = 1e3\nfactors = [-1]\n"), {"'factors' of a damping must not be negative"});
+  expect_error(load(force + "box = { lower = [0, 0, 0.01], upper = [0.01, 0.01, 0.02] }\n"),
+               {"the box of the load touches nothing"});
+  expect_error(load(force + "box = { lower = [0, 0, 0.02], upper = [0.01, 0.01, 0.01] }\n"),
+               {"the box has no extent along z"});
+  expect_error(load("pressure = \"1 MPa\"\nface = \"z_upper\"\n"), {"the patch of the load touches nothing"});
+  EXPECT_EQ(error_of(load("pressure = \"1 MPa\"\nface = \"x_lower\"\n")), "");
+}
+
+TEST(CaseLoads, AreWrittenAndReadAgain) {
+  const Case setup =
+      read_case_text(load("pressure = \"1 MPa\"\nface = \"x_lower\"\ntimes = [0, 1e-6]\nfactors = [0, 1]\n"
+                          "box = { lower = [0, 0, -0.01], upper = [0.01, 0.002, 0.01] }\n"),
+                     "case.toml");
+  const std::string text = to_toml(setup, {"copper.toml"});
+  EXPECT_EQ(to_toml(read_case_text(text, "run.toml"), {"copper.toml"}), text);
+  // The patch inside the domain: 2 mm times 20 mm
+  EXPECT_NEAR(setup.loads.at(0).total_force(setup)[0], 1e6 * 2e-3 * 20e-3, 1e-9);
+}
+
+TEST(CaseLoads, FacesFollowTheSection) {
+  const std::string text =
+      "[domain]\ndimension = \"axisymmetric\"\naxis = \"z\"\nlower = [0, 0, 0]\nupper = [0.01, 0.01, 0.02]\n"
+      "cell_size = 0.001\n[time]\nend = 1e-6\n[[load]]\npressure = 1e6\nface = \"z_lower\"\n"
+      "[[body]]\nname = \"disk\"\nmaterial = \"copper.toml\"\n"
+      "shape = { cylinder = { center = [0, 0, 0.001], axis = \"z\", radius = 0.005, height = 0.002 } }\n";
+  const Case setup = read_case_text(text, "case.toml");
+  EXPECT_EQ(setup.loads.at(0).face, Face::x_lower);
+  EXPECT_NEAR(setup.loads.at(0).total_force(setup)[0], 1e6 * M_PI * 1e-4, 1e-6);
+}
+
+TEST(CaseLoads, GravityHasOneOfRiseTimeAndTable) {
+  const std::string gravity = "[gravity]\nacceleration = [0, 0, -9.81]\n";
+  EXPECT_EQ(error_of(domain + gravity + "times = [0, 1]\nfactors = [0, 1]\n" + sphere), "");
+  expect_error(domain + gravity + "times = [0, 1]\nfactors = [0, 1]\nrise_time = 1\n" + sphere, {"not both"});
+  expect_error(domain + gravity + "times = [1, 0]\nfactors = [0, 1]\n" + sphere,
+               {"not in the order of time"});
+}
+
+TEST(CaseLoads, LithostaticStatesThatCannotBeAreRefused) {
+  const std::string gravity = "[gravity]\nacceleration = [0, 0, -9.81]\n";
+  const auto with = [&](const std::string& keys) {
+    return replaced(sphere, "velocity", "initial = { " + keys + " }\nvelocity");
+  };
+  const std::string at_rest = "lithostatic = { surface = \"0 mm\", k0 = ";
+  EXPECT_EQ(error_of(domain + gravity + with(at_rest + "0.5 }")), "");
+  expect_error(domain + gravity + with(at_rest + "1.3 }"),
+               {"'k0' is 1.3", "weight alone", "expected 0 to 1"});
+  expect_error(domain + gravity + with(at_rest + "-0.1 }"), {"'k0' is -0.1", "nothing pulls it"});
+  expect_error(domain + with(at_rest + "0.5 }"), {"needs a gravity along x, y or z"});
+  expect_error(domain + gravity + "rise_time = 1\n" + with(at_rest + "0.5 }"), {"without 'rise_time'"});
+  expect_error(domain + gravity + with(at_rest + "0.5 }, pressure = \"1 Pa\""),
+               {"the weight determines pressure"});
+  expect_error(domain + gravity + with("lithostatic = { surface = \"-2 mm\", k0 = 0.5 }"),
+               {"the body reaches 0.001 m above the 'surface'"});
+  // Beyond the strength: copper a thousand kilometres below its surface
+  expect_error(domain + gravity + with("lithostatic = { surface = \"1000 km\", k0 = 0 }"),
+               {"it would flow at once"});
+}
+
+TEST(CaseLoads, WallsWithFrictionNeedTheirCoefficient) {
+  const std::string rough = replaced(domain, "y_lower = \"symmetry\"", "y_lower = \"friction\"");
+  expect_error(rough + sphere, {"need the coefficient 'domain.friction'"});
+  EXPECT_EQ(error_of(replaced(rough, "boundary", "friction = 0.3\nboundary") + sphere), "");
+  expect_error(replaced(domain, "boundary", "friction = 0.3\nboundary") + sphere, {"there is none"});
+  expect_error(
+      replaced(replaced(rough, "boundary", "friction = 0.3\nboundary"), "end =", "scheme = \"usf\"\nend =") +
+          sphere,
+      {"a separating wall, with or without friction"});
+}
+
+}  // namespace
+}  // namespace whipple::cases
