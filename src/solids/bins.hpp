@@ -46,7 +46,9 @@ class Bins {
   /// @param edge  of the cubes: the distance up to which points are found
   Bins(const Vector3& lower, const Vector3& upper, double edge)
       : raster_(lower, upper, edge), bins_(raster_.size()) {}
-  void add(const Vector3& point, std::uint32_t number) { bins_[raster_.index(raster_.bin_of(point))].push_back(number); }
+  void add(const Vector3& point, std::uint32_t number) {
+    bins_[raster_.index(raster_.bin_of(point))].push_back(number);
+  }
   void clear() {
     for (auto& bin : bins_) bin.clear();
   }

@@ -63,8 +63,8 @@ Cells::Distances Cells::distances(const Vector3& point) const {
          i <= std::min(raster_.count[0] - 1, bin[0] + reach); ++i) {
       for (std::int64_t j = std::max<std::int64_t>(0, bin[1] - reach);
            j <= std::min(raster_.count[1] - 1, bin[1] + reach); ++j) {
-        for (std::size_t s = begins_[raster_.index({i, j, from})];
-             s < begins_[raster_.index({i, j, to}) + 1]; ++s) {
+        for (std::size_t s = begins_[raster_.index({i, j, from})]; s < begins_[raster_.index({i, j, to}) + 1];
+             ++s) {
           f(s);
         }
       }

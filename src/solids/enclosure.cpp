@@ -18,15 +18,18 @@ int winding_before(const WindingTree& tree, const Triangle& triangle, std::size_
   constexpr double part = 1e-4;  // of the edge: before any surface that is not in contact
   // Additive recurrence in the plane, whose constants are powers of the root of x^3 = x + 1; the first one is the centre.
   constexpr double root = 1.324717957244746, third = 1.0 / 3.0;
-  double u = third + static_cast<double>(number) / root, v = third + static_cast<double>(number) / (root * root);
+  double u = third + static_cast<double>(number) / root,
+         v = third + static_cast<double>(number) / (root * root);
   u -= std::floor(u);
   v -= std::floor(v);
   if (u + v > 1.0) {
     u = 1.0 - u;
     v = 1.0 - v;
   }
-  const Vector3 first = triangle[1] - triangle[0], second = triangle[2] - triangle[0], normal = first.cross(second);
-  const Vector3 place = triangle[0] + u * first + v * second + part * std::sqrt(normal.norm()) * normal.normalized();
+  const Vector3 first = triangle[1] - triangle[0], second = triangle[2] - triangle[0],
+                normal = first.cross(second);
+  const Vector3 place =
+      triangle[0] + u * first + v * second + part * std::sqrt(normal.norm()) * normal.normalized();
   return static_cast<int>(std::lround(tree.winding_number(place)));
 }
 

@@ -121,8 +121,7 @@ ImageHeader read_nrrd_header(std::string_view bytes, const std::string& file) {
     if (line.empty()) break;
     if (line.starts_with('#') || line.find(":=") != std::string_view::npos) continue;
     const std::size_t colon = line.find(':');
-    if (colon == std::string_view::npos)
-      lines.fail(fmt::format("\"{}\" is no \"key: value\"", shown(line)));
+    if (colon == std::string_view::npos) lines.fail(fmt::format("\"{}\" is no \"key: value\"", shown(line)));
     // Identifiers and names of values are known in either case.
     const std::string key = lower_case(trimmed(line.substr(0, colon)));
     const std::string_view value = trimmed(line.substr(colon + 1));

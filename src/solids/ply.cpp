@@ -75,14 +75,15 @@ class PlyReader {
         } else if (word == "binary_big_endian") {
           coding_ = Coding::big_endian;
         } else {
-          fields_.fail(
-              fmt::format("format \"{}\"; known: ascii, binary_little_endian, binary_big_endian", shown(word)));
+          fields_.fail(fmt::format("format \"{}\"; known: ascii, binary_little_endian, binary_big_endian",
+                                   shown(word)));
         }
       } else if (key == "element") {
         const std::string name(fields_.word());
         const auto count = fields_.number<std::uint64_t>();
         if (count > bytes_.size()) {
-          fields_.fail(fmt::format("{} elements \"{}\" in a file of {} bytes", count, shown(name), bytes_.size()));
+          fields_.fail(
+              fmt::format("{} elements \"{}\" in a file of {} bytes", count, shown(name), bytes_.size()));
         }
         elements_.push_back({name, count, {}});
       } else if (key == "property") {

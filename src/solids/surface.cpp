@@ -151,7 +151,8 @@ void drop_copies(std::vector<Triangle>& triangles, std::vector<Corners>& corners
   std::ranges::sort(items, {}, [](const Item& item) {
     return std::tuple(item.sorted[0], item.sorted[1], item.sorted[2], item.is_odd, item.triangle);
   });
-  std::vector<bool> repeats(corners.size(), false), cancels(corners.size(), false), copy(corners.size(), false);
+  std::vector<bool> repeats(corners.size(), false), cancels(corners.size(), false),
+      copy(corners.size(), false);
   for (std::size_t begin = 0, end = 0; begin < items.size(); begin = end) {
     while (end < items.size() && items[end].sorted == items[begin].sorted) ++end;
     std::size_t odd = begin;
@@ -285,8 +286,7 @@ Audit repair(std::vector<Triangle>& triangles) {
   audit.degenerate = filter(triangles, corners, [&](std::size_t t) { return area_of(triangles[t]) > 0.0; });
   drop_copies(triangles, corners, audit);
   if (triangles.empty()) {
-    throw InputError(audit.triangles == 0
-                         ? std::string("holds no triangle: it encloses nothing")
+    throw InputError(audit.triangles == 0 ? std::string("holds no triangle: it encloses nothing")
                      : audit.cancelled > 0
                          ? fmt::format("its triangles cancel: {} pairs of opposite senses", audit.cancelled)
                          : fmt::format("none of its {} triangles has an area", audit.triangles));

@@ -96,8 +96,7 @@ bool is_obj(std::string_view text) {
   while (fields.next_line()) {
     const std::string_view key = fields.word();
     if (key == "v") return true;
-    constexpr std::array<std::string_view, 8> before = {"mtllib", "usemtl", "o",  "g",
-                                                        "s",      "vn",     "vt", "vp"};
+    constexpr std::array<std::string_view, 8> before = {"mtllib", "usemtl", "o", "g", "s", "vn", "vt", "vp"};
     if (!key.empty() && !key.starts_with('#') && std::ranges::find(before, key) == before.end()) return false;
   }
   return false;

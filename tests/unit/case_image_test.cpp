@@ -265,9 +265,10 @@ TEST_F(Images, WhatIsNoImageIsRefused) {
 /// Words of a header that move or scale the body are read, compared with the case, or refused.
 TEST_F(Images, WordsOfHeadersCount) {
   const std::string bytes = values<std::uint8_t>(false);
-  expect_ball(*body(nrrd("UChar", "Encoding: RAW\nspace units: \"mm\" \"mm\" \"mm\"\naxis mins: nan nan nan\n") +
-                    bytes),
-              "capitals, unit of the case");
+  expect_ball(
+      *body(nrrd("UChar", "Encoding: RAW\nspace units: \"mm\" \"mm\" \"mm\"\naxis mins: nan nan nan\n") +
+            bytes),
+      "capitals, unit of the case");
   EXPECT_NE(refusal(nrrd("uchar", "encoding: raw\naxis mins: 100 0 0\n") + bytes)
                 .find("head:11: 'axis mins' is not read"),
             std::string::npos);

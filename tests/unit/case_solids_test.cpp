@@ -96,8 +96,9 @@ TEST(Solids, WhatHasNoMeaningIsRefused) {
       R"({ extrude = { base = ["0 m", "0 m", "0 m"], first = ["0 m", "2 m", "2 m", "1 m", "0 m"],
            second = ["0 m", "2 m", "0 m", "0 m", "2 m"], height = "1 m" } })",
       "the edges from corner 1 to 2 and from corner 4 to 5 cross");
-  expect_refused("{ array = { count = 1000000, step = [\"1e-6 m\", \"0 m\", \"0 m\"], shape = " + ball + " } }",
-                 "'step' is so short that 1e+06 copies reach each place; at most 1000");
+  expect_refused(
+      "{ array = { count = 1000000, step = [\"1e-6 m\", \"0 m\", \"0 m\"], shape = " + ball + " } }",
+      "'step' is so short that 1e+06 copies reach each place; at most 1000");
   expect_refused("{ scaled = { factors = [1, 0, 1], shape = " + ball + " } }", "factors");
 }
 

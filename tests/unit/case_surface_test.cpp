@@ -321,8 +321,9 @@ TEST_F(Surfaces, PartsCountByTheWindingNumberOnTheirSides) {
 TEST_F(Surfaces, ExtentsOfScaledBodiesAreScaled) {
   write(binary_stl(block({10, 10, 10})));
   const std::string file = (folder_ / "part.stl").string();
-  const auto shape = shape_test::shape_of("{ scaled = { factors = [0.1, 2.0, 1.0], shape = { surface = { file = \"" +
-                                          file + "\", unit = 1e-3 } } } }");
+  const auto shape =
+      shape_test::shape_of("{ scaled = { factors = [0.1, 2.0, 1.0], shape = { surface = { file = \"" + file +
+                           "\", unit = 1e-3 } } } }");
   EXPECT_NEAR(shape->smallest_extent(Vector3::UnitX()), 1e-3, 2e-5);
 }
 

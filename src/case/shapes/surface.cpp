@@ -105,8 +105,8 @@ std::vector<std::string> Surface::account() const {
                     audit_.degenerate, audit_.repeated, audit_.flipped));
   }
   if (audit_.cancelled > 0) {
-    lines.push_back(fmt::format("  {} faces within the solid, given once in each sense, dropped",
-                                audit_.cancelled));
+    lines.push_back(
+        fmt::format("  {} faces within the solid, given once in each sense, dropped", audit_.cancelled));
   }
   if (!audit_.is_closed()) {
     lines.push_back(
