@@ -36,7 +36,7 @@ class HermiteTable {
   /// Evaluates four values at once; not bitwise equal to the scalar evaluation.
   [[nodiscard]] Lanes operator()(Lanes x) const {
     const Lanes position = (x - begin_) * inverse_step_;
-    const double last = static_cast<double>(nodes_.size() - 2);
+    const auto last = static_cast<double>(nodes_.size() - 2);
     const __m128i cell =
         _mm256_cvttpd_epi32(__m256d(minimum(maximum(position, broadcast(0.0)), broadcast(last))));
     alignas(16) int index[4];
@@ -52,7 +52,7 @@ class HermiteTable {
     }
     const auto [f, f1, f2, r] = transposed(rows);
     const __m256d left = _mm256_set_m128d(tails[2], tails[0]), right = _mm256_set_m128d(tails[3], tails[1]);
-    const Lanes r1 = Lanes(_mm256_unpacklo_pd(left, right)), r2 = Lanes(_mm256_unpackhi_pd(left, right));
+    const auto r1 = Lanes(_mm256_unpacklo_pd(left, right)), r2 = Lanes(_mm256_unpackhi_pd(left, right));
     const Lanes t = position - Lanes(_mm256_cvtepi32_pd(cell));
     const Lanes d0 = r - (f + f1 + 0.5 * f2), d1 = r1 - (f1 + f2), d2 = r2 - f2;
     const Lanes c3 = 10.0 * d0 - 4.0 * d1 + 0.5 * d2;

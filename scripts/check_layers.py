@@ -37,7 +37,9 @@ MAY_USE = {
     "src/contact": ["src/core/base", "src/core/parallel", "src/particles", "src/grid", "src/transfer", "src/fem"],
     "src/afemp": ["src/core/base", "src/core/parallel", "src/particles", "src/grid", "src/material", "src/transfer", "src/fem"],
     "src/io": ["src/core/base", "src/core/parallel", "src/core/hdf5", "src/particles", "src/material", "src/fem"],
-    "src/case": ["src/core/base", "src/core/input", "src/core/parallel", "eos", "eos/files", "src/particles", "src/grid", "src/material",
+    # Solids from files of other programs, and generated ones.
+    "src/solids": ["src/core/base", "src/core/parallel"],
+    "src/case": ["src/core/base", "src/core/input", "src/core/parallel", "src/solids", "eos", "eos/files", "src/particles", "src/grid", "src/material",
                   "src/transfer", "src/fem", "src/contact", "src/io"],
     "src/solver": ["src/core/base", "src/core/parallel", "eos", "src/particles", "src/grid", "src/material", "src/transfer",
                    "src/fem", "src/contact", "src/afemp", "src/io", "src/case"],
@@ -131,6 +133,7 @@ WORDS_ALLOWED = {
     "src/monitor/handler.cpp": "header fields of HTTP",
     "src/monitor/folder.cpp": "endings of file names",
     "src/run/directory_control.cpp": "endings of file names",
+    "src/solids": "grammars of surfaces, images and tables",
     "src/sweep/quantities.cpp": "the unit 1",
     "src/app/shield_command.cpp": "endings of file names",
     "src/sweep/results.cpp": "the unit 1",

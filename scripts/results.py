@@ -10,7 +10,7 @@ a position of the lattice or a moving frame. --band takes all variants of a run:
 expected.toml declares of a headline, two grids of others. A run is repeated if its command, case, a material or the C++
 that computes it (studies/validation/provenance.py) has changed since; --any-source lets the last pass. --write renews
 docs/generated/results/<case>.json with the runs that are there, and from them the pages beside, the overview
-docs/generated/results.md and report/grid_sensitivity.json, each only where it changes; runs that are not here keep their
+docs/generated/results.md, the gallery docs/generated/gallery.md and report/grid_sensitivity.json, each only where it changes; runs that are not here keep their
 tables, marked where they are out of date. --check-fresh runs nothing: exit code 1 if a table belongs to another case or
 material, or a page to other data.
 --queue computes what is left of all tables for so many minutes, by value, N runs at a time, and writes the results as they
@@ -26,7 +26,7 @@ import sys
 
 # The modules of the project are imported from its root.
 sys.path[0] = str(pathlib.Path(__file__).resolve().parents[1])
-from studies.validation import comparison, execution, page, provenance, queue, store  # noqa: E402
+from studies.validation import comparison, execution, gallery, page, provenance, queue, store  # noqa: E402
 from studies.validation.cases import ROOT, BadExpectation, all_cases  # noqa: E402
 from studies.validation.variants import variants_of  # noqa: E402
 
@@ -50,6 +50,7 @@ def write(chosen):
     paths = store.save(results)
     stale, _, expectations = page.outdated(results, all_cases())
     paths += page.write(results, stale + expectations, provenance.digest_of_sources())
+    paths += gallery.write(results)
     sensitivities = json.dumps(comparison.sensitivities(results), indent=1) + "\n"
     paths += [page.SENSITIVITIES] if store.write_if_changed(page.SENSITIVITIES, sensitivities) else []
     print("wrote " + (", ".join(str(path.relative_to(ROOT)) for path in paths) or "nothing: all is as it was"))
@@ -65,7 +66,7 @@ def check_fresh():
         print(f"older source: {name}:{run}")
     for name, run in expectations:
         print(f"expectations changed: {name}:{run}; renew its marks with --write, or measure it again with --run")
-    unlike = page.unlike(results)
+    unlike = page.unlike(results) + gallery.unlike(results)
     if unlike:
         path, row = unlike[0]
         print(f"pages do not say what is stored: {len(unlike)} rows, the first, of {path.name}:\n  {row}")

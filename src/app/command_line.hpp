@@ -3,10 +3,17 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 #include "src/core/base/words.hpp"
 
 namespace whipple::app {
+
+/// Lists the long names of the options of a command, with their dashes.
+std::vector<std::string> option_names(const CLI::App& command);
+
+/// Lists the subcommands of a command that its help shows.
+std::vector<std::string> subcommand_names(const CLI::App& command);
 
 /// Adds --quiet and --verbose to a command and to all its subcommands except those that pass their arguments on.
 void add_verbosity(CLI::App& command);

@@ -20,12 +20,14 @@
 #include "src/app/cite_command.hpp"
 #include "src/app/command_line.hpp"
 #include "src/app/compare_command.hpp"
+#include "src/app/completion_command.hpp"
 #include "src/app/describe_command.hpp"
 #include "src/app/edit_command.hpp"
 #include "src/app/eos_command.hpp"
 #include "src/app/export_command.hpp"
 #include "src/app/fit_command.hpp"
 #include "src/app/import_command.hpp"
+#include "src/app/man_command.hpp"
 #include "src/app/materials_command.hpp"
 #include "src/app/md_command.hpp"
 #include "src/app/measure_command.hpp"
@@ -95,6 +97,8 @@ int whipple_main(int argc, char** argv) {
   add_units_command(app);
   add_bench_command(app);
   add_version_command(app);
+  add_completion_command(app);
+  add_man_command(app);
 
   add_verbosity(app);
   app.footer(

@@ -9,9 +9,15 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "src/app/build_info.hpp"
+#include "src/core/base/json.hpp"
+#include "src/core/base/simd.hpp"
 
 namespace whipple::app {
 namespace {
@@ -31,28 +37,80 @@ std::string hdf5_version() {
   return fmt::format("{}.{}.{}", major, minor, release);
 }
 
+/// Names one library with its version and its licence (SPDX).
+struct Library {
+  std::string name;
+  std::string version;
+  std::string licence;
+};
+
+/// Lists the libraries that the executable links, in the order in which they are printed.
+std::vector<Library> libraries() {
+  return {
+      {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION),
+       "MPL-2.0"},
+      {"HDF5", hdf5_version(), "BSD-3-Clause"},
+      {"MPI", mpi_version(), "BSD-3-Clause"},
+      {"p4est", P4EST_VERSION, "GPL-2.0-or-later"},
+      {"CLI11", CLI11_VERSION, "BSD-3-Clause"},
+      {"fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100),
+       "MIT"},
+      {"spdlog", fmt::format("{}.{}.{}", SPDLOG_VER_MAJOR, SPDLOG_VER_MINOR, SPDLOG_VER_PATCH), "MIT"},
+      {"json",
+       fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
+                   NLOHMANN_JSON_VERSION_PATCH),
+       "MIT"},
+  };
+}
+
+/// Returns the instructions of the kernels that this processor runs.
+std::string_view kernels() {
+  switch (kernel_set()) {
+    case KernelSet::plain:
+      return "scalar";
+    case KernelSet::narrow:
+      return "AVX2";
+    case KernelSet::wide:
+      break;
+  }
+  return "AVX-512";
+}
+
 void print_version() {
   const BuildInfo& info = build_info();
   fmt::print("whipple {} (revision {})\n", info.version, info.revision);
   fmt::print("build     {}, {}\n", info.build_type, info.compiler);
   fmt::print("flags     {}\n", info.flags);
-  fmt::print("Eigen     {}.{}.{}\n", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION);
-  fmt::print("HDF5      {}\n", hdf5_version());
-  fmt::print("MPI       {}\n", mpi_version());
-  fmt::print("p4est     {}\n", P4EST_VERSION);
-  fmt::print("CLI11     {}\n", CLI11_VERSION);
-  fmt::print("fmt       {}.{}.{}\n", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100);
-  fmt::print("spdlog    {}.{}.{}\n", SPDLOG_VER_MAJOR, SPDLOG_VER_MINOR, SPDLOG_VER_PATCH);
-  fmt::print("json      {}.{}.{}\n", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
-             NLOHMANN_JSON_VERSION_PATCH);
+  fmt::print("kernels   {}\n", kernels());
+  for (const Library& library : libraries()) fmt::print("{:<9} {}\n", library.name, library.version);
+}
+
+void print_json() {
+  const BuildInfo& info = build_info();
+  nlohmann::json all = {{"version", info.version},
+                        {"revision", info.revision},
+                        {"build_type", info.build_type},
+                        {"compiler", info.compiler},
+                        {"flags", info.flags},
+                        {"kernels", kernels()},
+                        {"licence_of_sources", "BSD-3-Clause"},
+                        {"licence_of_executable", "GPL-2.0-or-later"},  // by p4est
+                        {"libraries", nlohmann::json::array()}};
+  for (const Library& library : libraries()) {
+    all["libraries"].push_back(
+        {{"name", library.name}, {"version", library.version}, {"licence", library.licence}});
+  }
+  fmt::print("{}\n", json_text(all, 1));
 }
 
 }  // namespace
 
 void add_version_command(CLI::App& app) {
+  auto json = std::make_shared<bool>(false);
   CLI::App* command = app.add_subcommand("version", "Version, revision, compiler and libraries");
+  command->add_flag("--json", *json, "The same for programs, with licences");
   command->footer("Example:\n  whipple version");
-  command->callback(print_version);
+  command->callback([json] { *json ? print_json() : print_version(); });
 }
 
 }  // namespace whipple::app

@@ -123,7 +123,7 @@ struct Geometry {
   [[nodiscard]] bool has_left(const Vector3& position) const {
     for (int axis = 0; axis < 3; ++axis) {
       const bool low = position[axis] < lower[axis], beyond = low || position[axis] > upper(axis);
-      const auto face = static_cast<std::size_t>(2 * axis + (low ? 0 : 1));
+      const std::size_t face = 2 * static_cast<std::size_t>(axis) + (low ? 0 : 1);
       if (beyond && boundary[face] == Boundary::outflow) return true;
     }
     return false;

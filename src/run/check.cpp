@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "eos/table/table.hpp"
@@ -63,6 +64,21 @@ std::string of_splitting(const solver::Simulation& simulation) {
       divided, forecast.generations, now);
 }
 
+/// Lists what the shapes of a body from files and generators report, and the cells across their thinnest part.
+std::vector<std::string> account_of(const cases::Case& setup, std::size_t body) {
+  std::vector<std::string> lines;
+  setup.bodies[body].shape->visit([&](const cases::Shape& part) {
+    const std::vector<std::string> account = part.account();
+    if (account.empty()) return;
+    lines.insert(lines.end(), account.begin(), account.end());
+    const double thinnest = part.smallest_extent(setup.bodies[body].velocity);
+    if (std::isnan(thinnest)) return;
+    lines.push_back(
+        fmt::format("  {:.3g} cells across the thinnest part", thinnest / setup.geometry.cell_size));
+  });
+  return lines;
+}
+
 }  // namespace
 
 CaseCheck examine_case(const RunOptions& options, bool with_forecast, MPI_Comm communicator) {
@@ -103,7 +119,8 @@ nlohmann::json check_json(const CaseCheck& found) {
                       {"material", setup.materials[b]->name},
                       {"parts", found.bodies[b].parts},
                       {"mass", found.bodies[b].mass},
-                      {"shape_mass", found.bodies[b].shape_mass}});
+                      {"shape_mass", found.bodies[b].shape_mass},
+                      {"account", account_of(setup, b)}});
   }
   json text = {{"file", setup.file.string()},
                {"title", setup.title},
@@ -136,6 +153,7 @@ std::string check_text(const CaseCheck& found) {
     text += fmt::format("body \"{}\" of {}: {}, {:.6g} g in the domain; whole shape {:.6g} g\n",
                         setup.bodies[b].name, setup.materials[b]->name, body.parts, 1e3 * body.mass,
                         1e3 * body.shape_mass);
+    for (const std::string& line : account_of(setup, b)) text += "  " + line + "\n";
     text += body.at_faces;
     if (const auto* table = dynamic_cast<const eos::Table*>(setup.materials[b]->eos.get())) {
       text += fmt::format("  equation of state: table of {}, {} kB, error {:.2g}, {:.4g} to {:.6g} kg/m^3\n",

@@ -13,6 +13,7 @@
 
 #include "src/case/build/tables.hpp"
 #include "src/case/remarks.hpp"
+#include "src/case/shapes/source_file.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/base/text.hpp"
@@ -83,6 +84,7 @@ io::RunDirectory new_directory(const cases::Case& setup, const fs::path& path, c
                       fs::copy_options::overwrite_existing);
       }
     }
+    for (const cases::Body& body : setup.bodies) cases::keep_sources(*body.shape, directory.path());
     directory.write_input(cases::to_toml(setup, copies) + provenance(setup, options.program, ranks.count()));
   });
   return created ? *created : io::RunDirectory::open(path, name);

@@ -6,11 +6,13 @@ Usage: python3 -m studies.shields.page [--whipple PROGRAM] [--outcomes FILE.csv]
 
 Reads studies/shields/shots.csv with the critical diameters of `whipple shield --json`, the outcomes of runs
 (studies/shields/outcomes.csv, written by studies/shields/run_shots.py) and the shots that were used to choose constants
-(calibrating.csv), which no score of runs contains. Without outcomes it states the scores of the equations alone.
+(calibrating.csv), which no score of runs contains; models are compared on the shots that both have, and a model with itself where it was
+repeated with other seeds and cells (REPEATS). Without outcomes it states the scores of the equations alone.
 """
 import argparse
 import csv
 import dataclasses
+import itertools
 import json
 import pathlib
 import sys
@@ -25,12 +27,14 @@ SPEEDS = (0, 3, 4.5, 6, 7.5, 20)  # km/s
 THICKNESSES = (0, 0.05, 0.1, 0.2, 0.4, 100)  # bumper over sphere
 REFERENCE = "nno_1993"  # whose critical diameter says how far a shot is from the limit
 DEFEATS = {"perforated", "detached spall"}
+REPEATS = {"other places of the grains": "tile_seed_2.csv", "cells 1.25 times as large": "tile_coarser.csv",
+           "cells 0.8 times as large": "tile_finer.csv"}  # of the model of tiles
 
 
 @dataclasses.dataclass
 class Run:
     """An outcome of outcomes.csv."""
-    model: str  # section or space
+    model: str  # section, space or tile
     outcome: str
     resolved: bool
     hours: float
@@ -155,7 +159,7 @@ def paired_rows(scored):
 def run_section(model, shots, calibrating):
     runs = [s for s in shots if s.run is not None]
     left = [s for s in shots if s.run is None and s.runnable and s.resolved and s.name not in calibrating]
-    scored = [s for s in runs if s.run.resolved and s.defeated() is not None and s.name not in calibrating]
+    scored = list(scored_by(shots, calibrating).values())
     lines = [f"## Runs: {model}", "",
              f"Of {len(shots)} shots {sum(s.runnable for s in shots)} have materials in the library and {sum(s.runnable and s.resolved for s in shots)} of "
              f"these are resolved (two cells through every sheet). Runs: {len(runs)}, of these {sum(s.name in calibrating for s in runs)} calibrating, "
@@ -181,14 +185,45 @@ def run_section(model, shots, calibrating):
     return lines
 
 
-def page(models, calibrating):
-    """Text of the page, of shots by model."""
+def scored_by(shots, calibrating):
+    """Shots whose outcome by a model counts."""
+    return {s.name: s for s in shots if s.run is not None and s.run.resolved and s.defeated() is not None and s.name not in calibrating}
+
+
+def model_section(models, calibrating):
+    """Models beside one another, on the shots that two of them have scored."""
+    rows = []
+    for first, second in itertools.combinations(models, 2):
+        one, other = scored_by(models[first], calibrating), scored_by(models[second], calibrating)
+        common = [one[name] for name in one if name in other]
+        if common:
+            both, alone, without, neither = scores.paired(common, Shot.defeated, lambda shot, other=other: other[shot.name].defeated())
+            rows.append([f"{first}, {second}", both, alone, without, neither, f"{scores.mcnemar(alone, without):.3g}"])
+    return ["## Models beside one another", "", *table(["models", "both right", "first alone", "second alone", "neither", "p"], rows)] if rows else []
+
+
+def repeat_section(shots, repeats):
+    """Outcomes of a model beside those of its repetitions. shots: of the model; repeats: rows of outcomes, by name."""
+    first = {shot.name: shot.run for shot in shots if shot.run is not None}
+    lines = []
+    for title, rows in repeats.items():
+        pairs = [(row["shot"], first[row["shot"]].outcome, row["outcome"]) for row in rows if row["shot"] in first]
+        changed = [pair for pair in pairs if (pair[1] in DEFEATS) != (pair[2] in DEFEATS)]
+        if pairs:
+            lines += [f"### Tiles with {title}", "", f"Of {len(pairs)} shots {len(changed)} change between defeated and not.", "",
+                      *table(["shot", "outcome", "repeated"], pairs)]
+    return lines
+
+
+def page(models, calibrating, repeats=None):
+    """Text of the page, of shots by model; repeats: rows of outcomes of tiles, by what is different."""
     shots = next(iter(models.values()))
     named = [f"- {name}: {why}" for name, why in calibrating.items()]
     return "\n".join(["# Shields: predictions and shots", "",
                       "Written by `python3 -m studies.shields.page`. Shots and their sources: `studies/shields/shots.csv`; equations:",
                       "[theory](../theory/ballistic_limits.md); outcome of a run: [shields](../manual/shields.md).", "",
                       *equation_section(shots), *(line for model, members in models.items() for line in run_section(model, members, calibrating)),
+                      *model_section(models, calibrating), *repeat_section(models.get("tile", []), repeats or {}),
                       "## Calibrating shots", "", "In no score of runs:", "", *named, ""])
 
 
@@ -201,7 +236,7 @@ def main():
     shots = read_shots(arguments.whipple, HERE / "shots.csv")
     models = by_model(shots, read_csv(arguments.outcomes))
     calibrating = {row["shot"]: row["why"] for row in read_csv(HERE / "calibrating.csv")}
-    text = page(models, calibrating)
+    text = page(models, calibrating, {title: read_csv(HERE / file) for title, file in REPEATS.items()})
     arguments.output.write_text(text, encoding="utf-8")
     print(text)
 

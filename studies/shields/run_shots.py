@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Do runs tell which shots on Whipple shields failed? Computes shots and records what became of their walls.
 
-Usage: python3 -m studies.shields.run_shots SOURCE/SHOT... [--near COUNT] [--model section|space] [--threads N]
-       [--cell-size LENGTH] [--most-across N] [--work FOLDER] [--outcomes FILE.csv] [--whipple PROGRAM]
+Usage: python3 -m studies.shields.run_shots SOURCE/SHOT... [--near COUNT] [--model section|space|tile] [--threads N] [--seed N]
+       [--coarser RATIO] [--cell-size LENGTH] [--most-across N] [--work FOLDER] [--outcomes FILE.csv] [--whipple PROGRAM]
 
 Makes the case of each shot (whipple shield), runs it until its outcome is decided, and adds a row to outcomes.csv with
 outcome, time, reason, cells, cost and revision. --near adds the cheapest shots within a third of the limit of NNO that have
@@ -11,6 +11,9 @@ no row, are resolved and are not calibrating. Shots with a row of the same model
 resumed from its checkpoint, if it has one. A run that fails is undecided, for the reason that it gives. The name of the folder
 of a run contains a digest of its case, so that other options have another folder. Snapshots are deleted once the row is
 written, except those of unsafe misses (measured P, the wall holds).
+
+--model tile takes the load of the debris from a section without the wall, and lets its grains strike a tile of the wall in three
+dimensions (docs/decisions/0025_grains_before_a_wall.md), with --seed and cells that are --coarser than the rule's. Normal impact only.
 """
 import argparse
 import csv
@@ -20,7 +23,7 @@ import shutil
 import tempfile
 
 from studies import commands
-from studies.shields import page
+from studies.shields import page, tile
 
 COLUMNS = ["shot", "outcome", "time [us]", "reason", "model", "cell size [mm]", "resolved", "particles", "core hours", "revision"]
 
@@ -86,6 +89,24 @@ def row_of(name, case, verdict, status, threads):
             "core hours": f"{status['wall_time'] * threads / 3600:.3g}", "revision": status["revision"]}
 
 
+def tile_row(whipple, threads, name, entry, folder, seed, coarser):
+    """Row of a shot by the model of grains on a tile, with the cost of both runs."""
+    shot = tile.shot_in(entry, folder)
+    load = tile.computed_load(whipple, threads, shot)
+    status = status_of(folder / "cloud")
+    case = entry["case"] | {"model": "tile"}
+    if load.is_one_piece(1e3 * entry["sphere"]["diameter"]):
+        verdict = judged(whipple, threads, folder)
+        verdict["reason"] += f" (section: one piece of {100 * load.piece:.0f} % of the sphere, or grains as large as it)"
+        more = status_of(folder / "run")
+    else:
+        struck, records, run = tile.computed_tile(whipple, threads, shot, load, seed, coarser)
+        verdict, more = tile.judged(shot, load, struck, records), status_of(run)
+        case |= {"cell_size": 1e-3 * struck.cell, "particles": 8 * struck.thickness * struck.side**2 / struck.cell**3}
+    print(f"{name}: {load}")
+    return row_of(name, case, verdict, status | {"wall_time": status["wall_time"] + more["wall_time"]}, threads)
+
+
 def append(file, row):
     """Adds a row, with a heading where the file is new."""
     new = not file.exists()
@@ -100,15 +121,18 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("shots", nargs="*", metavar="SOURCE/SHOT")
     parser.add_argument("--near", type=int, default=0)
-    parser.add_argument("--model", choices=("section", "space"), default="space")
+    parser.add_argument("--model", choices=("section", "space", "tile"), default="space")
     parser.add_argument("--threads", type=int, default=1)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--coarser", type=float, default=1.0)
     parser.add_argument("--cell-size")
     parser.add_argument("--most-across")
     parser.add_argument("--work", type=pathlib.Path, default=commands.ROOT / "run" / "shields")
     parser.add_argument("--outcomes", type=pathlib.Path, default=page.HERE / "outcomes.csv")
     parser.add_argument("--whipple", default=commands.ROOT / "build" / "release" / "bin" / "whipple")
     arguments = parser.parse_args()
-    options = ["--model", arguments.model]
+    tiles = arguments.model == "tile"
+    options = ["--model", "section" if tiles else arguments.model]
     for name in ("cell_size", "most_across"):
         if getattr(arguments, name):
             options += [f"--{name.replace('_', '-')}", getattr(arguments, name)]
@@ -121,12 +145,19 @@ def main():
         if name in done:
             print(f"{name}: has an outcome")
             continue
+        if tiles and entries[name]["sphere"]["angle"] > 0:
+            print(f"{name}: oblique, not modelled by tiles")
+            continue
         folder = folder_of(arguments.whipple, options, name, arguments.work)
-        verdict = judged(arguments.whipple, arguments.threads, folder)
-        row = row_of(name, entries[name]["case"], verdict, status_of(folder / "run"), arguments.threads)
-        append(arguments.outcomes, row)
-        if entries[name]["result"] == "NP" or verdict["defeated"]:
-            delete_snapshots(folder / "run")
+        if tiles:
+            row = tile_row(arguments.whipple, arguments.threads, name, entries[name], folder, arguments.seed, arguments.coarser)
+            append(arguments.outcomes, row)
+        else:
+            verdict = judged(arguments.whipple, arguments.threads, folder)
+            row = row_of(name, entries[name]["case"], verdict, status_of(folder / "run"), arguments.threads)
+            append(arguments.outcomes, row)
+            if entries[name]["result"] == "NP" or verdict["defeated"]:
+                delete_snapshots(folder / "run")
         print(f"{name}: {row['outcome']}: {row['reason']} ({row['core hours']} core hours)")
 
 

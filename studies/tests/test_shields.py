@@ -1,11 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Scores of predictions about shields, and the page of zero, few and many runs."""
 import csv
+import json
 import pathlib
+import shutil
 import tempfile
 import unittest
+import unittest.mock
 
-from studies.shields import curve, page, run_shots, scores
+import numpy as np
+
+from studies.shields import curve, page, run_shots, scores, tile
 
 
 def shot(name, failed, run=None, size=1.2, **more):
@@ -88,6 +93,15 @@ class Page(unittest.TestCase):
         self.assertIn("| all | 1 | 0 | 0 | 0 | 100.0 %", text.split("## Runs: space")[1])
 
 
+    def test_models_are_compared_on_the_shots_of_both(self):
+        models = {"section": [shot("a", True, "whole"), shot("b", False, "whole"), shot("c", True, "whole")],
+                  "tile": [shot("a", True, "perforated"), shot("b", False, "detached spall"), shot("c", True, "undecided")]}
+        text = page.page(models, {}, {"another seed": [{"shot": "a", "outcome": "bulge"}, {"shot": "b", "outcome": "perforated"}]})
+        self.assertIn("| section, tile | 0 | 1 | 1 | 0 | 1 |", text)
+        self.assertIn("Of 2 shots 1 change between defeated and not.", text)
+        self.assertIn("| b | detached spall | perforated |", text)
+
+
 PROGRAM = """#!/usr/bin/python3
 import json, pathlib, sys
 words = sys.argv[1:]
@@ -144,6 +158,33 @@ class Batch(unittest.TestCase):
         self.assertEqual(row["reason"], "the run failed: out of range")
         run_shots.append(self.folder / "outcomes.csv", row)
         self.assertEqual(page.read_csv(self.folder / "outcomes.csv"), [row])
+
+
+    def tile_row(self, piece, size=0.4):
+        folder = run_shots.folder_of(self.program(0), [], "S/1", self.folder)
+        (folder / "case.toml").write_text('body = [{ name = "wall", material = "aluminium_6061_mie_gruneisen.toml" }]', encoding="utf-8")
+        for name in ("cloud", "tile_1_1"):
+            (folder / name).mkdir()
+            (folder / name / "status.json").write_text(json.dumps({"revision": "r1", "wall_time": 1800}), encoding="utf-8")
+        load = tile.Load(7.0, 0.1, 5.0, size, np.zeros(1), np.ones(1), 0.3, piece)
+        struck = tile.Tile(2.0, 0.1, 1.5, np.zeros((1, 3)), 0.4, 5.0)
+        records = [(time, tile.Left(True, 400.0, tile.Off(), 0.1, 0.1)) for time in (1.0, 4.0)]
+        entry = {"sphere": {"diameter": 3e-3}, "case": {"model": "section", "cell_size": 2e-4, "resolved": True, "particles": 10}}
+        with unittest.mock.patch.object(tile, "computed_load", return_value=load), \
+                unittest.mock.patch.object(tile, "computed_tile", return_value=(struck, records, folder / "tile_1_1")):
+            return run_shots.tile_row(self.program(0), 2, "S/1", entry, folder, 1, 1.0)
+
+    def test_grains_strike_a_tile_and_one_piece_the_section(self):
+        row = self.tile_row(0.1)
+        self.assertEqual((row["outcome"], row["model"], row["cell size [mm]"], row["particles"], row["core hours"]),
+                         ("perforated", "tile", "0.1", "48000", "2"))
+        self.assertTrue(row["reason"].startswith("its rear half moves at 400 m/s"))
+        for piece, size in ((0.6, 0.4), (0.1, 3.1), (0.1, np.nan)):
+            shutil.rmtree(self.folder)
+            self.folder.mkdir()
+            row = self.tile_row(piece, size)
+            self.assertEqual((row["outcome"], row["model"], row["cell size [mm]"], row["core hours"]), ("whole", "tile", "0.2", "3"))
+            self.assertIn(f"one piece of {100 * piece:.0f} % of the sphere", row["reason"])
 
 
 class Tables(unittest.TestCase):

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Files of other programs, damaged and forged ones: they are read or refused with an InputError. Nothing else:
 // no crash, no hang, no memory for what a file only declares (tests/fuzz/trials.hpp).
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <array>
 #include <fstream>
 #include <functional>
 
@@ -11,6 +13,7 @@
 #include "eos/files/table_file.hpp"
 #include "src/analysis/run.hpp"
 #include "src/case/case.hpp"
+#include "src/case/shapes/image.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
 #include "src/core/base/log.hpp"
@@ -23,6 +26,8 @@
 #include "src/io/sealed_file.hpp"
 #include "src/material/material_file.hpp"
 #include "src/run/restart.hpp"
+#include "src/solids/inside.hpp"
+#include "src/solids/surface_file.hpp"
 #include "tests/fuzz/trials.hpp"
 #include "tests/unit/eos_support.hpp"
 #include "tests/unit/folder_test.hpp"
@@ -192,6 +197,75 @@ TEST_F(ForeignFiles, Meshes) {
         numbers_nodes(part.elements, part.nodes.size());
       }
     });
+  }
+}
+
+/// A tetrahedron in every format of surfaces.
+TEST_F(ForeignFiles, Surfaces) {
+  std::string binary(80, ' ');
+  const auto append = [&](auto value) { binary.append(reinterpret_cast<const char*>(&value), sizeof value); };
+  std::string text = "solid t\n", obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+  std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float "
+      "z\nelement face "
+      "4\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+  append(std::uint32_t{4});
+  const std::array<Vector3, 4> corners = {Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(0, 1, 0),
+                                          Vector3(0, 0, 1)};
+  constexpr std::array<std::array<std::size_t, 3>, 4> faces = {{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+  for (const auto& face : faces) {
+    binary += std::string(12, '\0');
+    text += "facet normal 0 0 0\nouter loop\n";
+    for (const std::size_t corner : face) {
+      for (const double x : corners[corner]) append(static_cast<float>(x));
+      text += fmt::format("vertex {} {} {}\n", corners[corner][0], corners[corner][1], corners[corner][2]);
+    }
+    binary += std::string(2, '\0');
+    text += "endloop\nendfacet\n";
+    obj += fmt::format("f {} {} {}\n", face[0] + 1, face[1] + 1, face[2] + 1);
+    ply += fmt::format("3 {} {} {}\n", face[0], face[1], face[2]);
+  }
+  text += "endsolid t\n";
+  for (const auto& [bytes, change] :
+       {std::pair<std::string, Change>{binary, damaged}, {text, garbled}, {obj, garbled}, {ply, garbled}}) {
+    const fs::path path = folder_ / "surface";
+    std::ofstream(path, std::ios::binary) << bytes;
+    try_all("surface", path, change, [&] {
+      std::vector<solids::Triangle> triangles = solids::read_surface(path, 1.0);
+      const solids::Audit audit = solids::repair(triangles);
+      const solids::Inside inside(std::move(triangles), audit);
+      static_cast<void>(inside.contains(Vector3(0.1, 0.1, 0.1)));
+    });
+  }
+}
+
+TEST_F(ForeignFiles, Images) {
+  const std::string values = std::string(13, '\0') + std::string(14, '\1');
+  const std::string nrrd =
+      "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 3 3 3\nencoding: raw\nspace origin: (0,0,0)\n"
+      "space directions: (1,0,0) (0,1,0) (0,0,1)\n\n";
+  const std::string meta =
+      "ObjectType = Image\nNDims = 3\nDimSize = 3 3 3\nElementType = MET_UCHAR\nElementSpacing = "
+      "1 1 1\nOffset = 0 0 0\nElementDataFile = LOCAL\n";
+  std::string nifti(352, '\0');
+  const auto put = [&](std::size_t at, auto value) {
+    nifti.replace(at, sizeof value, reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  put(0, std::int32_t{348});
+  for (std::size_t d = 0; d < 4; ++d) put(40 + 2 * d, std::int16_t{3});
+  put(70, std::int16_t{2});
+  for (std::size_t d = 0; d < 4; ++d) put(76 + 4 * d, 1.0F);
+  put(108, 352.0F);
+  nifti.replace(344, 3, "n+1");
+  const fs::path path = folder_ / "image";
+  cases::ImageKeys keys;
+  keys.file = "image";
+  keys.unit = 1.0;
+  keys.values = {1};
+  for (const auto& [header, change] :
+       {std::pair<std::string, Change>{nrrd, garbled}, {meta, garbled}, {nifti, damaged}}) {
+    std::ofstream(path, std::ios::binary) << header + values;
+    try_all("image", path, change, [&] { ASSERT_GT(cases::VoxelBody(keys, folder_).volume(), 0.0); });
   }
 }
 

@@ -7,46 +7,10 @@
 #include <numbers>
 #include <random>
 
-#include "src/case/shapes/shape.hpp"
-#include "src/core/base/error.hpp"
+#include "tests/unit/shape_support.hpp"
 
 namespace whipple::cases {
 namespace shape_test {
-
-std::unique_ptr<Shape> shape_of(const std::string& text) {
-  input::Document document = input::Document::from_text("shape = " + text + "\n", "case.toml");
-  input::Table root = document.root();
-  std::unique_ptr<Shape> shape = read_shape(root);
-  document.finish();
-  return shape;
-}
-
-void expect_refused(const std::string& text, const std::string& reason) {
-  try {
-    shape_of(text);
-    ADD_FAILURE() << text << " was accepted";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
-  }
-}
-
-/// Share of random points of a box (m) that lie inside, times its volume.
-double counted(const Shape& shape, const Shape::Bounds& box) {
-  std::mt19937_64 random(3);
-  std::uniform_real_distribution<double> unit;
-  constexpr int points = 400000;
-  int inside = 0;
-  for (int i = 0; i < points; ++i) {
-    const Vector3 u(unit(random), unit(random), unit(random));
-    inside += shape.contains(box.lower + u.cwiseProduct(box.upper - box.lower)) ? 1 : 0;
-  }
-  return (box.upper - box.lower).prod() * inside / points;
-}
-
-Shape::Bounds widened(const Shape::Bounds& box) {
-  const Vector3 margin = 0.1 * (box.upper - box.lower);
-  return {box.lower - margin, box.upper + margin};
-}
 
 const char* const sphere = R"({ sphere = { center = ["0 m", "0 m", "0 m"], radius = "1 m" } })";
 const char* const box = R"({ box = { lower = ["0 m", "0 m", "0 m"], upper = ["1 m", "2 m", "3 m"] } })";

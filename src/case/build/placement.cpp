@@ -14,6 +14,13 @@
 namespace whipple::cases {
 namespace {
 
+/// Returns a question for bodies whose size a file and a unit determine; empty for others.
+std::string question_of_unit(const Body& body) {
+  bool is_from_file = false;
+  body.shape->visit([&](const Shape& part) { is_from_file = is_from_file || part.source().has_value(); });
+  return is_from_file ? "; is 'unit' of its file right?" : "";
+}
+
 /// Returns why the particles or elements of a body are too many to be created.
 std::optional<std::string> too_many(const Case& setup, const Body& body) {
   constexpr double most_particles = 1e9;  // about 500 GB
@@ -33,8 +40,9 @@ std::optional<std::string> too_many(const Case& setup, const Body& body) {
   }
   return fmt::format(
       "body \"{}\" takes a lattice of {:.2g} {}, {:.2g} along an edge; at most {:.0e} and {:.0e}: "
-      "enlarge 'cell_size' or reduce 'per_cell'",
-      body.name, count, elements ? "elements" : "particles", edges.maxCoeff(), most, longest_edge);
+      "enlarge 'cell_size' or reduce 'per_cell'{}",
+      body.name, count, elements ? "elements" : "particles", edges.maxCoeff(), most, longest_edge,
+      question_of_unit(body));
 }
 
 /// Returns the volume of the particles of a body over that of the part of its shape inside the domain, minus 1; 0 if a
@@ -137,9 +145,9 @@ std::vector<PlacementFault> placement_faults(const Case& setup) {
       if (beyond && !is_mirror(setup, face)) {
         faults.push_back(
             {b, fmt::format("body \"{}\" reaches {} = {} m, outside of the domain, which goes from {} m "
-                            "to {} m",
+                            "to {} m{}",
                             body.name, "xyz"[a], face % 2 == 0 ? bounds.lower[a] : bounds.upper[a],
-                            setup.geometry.lower[a], setup.geometry.upper(a))});
+                            setup.geometry.lower[a], setup.geometry.upper(a), question_of_unit(body))});
       }
     }
     if (body.discretization.is_bars()) {

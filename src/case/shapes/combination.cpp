@@ -30,6 +30,10 @@ std::string list_as_toml(const Parts& parts) {
   return "[" + text + "]";
 }
 
+void visit_all(const Parts& parts, const std::function<void(const Shape&)>& f) {
+  for (const auto& part : parts) part->visit(f);
+}
+
 void schema_of_list(input::Schema& value) {
   value["type"] = "array";
   value["items"] = input::reference_to("shape");

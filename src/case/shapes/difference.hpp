@@ -36,6 +36,11 @@ class Difference final : public Shape {
   }
   [[nodiscard]] Bounds bounds() const override { return from_->bounds(); }
   [[nodiscard]] double volume() const override { return counted_volume(*this); }
+  void visit(const std::function<void(const Shape&)>& f) const override {
+    f(*this);
+    from_->visit(f);
+    visit_all(minus_, f);
+  }
   [[nodiscard]] std::string toml() const override {
     return fmt::format("{{ difference = {{ from = {}, minus = {} }} }}", from_->toml(), list_as_toml(minus_));
   }

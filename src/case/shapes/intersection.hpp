@@ -32,6 +32,10 @@ class Intersection final : public Shape {
     return all;
   }
   [[nodiscard]] double volume() const override { return counted_volume(*this); }
+  void visit(const std::function<void(const Shape&)>& f) const override {
+    f(*this);
+    visit_all(parts_, f);
+  }
   [[nodiscard]] std::string toml() const override {
     return "{ intersection = " + list_as_toml(parts_) + " }";
   }

@@ -74,20 +74,17 @@ class Moved final : public Shape {
     return {middle - reach, middle + reach};
   }
   [[nodiscard]] double volume() const override { return shape_->volume(); }
+  void visit(const std::function<void(const Shape&)>& f) const override {
+    f(*this);
+    shape_->visit(f);
+  }
   [[nodiscard]] double smallest_extent(const Vector3& direction) const override {
     return shape_->smallest_extent(rotation_.transpose() * direction);
   }
   [[nodiscard]] bool fills_lattice() const override {
     return rotation_.isIdentity(1e-12) && shape_->fills_lattice();
   }
-  [[nodiscard]] std::string toml() const override {
-    std::string keys;
-    Motion copy = motion_;
-    for (const BoundParameter& parameter : whipple::bind(Motion::parameters(), copy)) {
-      keys += fmt::format("{} = {}, ", parameter.info.name, value_as_toml(parameter));
-    }
-    return fmt::format("{{ moved = {{ {}shape = {} }} }}", keys, shape_->toml());
-  }
+  [[nodiscard]] std::string toml() const override { return holder_as_toml(name, motion_, *shape_); }
   [[nodiscard]] std::optional<fem::Hexahedra> hexahedra(double size, const Bounds& clip) const override {
     const Vector3 shift = motion_.translation + motion_.center - rotation_ * motion_.center;
     const Vector3 everywhere = Vector3::Constant(std::numeric_limits<double>::infinity());

@@ -21,6 +21,12 @@ ShapeEntry entry() {
               auto table = holder.required_table(key);
               auto shape = std::make_unique<Kind>();
               if (!table || !table->read(Kind::parameters(), *shape)) return nullptr;
+              if constexpr (requires { shape->settle(); }) {
+                if (const std::string fault = shape->settle(); !fault.empty()) {
+                  table->error(fmt::format("'{}': {}", table->name(), fault));
+                  return nullptr;
+                }
+              }
               return shape;
             },
             [](input::Schema& value) { input::add_keys(value, Kind::parameters()); }};
@@ -40,11 +46,23 @@ const Catalogue<ShapeEntry>& shape_catalogue() {
                                                       entry<Cone>(),
                                                       entry<Ogive>(),
                                                       entry<HalfSpace>(),
+                                                      entry<Prism>(),
+                                                      entry<Extrude>(),
+                                                      entry<Revolve>(),
+                                                      // Structures in a box.
+                                                      entry<MinimalSurface>(),
+                                                      entry<Foam>(),
+                                                      entry<Packing>(),
+                                                      // From files.
+                                                      entry<Surface>(),
+                                                      entry<VoxelBody>(),
                                                       // Combinations of other shapes.
                                                       entry<Union>(),
                                                       entry<Intersection>(),
                                                       entry<Difference>(),
                                                       entry<Moved>(),
+                                                      entry<Scaled>(),
+                                                      entry<Array>(),
                                                   });
   return all;
 }

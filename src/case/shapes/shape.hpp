@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "src/core/base/catalogue.hpp"
 #include "src/core/base/tensor.hpp"
@@ -13,6 +16,13 @@
 #include "src/fem/mesh.hpp"
 
 namespace whipple::cases {
+
+/// Names a file of another program that a shape was read from.
+struct SourceFile {
+  std::filesystem::path path;  ///< absolute
+  std::string digest;          ///< SHA-256 of the file, and of its companions if there are any
+  std::vector<std::filesystem::path> companions;  ///< absolute; further files that it names
+};
 
 /// Describes the region of space that a body initially fills.
 class Shape {
@@ -33,6 +43,12 @@ class Shape {
   }
   /// Returns whether whole cells of a lattice over its bounds fill it exactly, as for a box aligned with the axes.
   [[nodiscard]] virtual bool fills_lattice() const { return false; }
+  /// Calls f for this shape and for all that it is made of.
+  virtual void visit(const std::function<void(const Shape&)>& f) const { f(*this); }
+  /// Returns the file that this shape was read from, if any; of what it is made of, see `visit`.
+  [[nodiscard]] virtual std::optional<SourceFile> source() const { return std::nullopt; }
+  /// Returns what `whipple check` reports on this shape beyond its mass, a line each.
+  [[nodiscard]] virtual std::vector<std::string> account() const { return {}; }
   /// Returns `{ NAME = ... }` as written in a case file.
   [[nodiscard]] virtual std::string toml() const = 0;
   /// Returns a structured mesh of the shape, or of its part within `clip`, whose finite faces halve it; elements beyond

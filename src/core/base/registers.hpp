@@ -89,7 +89,7 @@ inline Lanes first_lanes(Lanes x, std::size_t count) {
 }
 /// Transposes rows to columns.
 inline std::array<Lanes, 4> transposed(const std::array<Lanes, 4>& rows) {
-  const __m256d r0 = __m256d(rows[0]), r1 = __m256d(rows[1]), r2 = __m256d(rows[2]), r3 = __m256d(rows[3]);
+  const auto r0 = __m256d(rows[0]), r1 = __m256d(rows[1]), r2 = __m256d(rows[2]), r3 = __m256d(rows[3]);
   const __m256d a = _mm256_unpacklo_pd(r0, r1), b = _mm256_unpackhi_pd(r0, r1);
   const __m256d c = _mm256_unpacklo_pd(r2, r3), d = _mm256_unpackhi_pd(r2, r3);
   return {Lanes(_mm256_permute2f128_pd(a, c, 0x20)), Lanes(_mm256_permute2f128_pd(b, d, 0x20)),

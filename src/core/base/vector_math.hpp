@@ -16,10 +16,12 @@ namespace whipple {
 
 namespace libmvec {
 extern "C" {
+// NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming): names of the library
 [[gnu::const]] __m256d _ZGVdN4v_exp(__m256d);
 [[gnu::const]] __m256d _ZGVdN4v_expm1(__m256d);
 [[gnu::const]] __m256d _ZGVdN4v_log(__m256d);
 [[gnu::const]] __m256d _ZGVdN4vv_pow(__m256d, __m256d);
+// NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming)
 }
 }  // namespace libmvec
 

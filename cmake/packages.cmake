@@ -1,0 +1,53 @@
+# Manual page and completion of shells, written by the program itself; packages (scripts/package.sh).
+set(folder ${PROJECT_BINARY_DIR}/share)
+set(outputs "")
+foreach(entry "whipple.bash completion bash" "_whipple completion zsh" "whipple.fish completion fish" "whipple.1 man")
+  separate_arguments(words UNIX_COMMAND "${entry}")
+  list(POP_FRONT words file)
+  add_custom_command(OUTPUT ${folder}/${file} COMMAND ${CMAKE_COMMAND} -E make_directory ${folder}
+    COMMAND whipple ${words} > ${folder}/${file} DEPENDS whipple VERBATIM COMMENT "Writing share/${file}")
+  list(APPEND outputs ${folder}/${file})
+endforeach()
+add_custom_command(OUTPUT ${folder}/whipple.1.gz COMMAND gzip -9nkf ${folder}/whipple.1 DEPENDS ${folder}/whipple.1 VERBATIM)
+list(APPEND outputs ${folder}/whipple.1.gz)
+add_custom_target(whipple_manual ALL DEPENDS ${outputs})
+install(FILES ${folder}/whipple.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL)
+install(FILES ${folder}/whipple.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME whipple OPTIONAL)
+install(FILES ${folder}/_whipple DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions OPTIONAL)
+install(FILES ${folder}/whipple.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d OPTIONAL)
+foreach(package whipple libwhipple-dev python3-whipple)
+  install(FILES packaging/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} COMPONENT ${package})
+endforeach()
+
+set(CPACK_PACKAGE_VENDOR "whipple")
+set(CPACK_PACKAGE_CONTACT "The whipple authors <whipple@localhost>")
+set(CPACK_GENERATOR DEB TGZ)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/packaging/copyright)
+set(CPACK_COMPONENTS_ALL whipple libwhipple-dev python3-whipple)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(needs_avx2 "The code is for processors with AVX2 (x86-64-v3);
+ kernels for AVX-512 are chosen at run time.")
+set(CPACK_DEBIAN_WHIPPLE_DESCRIPTION "equations of state from atoms, and hypervelocity impact
+ Programs whipple, whipple-md and whipple-fit with materials,
+ experiments and cases. ${needs_avx2}")
+set(CPACK_DEBIAN_WHIPPLE_PACKAGE_NAME whipple)
+set(CPACK_DEBIAN_WHIPPLE_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_WHIPPLE_PACKAGE_RECOMMENDS "openmpi-bin, lammps-data, python3-numpy, python3-h5py, python3-matplotlib")
+set(CPACK_DEBIAN_WHIPPLE_PACKAGE_SUGGESTS "python3-whipple, paraview, gmsh")
+set(CPACK_DEBIAN_LIBWHIPPLE-DEV_DESCRIPTION "libraries and headers of whipple
+ For programs that use its equations of state, cases, solver and
+ analysis: find_package(whipple). ${needs_avx2}")
+set(CPACK_DEBIAN_LIBWHIPPLE-DEV_PACKAGE_NAME libwhipple-dev)
+set(CPACK_DEBIAN_LIBWHIPPLE-DEV_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_LIBWHIPPLE-DEV_PACKAGE_DEPENDS "libopenmpi-dev, libhdf5-openmpi-dev, zlib1g-dev, libp4est-dev, libeigen3-dev, \
+libboost-dev, libspdlog-dev, libfmt-dev, libtomlplusplus-dev, libudunits2-dev, nlohmann-json3-dev")
+set(CPACK_DEBIAN_PYTHON3-WHIPPLE_DESCRIPTION "equations of state, cases and runs of whipple for Python
+ ${needs_avx2}")
+set(CPACK_DEBIAN_PYTHON3-WHIPPLE_PACKAGE_NAME python3-whipple)
+set(CPACK_DEBIAN_PYTHON3-WHIPPLE_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON3-WHIPPLE_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON3-WHIPPLE_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy, whipple (= ${PROJECT_VERSION})")
+include(CPack)

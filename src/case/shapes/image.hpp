@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "src/case/shapes/made.hpp"
+#include "src/core/base/words.hpp"
+#include "src/solids/image.hpp"
+
+namespace whipple::cases {
+
+/// Selects the order of the bytes of a number.
+enum class ByteOrder : std::uint8_t { little_endian, big_endian };
+constexpr std::array<Word<ByteOrder>, 2> words(ByteOrder) {
+  return {{{ByteOrder::little_endian, "little_endian"}, {ByteOrder::big_endian, "big_endian"}}};
+}
+
+/// Names the voxels of a body in an image.
+struct ImageKeys {
+  static constexpr const char* name = "image";
+  std::string file;
+  double unit = 0.0;
+  std::vector<double> values;
+  bool smooth = false;
+  Vector3 offset = Vector3::Zero();
+  // Of files without header.
+  std::vector<double> size;
+  solids::VoxelType type = solids::VoxelType::uint8;
+  ByteOrder order = ByteOrder::little_endian;
+  std::int64_t skip = 0;
+  Vector3 spacing = Vector3::Ones();
+  std::string digest;
+
+  static ParameterTable<ImageKeys> parameters();
+};
+
+/// Describes voxels of an image in three dimensions whose values lie between two limits: those of a label, or of a
+/// range of grey values.
+class VoxelBody final : public Shape, public Made<VoxelBody, ImageKeys> {
+ public:
+  static constexpr const char* name = ImageKeys::name;
+  static constexpr const char* summary =
+      "voxels with a label, or a range of values, in a NRRD, MetaImage, NIfTI-1 or raw file";
+
+  /// Reads the file. @throws InputError naming it: not found, unreadable, or without such voxels; lists its labels
+  VoxelBody(ImageKeys keys, const std::filesystem::path& folder);
+
+  [[nodiscard]] bool contains(const Vector3& point) const override;
+  [[nodiscard]] Bounds bounds() const override { return bounds_; }
+  /// Returns the volume of the voxels.
+  [[nodiscard]] double volume() const override { return volume_; }
+  /// Returns the thickness that 1 % of the voxels fall below, the shortest way through them along the axes of the
+  /// image.
+  [[nodiscard]] double smallest_extent(const Vector3&) const override { return thickness_; }
+  [[nodiscard]] std::optional<SourceFile> source() const override { return source_; }
+  [[nodiscard]] std::vector<std::string> account() const override { return account_; }
+  [[nodiscard]] std::string toml() const override;
+
+ private:
+  void take(const solids::Image& image);
+  void describe_labels(const solids::Image& image);
+  void measure_thickness();
+  [[nodiscard]] bool is_taken(const Eigen::Array3i& voxel) const;
+  [[nodiscard]] std::size_t index(const Eigen::Array3i& voxel) const;
+
+  ImageKeys keys_;
+  SourceFile source_;
+  Matrix3 steps_, to_voxels_;  // m; 1/m
+  Vector3 origin_;             // m, of the centre of the first voxel that is kept
+  Eigen::Array3i size_;        // of the box of voxels that is kept
+  std::shared_ptr<const std::vector<std::uint8_t>> taken_;
+  Bounds bounds_;
+  double volume_ = 0.0, thickness_ = 0.0;
+  std::vector<std::string> account_;
+};
+
+}  // namespace whipple::cases

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/case/shapes/surface.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "src/case/shapes/combination.hpp"
+#include "src/case/shapes/primitive.hpp"
+#include "src/case/shapes/source_file.hpp"
+#include "src/core/base/text.hpp"
+#include "src/core/parallel/threads.hpp"
+#include "src/solids/inside.hpp"
+#include "src/solids/surface_file.hpp"
+
+namespace whipple::cases {
+
+ParameterTable<SurfaceKeys> SurfaceKeys::parameters() {
+  using K = SurfaceKeys;
+  return {
+      text("file", &K::file, "STL (text or binary), OBJ or PLY, relative to the case file"),
+      real("unit", &K::unit, "m", range::positive(), "length of one unit of the file: \"1 mm\", \"1 inch\""),
+      text("digest", &K::digest, "SHA-256 that the file must have; runs write it").optional()};
+}
+
+Surface::Surface(SurfaceKeys keys, const std::filesystem::path& folder)
+    : keys_(std::move(keys)), source_(find_source(keys_.file, keys_.digest, folder)) {
+  keys_.file = named_file(keys_.file, folder).string();
+  keys_.digest = source_.digest;
+  std::vector<solids::Triangle> triangles = solids::read_surface(source_.path, keys_.unit);
+  try {
+    audit_ = solids::repair(triangles);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", utf8(source_.path.string()), error.what()));
+  }
+  inside_ = std::make_shared<const solids::Inside>(std::move(triangles), audit_);
+  counted_ = counted_volume(*this);
+  if (!(counted_ > 0.0)) {
+    throw InputError(fmt::format("{}: its {} triangles enclose no volume: {} edges are open",
+                                 utf8(source_.path.string()), audit_.triangles, audit_.open_edges));
+  }
+  constexpr double agreement = 0.02;  // of counting, with margin
+  const double enclosed = std::abs(audit_.volume);
+  volume_ = audit_.is_closed() && std::abs(enclosed - counted_) < agreement * counted_ ? enclosed : counted_;
+  measure_thickness();
+}
+
+bool Surface::contains(const Vector3& point) const { return inside_->contains(point); }
+
+void Surface::measure_thickness() {
+  constexpr std::size_t most_samples = 2000;
+  const std::vector<solids::Triangle>& triangles = inside_->tree().triangles();
+  const std::size_t stride = std::max<std::size_t>(1, triangles.size() / most_samples);
+  const double longest = (audit_.upper - audit_.lower).norm(), step = longest / 1000.0;
+  struct Sample {
+    double thickness, area;
+  };
+  std::vector<Sample> samples((triangles.size() + stride - 1) / stride);
+  parallel::for_each_uneven(samples.size(), [&](std::size_t i) {
+    const solids::Triangle& t = triangles[i * stride];
+    const Vector3 middle = (t[0] + t[1] + t[2]) / 3.0;
+    Vector3 inwards = (t[2] - t[0]).cross(t[1] - t[0]);
+    const double area = 0.5 * inwards.norm();
+    inwards.normalize();
+    if (!contains(middle + 0.1 * step * inwards)) inwards = -inwards;
+    double depth = 0.0;
+    while (depth < longest && contains(middle + (depth + 0.1 * step) * inwards)) depth += step;
+    samples[i] = {depth, depth > 0.0 ? area : 0.0};  // 0: a sheet, or at a hole
+  });
+  std::ranges::sort(samples, {}, &Sample::thickness);
+  double area = 0.0, passed = 0.0;
+  for (const Sample& sample : samples) area += sample.area;
+  thickness_ = std::numeric_limits<double>::quiet_NaN();
+  for (const Sample& sample : samples) {
+    passed += sample.area;
+    if (!(passed > 0.01 * area)) continue;
+    thickness_ = sample.thickness;
+    break;
+  }
+}
+
+std::vector<std::string> Surface::account() const {
+  const Vector3 size = 1e3 * (audit_.upper - audit_.lower);
+  std::vector<std::string> lines = {
+      fmt::format("surface {}: {} triangles, {:.4g} x {:.4g} x {:.4g} mm, SHA-256 {}",
+                  source_.path.filename().string(), audit_.triangles, size[0], size[1], size[2],
+                  source_.digest),
+      fmt::format(
+          "  volume {:.6g} mm^3 by the divergence theorem, {:.6g} mm^3 by counting; thinnest part {:.3g} mm",
+          1e9 * audit_.volume, 1e9 * counted_, 1e3 * thickness_)};
+  if (audit_.volume < 0.0) lines.emplace_back("  turned inside out: read as its inside");
+  if (audit_.degenerate + audit_.repeated + audit_.flipped > 0) {
+    lines.push_back(
+        fmt::format("  repaired: {} triangles without area and {} repeated ones dropped, {} turned",
+                    audit_.degenerate, audit_.repeated, audit_.flipped));
+  }
+  if (!audit_.is_closed()) {
+    lines.push_back(
+        fmt::format("  not closed: {} open edges, {} of more than two triangles; closed by its winding "
+                    "number: look at it",
+                    audit_.open_edges, audit_.crowded_edges));
+  }
+  return lines;
+}
+
+std::string Surface::toml() const { return shape_as_toml(keys_); }
+
+}  // namespace whipple::cases

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include "src/case/shapes/made.hpp"
+#include "src/solids/surface.hpp"
+
+namespace whipple::solids {
+class Inside;
+}
+
+namespace whipple::cases {
+
+/// Names a surface in a file.
+struct SurfaceKeys {
+  static constexpr const char* name = "surface";
+  std::string file;
+  double unit = 0.0;
+  std::string digest;
+
+  static ParameterTable<SurfaceKeys> parameters();
+};
+
+/// Describes what a surface of triangles encloses, which may have holes (src/solids/inside.hpp).
+class Surface final : public Shape, public Made<Surface, SurfaceKeys> {
+ public:
+  static constexpr const char* name = SurfaceKeys::name;
+  static constexpr const char* summary = "what a surface of triangles encloses, from an STL, OBJ or PLY file";
+
+  /// Reads the file. @throws InputError naming it: not found, unreadable, without a volume
+  Surface(SurfaceKeys keys, const std::filesystem::path& folder);
+
+  [[nodiscard]] bool contains(const Vector3& point) const override;
+  [[nodiscard]] Bounds bounds() const override { return {audit_.lower, audit_.upper}; }
+  /// Returns the volume by the divergence theorem if the surface is closed and does not enclose a part twice, otherwise
+  /// by counting.
+  [[nodiscard]] double volume() const override { return volume_; }
+  /// Returns the thickness that 1 % of the area falls below, from points on the surface inwards to the next one.
+  [[nodiscard]] double smallest_extent(const Vector3&) const override { return thickness_; }
+  [[nodiscard]] std::optional<SourceFile> source() const override { return source_; }
+  [[nodiscard]] std::vector<std::string> account() const override;
+  [[nodiscard]] std::string toml() const override;
+
+  [[nodiscard]] const solids::Audit& audit() const { return audit_; }
+
+ private:
+  void measure_thickness();
+
+  SurfaceKeys keys_;
+  SourceFile source_;
+  solids::Audit audit_;
+  std::shared_ptr<const solids::Inside> inside_;
+  double volume_ = 0.0;
+  double counted_ = 0.0;
+  double thickness_ = 0.0;
+};
+
+}  // namespace whipple::cases

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "src/core/base/tensor.hpp"
+
+namespace whipple::solids {
+
+/// Divides space among seeds: the cell of a seed holds the points nearest to it (Voronoi cells, the bubbles of a foam).
+class Cells {
+ public:
+  /// @param spacing  cube root of the volume per seed, m
+  Cells(std::vector<Vector3> seeds, double spacing);
+
+  /// Holds distances from a point, m: to the nearest face between two cells, and to the second nearest one. Near an
+  /// edge of a cell, where three meet, both are small.
+  struct Distances {
+    double face, second;
+  };
+  [[nodiscard]] Distances distances(const Vector3& point) const;
+  [[nodiscard]] std::size_t size() const { return seeds_.size(); }
+
+ private:
+  [[nodiscard]] std::array<std::int64_t, 3> bin_of(const Vector3& point) const;
+
+  std::vector<Vector3> seeds_;  // sorted by bin
+  std::vector<std::size_t> begins_;
+  Vector3 lower_;
+  double edge_;  // of a bin, m
+  std::array<std::int64_t, 3> count_{};
+};
+
+/// Places the seeds of Kelvin's foam, whose cells are truncated octahedra, in a box and around it: a body-centred
+/// lattice with the first seed in the lower corner.
+/// @param spacing  cube root of the volume of a cell, m
+/// @throws InputError if there are more than ten million
+std::vector<Vector3> kelvin_seeds(const Vector3& lower, const Vector3& upper, double spacing);
+
+/// Places seeds at random in a box and around it, none nearer to another than 0.7 spacings.
+/// @throws InputError if there are more than ten million
+std::vector<Vector3> random_seeds(const Vector3& lower, const Vector3& upper, double spacing,
+                                  std::uint64_t seed);
+
+}  // namespace whipple::solids

@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The packages of cpack: what is in them, the tarball from a folder of its own, and where mmdebstrap and a mirror are at
+hand (as root), the installation into an empty Debian 12: a user without rights computes the first tutorial there, and
+removing the packages leaves nothing.
+
+Usage: packages.py BUILD_FOLDER ROOT FOLDER
+"""
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+BUILD, ROOT, FOLDER = (pathlib.Path(argument).resolve() for argument in sys.argv[1:])
+sys.path.insert(0, str(ROOT / "tests/unit"))
+from checks import require  # noqa: E402
+
+PROGRAM, LIBRARY, PYTHON = "whipple", "libwhipple-dev", "python3-whipple"
+HOLDS = {
+    PROGRAM: ("usr/bin/whipple", "usr/bin/whipple-md", "usr/bin/whipple-fit", "usr/share/whipple/materials/copper.toml",
+              "usr/share/man/man1/whipple.1.gz", "usr/share/bash-completion/completions/whipple",
+              "usr/share/zsh/vendor-completions/_whipple", "usr/share/fish/vendor_completions.d/whipple.fish",
+              "usr/share/whipple/cases/whipple_shield/case.toml", "usr/share/doc/whipple/copyright"),
+    LIBRARY: ("usr/include/whipple/solver/simulation.hpp", "usr/share/doc/libwhipple-dev/copyright"),
+    PYTHON: ("usr/lib/python3/dist-packages/whipple/runs.py", "usr/share/doc/python3-whipple/copyright"),
+}
+
+
+def output(*command, **options):
+    done = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False, **options)
+    require(done.returncode == 0, f"{' '.join(map(str, command))}: {done.returncode}\n{done.stdout[-3000:]}")
+    return done.stdout
+
+
+def check_contents(packages):
+    for name, paths in HOLDS.items():
+        held = {line.split()[5].removeprefix("./") for line in output("dpkg-deb", "-c", packages[name]).splitlines()}
+        require(not (lost := set(paths) - held), f"{name} lacks {lost}")
+        others = [path for other in HOLDS if other != name for path in HOLDS[other]]
+        require(not held & set(others), f"{name} holds {held & set(others)}")
+    require("libp4est" in output("dpkg-deb", "-f", packages[PROGRAM], "Depends"), "libraries that the program needs")
+    files = FOLDER / "files"
+    output("dpkg-deb", "-x", packages[PROGRAM], files)
+    require("GPL-2+" in (files / "usr/share/doc/whipple/copyright").read_text(), "the licence of the executables")
+    told = output(files / "usr/bin/whipple", "materials", cwd=FOLDER)
+    require("copper" in told, "the program finds its materials beside itself")
+
+
+def check_tarball(tarball):
+    output("tar", "xzf", tarball, "-C", FOLDER)
+    moved = FOLDER / "moved"
+    next(FOLDER.glob("whipple-*-Linux")).rename(moved)
+    output(moved / "bin/whipple", "check", "whipple_shield/case.toml", "--brief", cwd=moved / "share/whipple/cases")
+
+
+def check_clean_root(packages):
+    if shutil.which("mmdebstrap") is None or os.geteuid() != 0:
+        print("not done: installation into an empty root (mmdebstrap, as root)")
+        return
+    root = FOLDER / "root"
+    done = subprocess.run(["mmdebstrap", "--quiet", "--variant=minbase", "bookworm", root], check=False)
+    if done.returncode != 0:
+        print("not done: installation into an empty root: no mirror of Debian")
+        return
+    environment = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "DEBIAN_FRONTEND": "noninteractive", "LANG": "C.UTF-8"}
+    (root / "packages").mkdir()
+    for name in (PROGRAM, PYTHON):
+        shutil.copy(packages[name], root / "packages")
+    shutil.copy(ROOT / "docs/tutorials/first_impact.md", root / "packages")
+    shutil.copy(ROOT / "tests/unit/tutorial.py", root / "packages")
+    shutil.copy(ROOT / "tests/unit/checks.py", root / "packages")
+    before = set(output("find", root / "usr", "-path", "*whipple*").splitlines())
+    inside = ("unshare", "--mount", "sh", "-c", f"mount -t proc proc {root}/proc; mount --rbind /sys {root}/sys; exec chroot {root} \"$@\"", "sh")
+    output(*inside, "apt-get", "update", "-qq", env=environment)
+    output(*inside, "sh", "-c", "apt-get install -y -qq --no-install-recommends /packages/*.deb python3-h5py python3-matplotlib", env=environment)
+    output(*inside, "useradd", "--create-home", "user", env=environment)
+    user = (*inside, "su", "user", "-c")
+    require('"version"' in output(*user, "whipple version --json", env=environment), "the version")
+    print(output(*user, "/usr/bin/python3 /packages/tutorial.py /packages/first_impact.md /home/user/first", env=environment), end="")
+    output(*user, "/usr/bin/python3 -c 'import whipple.eos; whipple.eos.material(\"copper\")'", env=environment)
+    output(*inside, "apt-get", "purge", "-y", "-qq", PROGRAM, PYTHON, env=environment)
+    after = set(output("find", root / "usr", "-path", "*whipple*").splitlines())
+    require(after == before, f"left behind: {sorted(after - before)[:5]}")
+    print("installed into an empty Debian 12, run there by a user, removed")
+
+
+shutil.rmtree(FOLDER, ignore_errors=True)
+FOLDER.mkdir(parents=True)
+output("cpack", "--config", BUILD / "CPackConfig.cmake", "-B", FOLDER / "packages", cwd=BUILD)
+found = {path.name.split("_")[0]: path for path in (FOLDER / "packages").glob("*.deb")}
+require(set(found) == set(HOLDS), f"packages: {sorted(found)}")
+check_contents(found)
+check_tarball(next((FOLDER / "packages").glob("*.tar.gz")))
+check_clean_root(found)
