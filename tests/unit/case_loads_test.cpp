@@ -63,6 +63,26 @@ TEST(CaseLoads, FaultsNameTheKeyAndWhatIsAccepted) {
   EXPECT_EQ(error_of(load("pressure = \"1 MPa\"\nface = \"x_lower\"\n")), "");
 }
 
+// The nodes of elements and bars lie at their surface: a thin box there holds material.
+TEST(CaseLoads, BoxesOnBarsAndElementsTouchThem) {
+  const std::string bars =
+      "[[body]]\nname = \"bars\"\nmaterial = \"copper.toml\"\ndiscretization = { method = \"bars\", "
+      "bar_diameter = 1e-4 }\n[[body.bar]]\nfrom = [0.001, 0.001, 0.001]\nto = [0.005, 0.001, 0.001]\n";
+  const std::string block =
+      "[[body]]\nname = \"block\"\nmaterial = \"copper.toml\"\ndiscretization = { method = "
+      "\"finite_elements\" }\nshape = { box = { lower = [0.001, 0.001, 0.001], upper = [0.005, 0.005, 0.005] "
+      "} }\n";
+  for (const std::string& body : {bars, block}) {
+    const auto with_box = [&](const std::string& bounds) {
+      return with_wall + body + "[[load]]\nforce = [1, 0, 0]\nbox = { " + bounds + " }\n";
+    };
+    const std::string at_end = "lower = [0.00099, 0, 0], upper = [0.00101, 0.01, 0.01]";
+    EXPECT_EQ(error_of(with_box(at_end)).find("touches nothing"), std::string::npos)
+        << error_of(with_box(at_end));
+    expect_error(with_box("lower = [0.006, 0, 0], upper = [0.007, 0.01, 0.01]"), {"touches nothing"});
+  }
+}
+
 TEST(CaseLoads, AreWrittenAndReadAgain) {
   const Case setup =
       read_case_text(load("pressure = \"1 MPa\"\nface = \"x_lower\"\ntimes = [0, 1e-6]\nfactors = [0, 1]\n"
