@@ -81,7 +81,7 @@ void AppliedLoads::begin() {
   for (std::size_t i = 0; i < now.size(); ++i) {
     Applied& load = applied_[i];
     if (!load.of.is_force()) continue;
-    // What leaves the region takes its share of the force away; what enters it shares the force.
+    // What leaves the region takes its part of the force away; what enters it shares the force.
     load.acceleration =
         load.of.table.mean(time, dt) / std::max(now[i], state_.run.loaded_mass[i]) * load.force;
   }
