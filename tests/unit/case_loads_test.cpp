@@ -57,8 +57,8 @@ TEST(CaseLoads, FaultsNameTheKeyAndWhatIsAccepted) {
   const std::string away = "box = { lower = [0.0005, 0, -0.01], upper = [0.01, 0.01, 0.01] }\n";
   expect_error(load("pressure = \"1 MPa\"\nface = \"x_lower\"\n" + away),
                {"within a cell of its face, x = 0 m to 0.001 m", "found x = 0.0005 m to 0.01 m"});
-  const std::string unreadable = error_of(load("pressure = \"1 Mpsi\"\nface = \"x_lower\"\n"));
-  EXPECT_NE(unreadable.find("Mpsi"), std::string::npos) << unreadable;
+  const std::string unreadable = error_of(load("pressure = \"1 Mfoo\"\nface = \"x_lower\"\n"));
+  EXPECT_NE(unreadable.find("Mfoo"), std::string::npos) << unreadable;
   EXPECT_EQ(unreadable.find("'face' is that"), std::string::npos) << unreadable;
   EXPECT_EQ(error_of(load("pressure = \"1 MPa\"\nface = \"x_lower\"\n")), "");
 }
