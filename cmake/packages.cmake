@@ -1,20 +1,11 @@
-# Manual page and completion of shells, written by the program itself; packages (scripts/package.sh).
+# Manual page and completion of shells, written by the program itself when it is installed; packages (scripts/package.sh).
 set(folder ${PROJECT_BINARY_DIR}/share)
-set(outputs "")
-foreach(entry "whipple.bash completion bash" "_whipple completion zsh" "whipple.fish completion fish" "whipple.1 man")
-  separate_arguments(words UNIX_COMMAND "${entry}")
-  list(POP_FRONT words file)
-  add_custom_command(OUTPUT ${folder}/${file} COMMAND ${CMAKE_COMMAND} -E make_directory ${folder}
-    COMMAND whipple ${words} > ${folder}/${file} DEPENDS whipple VERBATIM COMMENT "Writing share/${file}")
-  list(APPEND outputs ${folder}/${file})
-endforeach()
-add_custom_command(OUTPUT ${folder}/whipple.1.gz COMMAND gzip -9nkf ${folder}/whipple.1 DEPENDS ${folder}/whipple.1 VERBATIM)
-list(APPEND outputs ${folder}/whipple.1.gz)
-add_custom_target(whipple_manual ALL DEPENDS ${outputs})
-install(FILES ${folder}/whipple.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL)
-install(FILES ${folder}/whipple.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME whipple OPTIONAL)
-install(FILES ${folder}/_whipple DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions OPTIONAL)
-install(FILES ${folder}/whipple.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d OPTIONAL)
+install(CODE "execute_process(COMMAND ${CMAKE_COMMAND} -DWHIPPLE=$<TARGET_FILE:whipple> -DFOLDER=${folder}
+  -P ${PROJECT_SOURCE_DIR}/cmake/write_manual.cmake COMMAND_ERROR_IS_FATAL ANY)")
+install(FILES ${folder}/whipple.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+install(FILES ${folder}/whipple.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME whipple)
+install(FILES ${folder}/_whipple DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
+install(FILES ${folder}/whipple.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 foreach(package whipple libwhipple-dev python3-whipple)
   install(FILES packaging/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} COMPONENT ${package})
 endforeach()

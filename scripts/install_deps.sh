@@ -6,10 +6,10 @@ set -euo pipefail
 usage() {
   cat <<'TEXT'
 usage: scripts/install_deps.sh [--dev] [--kim] [--paraview] [--site] [--list]
-  --dev        also clang-tidy-19 (scripts/lint.sh)
+  --dev        also clang-tidy-19 (scripts/lint.sh), zsh, fish and man (test app_completion)
   --kim        also the models of OpenKIM (250 MB): more interatomic potentials for `whipple md`
   --paraview   also ParaView with its Python interface and a virtual screen (tests of the output files)
-  --site       also Sphinx with MyST and Furo, KaTeX, Doxygen, Chromium (scripts/site.sh and its test)
+  --site       also Sphinx with MyST and Furo, KaTeX, Node, Doxygen, Chromium (scripts/site.sh and its test)
   --list       print the packages and whether each is installed; install nothing
 TEXT
 }
@@ -27,10 +27,10 @@ packages=(
 list=false
 for argument in "$@"; do
   case $argument in
-    --dev) packages+=(clang-tidy-19) ;;
+    --dev) packages+=(clang-tidy-19 zsh fish man-db) ;;
     --kim) packages+=(openkim-models) ;;
     --paraview) packages+=(paraview python3-paraview xvfb xauth) ;;
-    --site) packages+=(python3-sphinx python3-myst-parser furo libjs-katex doxygen chromium chromium-driver) ;;
+    --site) packages+=(python3-sphinx python3-myst-parser furo libjs-katex nodejs doxygen chromium chromium-driver) ;;
     --list) list=true ;;
     -h | --help) usage; exit 0 ;;
     *) echo "install_deps.sh: unknown option '$argument'" >&2; usage >&2; exit 2 ;;

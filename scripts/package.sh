@@ -10,7 +10,7 @@ if [[ ${1:-} == -h || ${1:-} == --help || $# -gt 1 ]]; then
 fi
 folder=$(realpath -m "${1:-build/packages}")
 cmake --preset release >/dev/null
-cmake --build build/release --parallel "$(nproc)" --target whipple whipple-md whipple-fit whipple_python_eos whipple_manual
+cmake --build build/release --parallel "$(nproc)" --target whipple whipple-md whipple-fit whipple_python_eos
 (cd build/release && cpack -B "$folder")
 rm -rf "$folder/_CPack_Packages"
 ls -l "$folder"

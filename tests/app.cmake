@@ -25,14 +25,14 @@ if(WHIPPLE_PYTHON)
   set_tests_properties(studies PROPERTIES LABELS fast TIMEOUT 120)
   # The site of the documents: formulas as TeX; all of it built, links followed, opened in a browser.
   add_test(NAME site_formulas COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/site_formulas.py ${PROJECT_SOURCE_DIR})
-  set_tests_properties(site_formulas PROPERTIES LABELS fast TIMEOUT 120)
+  set_tests_properties(site_formulas PROPERTIES LABELS fast TIMEOUT 120 SKIP_RETURN_CODE 77)
   add_test(NAME site_pages COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/site_pages.py ${PROJECT_SOURCE_DIR}
            ${CMAKE_CURRENT_BINARY_DIR}/site)
   set_tests_properties(site_pages PROPERTIES LABELS "browser;long" TIMEOUT 300 COST 60 SKIP_RETURN_CODE 77)
   # What shells and man read, from the parser of the program.
   add_test(NAME app_completion COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/app_completion.py $<TARGET_FILE:whipple>
            ${CMAKE_CURRENT_BINARY_DIR}/app_completion)
-  set_tests_properties(app_completion PROPERTIES LABELS fast TIMEOUT 120)
+  set_tests_properties(app_completion PROPERTIES LABELS fast TIMEOUT 120 SKIP_RETURN_CODE 77)
   add_test(NAME app_surroundings COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/app_surroundings.py
            ${PROJECT_BINARY_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml)
   set_tests_properties(app_surroundings PROPERTIES LABELS fast TIMEOUT 300)
@@ -64,11 +64,14 @@ if(WHIPPLE_PYTHON AND NOT WHIPPLE_SANITIZE)
   set_tests_properties(installed_library PROPERTIES LABELS fast TIMEOUT 300 COST 20)
 endif()
 
-# Packages, and where it can be done their installation into an empty Debian: minutes.
+# Packages, and where it is asked for (docs/manual/testing.md) their installation into an empty Debian: minutes.
 if(TARGET whipple_python_eos AND WHIPPLE_PYTHON AND NOT WHIPPLE_SANITIZE)
   add_test(NAME packages COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/installed/packages.py ${PROJECT_BINARY_DIR}
            ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/packages)
-  set_tests_properties(packages PROPERTIES LABELS long TIMEOUT 1200 COST 200)
+  add_test(NAME packages_installed COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/installed/packages.py ${PROJECT_BINARY_DIR}
+           ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/packages --install)
+  set_tests_properties(packages PROPERTIES LABELS long TIMEOUT 600 COST 100 FIXTURES_SETUP packages)
+  set_tests_properties(packages_installed PROPERTIES LABELS long TIMEOUT 1200 COST 200 FIXTURES_REQUIRED packages SKIP_RETURN_CODE 77)
 endif()
 
 # Coarse runs against stored numbers, half a minute of one core. Sanitizers would make it minutes.
@@ -85,7 +88,7 @@ add_test(NAME app_cite COMMAND whipple cite copper)
 set_tests_properties(app_cite PROPERTIES LABELS fast
   PASS_REGULAR_EXPRESSION "title = {${title}}.*copper.toml.* material +GRAY: Liu.* eos +Liu.* strength +Johnson.* failure +calibrated")
 
-# Tutorials, as they stand: those without the Python module, and those that need it.
+# Tutorials, as they stand: those without the Python module, and those that need it. The limit of what runs them is lower.
 if(WHIPPLE_PYTHON AND NOT WHIPPLE_SANITIZE)
   set(tutorials first_impact shield import steering own_metal)
   if(TARGET whipple_python_eos)
@@ -98,5 +101,8 @@ if(WHIPPLE_PYTHON AND NOT WHIPPLE_SANITIZE)
 PYTHONPATH=${PROJECT_BINARY_DIR}/python;WHIPPLE_PROGRAM=$<TARGET_FILE:whipple>"
       ENVIRONMENT_MODIFICATION "PATH=path_list_prepend:${PROJECT_BINARY_DIR}/bin")
   endforeach()
+  add_test(NAME tutorial_pages COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/tutorial_pages.py
+           ${CMAKE_CURRENT_BINARY_DIR}/tutorial_pages)
+  set_tests_properties(tutorial_pages PROPERTIES LABELS fast TIMEOUT 120)
   set_tests_properties(tutorial_own_metal PROPERTIES LABELS "long" COST 40)
 endif()

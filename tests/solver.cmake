@@ -74,6 +74,9 @@ if(WHIPPLE_PYTHON)
   set_tests_properties(run_processes PROPERTIES LABELS fast TIMEOUT 300 COST 20)
   add_test(NAME run_replay COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/parallel/run_replay.py $<TARGET_FILE:whipple>
            ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml ${CMAKE_CURRENT_BINARY_DIR}/run_replay)
+  add_test(NAME run_bodies_from_files COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/parallel/bodies_from_files.py
+           $<TARGET_FILE:whipple> ${CMAKE_CURRENT_BINARY_DIR}/run_bodies_from_files)
+  set_tests_properties(run_bodies_from_files PROPERTIES LABELS fast TIMEOUT 300)
   add_test(NAME run_stop COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/parallel/run_stop.py $<TARGET_FILE:whipple>
            ${CMAKE_CURRENT_SOURCE_DIR}/data ${CMAKE_CURRENT_BINARY_DIR}/run_stop)
   set_tests_properties(run_stop PROPERTIES LABELS fast TIMEOUT 300 COST 5)

@@ -193,9 +193,18 @@ class Line:
                 return f"\\text{{{text}}}"
             text += "".join(self.take() for _ in range(gap + 1))
 
+    def is_cross(self):
+        """Return whether the name here is the cross of a product: an x, in spaces, between two letters or two numbers."""
+        around = self.tokens[max(self.at - 2, 0):self.at] + self.tokens[self.at + 1:self.at + 3]
+        return self.token() == "x" and len(around) == 4 and around[1] == around[2] == " " and any(
+            all(re.fullmatch(kind, around[i]) for i in (0, 3)) for kind in ("[A-Za-z]", r"\d+(\.\d+)?"))
+
     def factor(self):
         """Read one factor with all that is attached to it."""
         token = self.token()
+        if self.is_cross():
+            self.take()
+            return "\\times"
         if token[:1].isalpha():
             if token == "sqrt" and self.token(1) in ("(", "["):
                 self.take()

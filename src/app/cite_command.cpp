@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "src/app/build_info.hpp"
+#include "src/app/completion_command.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
 #include "src/core/base/text_table.hpp"
@@ -89,7 +90,8 @@ void print_program() {
 void add_cite_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("cite", "How to cite the program, and the sources of materials");
   const auto names = std::make_shared<std::vector<std::string>>();
-  command->add_option("materials", *names, "Material files, names of the library, or run directories");
+  offer_materials(
+      command->add_option("materials", *names, "Material files, names of the library, or run directories"));
   command->footer("Example:\n  whipple cite copper aluminium");
   command->callback([names] {
     std::string sources;

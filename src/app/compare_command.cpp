@@ -18,6 +18,7 @@
 #include "eos/experiments/calibration.hpp"
 #include "eos/experiments/comparison.hpp"
 #include "src/app/compare_calibration.hpp"
+#include "src/app/completion_command.hpp"
 #include "src/app/eos_figure.hpp"
 #include "src/app/eos_options.hpp"
 #include "src/app/eos_remarks.hpp"
@@ -336,7 +337,9 @@ void add_compare_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("compare",
                                          "Compare equations of state with measured Hugoniots, isotherms, "
                                          "isentropes, sound speeds and melting lines");
-  command->add_option("materials", options->materials, "Material files, or names of the library")->required();
+  offer_materials(
+      command->add_option("materials", options->materials, "Material files, or names of the library")
+          ->required());
   command
       ->add_option("--with", options->experiments,
                    "Tables of measurements (docs/manual/equations_of_state.md), or names of those that come "

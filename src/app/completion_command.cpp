@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <memory>
 #include <string_view>
+#include <utility>
 
 #include "src/app/command_line.hpp"
+#include "src/material/material_file.hpp"
 
 namespace whipple::app {
 namespace {
@@ -69,56 +72,85 @@ const CLI::Option* option_of(const CLI::App& command, const std::string& name) {
   return nullptr;
 }
 
-/// Returns the words that an option accepts, as its help shows them: "TEXT:{vtu,csv}".
-std::vector<std::string> accepted(const CLI::Option& option) {
+std::map<const CLI::Option*, Candidates>& offers() {
+  static std::map<const CLI::Option*, Candidates> all;
+  return all;
+}
+
+/// Returns the words that are offered for an option, otherwise those that it accepts, as its help shows them:
+/// "TEXT:{vtu,csv}".
+std::vector<std::string> accepted(const CLI::Option& option, const std::vector<std::string>& before) {
+  if (const auto found = offers().find(&option); found != offers().end()) return found->second(before);
   const std::string type = option.get_type_name();
   const std::size_t begin = type.find('{'), end = type.rfind('}');
   if (begin == std::string::npos || end == std::string::npos) return {};
   return CLI::detail::split(type.substr(begin + 1, end - begin - 1), ',');
 }
 
-/// Returns the words of the positional argument in this place; the last one may take all that follow.
-std::vector<std::string> accepted_positional(const CLI::App& command, std::size_t place) {
+/// Returns the words of the next positional argument; the last one may take all that follow.
+std::vector<std::string> accepted_positional(const CLI::App& command,
+                                             const std::vector<std::string>& before) {
   std::size_t at = 0;
   for (const CLI::Option* option : command.get_options()) {
     if (!option->get_positional()) continue;
-    if (at == place || option->get_expected_max() > 1) return accepted(*option);
+    if (at == before.size() || option->get_expected_max() > 1) return accepted(*option, before);
     ++at;
   }
   return {};
 }
 
+bool is_equals_sign(const std::string& word) { return word.size() == 1 && word.front() == '='; }
+
 }  // namespace
+
+void offer(const CLI::Option* option, Candidates candidates) { offers()[option] = std::move(candidates); }
+
+void offer_materials(const CLI::Option* option) {
+  offer(option, [](const std::vector<std::string>& /*before*/) {
+    std::vector<std::string> names;
+    for (const LibraryMaterial& material : library_materials())
+      names.push_back(material.file.stem().string());
+    return names;
+  });
+}
 
 std::vector<std::string> completions(const CLI::App& app, const std::vector<std::string>& words) {
   const CLI::App* command = &app;
   const CLI::Option* waiting = nullptr;  // an option whose value comes next
-  std::size_t place = 0;                 // of the next positional argument
-  const std::string last = words.empty() ? std::string() : words.back();
+  std::vector<std::string> before;       // positional words of the command
+  std::string last = words.empty() || is_equals_sign(words.back()) ? std::string() : words.back();
   for (std::size_t i = 0; i + 1 < words.size(); ++i) {
     const std::string& word = words[i];
     if (waiting != nullptr) {
-      waiting = nullptr;
+      if (!is_equals_sign(word)) waiting = nullptr;
     } else if (word.starts_with('-')) {
       const CLI::Option* option = option_of(*command, word);
       if (option != nullptr && option->get_items_expected_max() > 0) waiting = option;
     } else if (const CLI::App* subcommand = subcommand_of(*command, word)) {
       command = subcommand;
-      place = 0;
+      before.clear();
     } else {
-      ++place;
+      before.push_back(word);
     }
+  }
+  std::string start;  // what precedes the candidates in the last word: "--format="
+  if (const std::size_t sign = last.find('='); last.starts_with("--") && sign != std::string::npos) {
+    waiting = option_of(*command, last.substr(0, sign));
+    start = last.substr(0, sign + 1);
+    last.erase(0, sign + 1);
+    if (waiting == nullptr) return {};
   }
   std::vector<std::string> candidates;
   if (waiting != nullptr) {
-    candidates = accepted(*waiting);
+    candidates = accepted(*waiting, before);
   } else if (last.starts_with('-')) {
     candidates = option_names(*command);
   } else if (candidates = subcommand_names(*command); candidates.empty()) {
-    candidates = accepted_positional(*command, place);
+    candidates = accepted_positional(*command, before);
   }
   std::erase_if(candidates, [&](const std::string& candidate) { return !candidate.starts_with(last); });
   std::ranges::sort(candidates);
+  for (std::string& candidate : candidates) candidate.insert(0, start);
   return candidates;
 }
 

@@ -13,6 +13,7 @@
 #include "eos/files/models.hpp"
 #include "md_fitting/elements/element_defaults.hpp"
 #include "md_fitting/plan/plan.hpp"
+#include "src/app/completion_command.hpp"
 #include "src/case/case.hpp"
 #include "src/case/shapes/shape.hpp"
 #include "src/core/base/catalogue.hpp"
@@ -166,8 +167,10 @@ void add_describe_command(CLI::App& app) {
   auto options = std::make_shared<DescribeOptions>();
   CLI::App* command =
       app.add_subcommand("describe", "Every key of the inputs: unit, range, default, meaning");
-  command->add_option("topic", options->topic, "What to describe; without it the topics are listed");
-  command->add_option("name", options->name, "A model, criterion or shape");
+  offer(command->add_option("topic", options->topic, "What to describe; without it the topics are listed"),
+        [](const std::vector<std::string>& /*before*/) { return topic_names(); });
+  offer(command->add_option("name", options->name, "A model, criterion or shape"),
+        [](const std::vector<std::string>& before) { return find_topic(before.front()).entries(); });
   command->add_flag("--markdown", options->markdown,
                     "Everything, as the page docs/manual/input_reference.md");
   command->add_flag("--json-schema", options->json_schema,

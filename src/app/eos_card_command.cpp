@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "src/app/completion_command.hpp"
 #include "src/app/eos_options.hpp"
 #include "src/app/eos_table.hpp"
 #include "src/core/base/error.hpp"
@@ -49,7 +50,8 @@ void add_eos_card(CLI::App& eos_command) {
   auto o = std::make_shared<CardOptions>();
   CLI::App* command = eos_command.add_subcommand(
       "card", "Write the equation of state as a card of LS-DYNA or OpenRadioss (mie_gruneisen, jwl)");
-  command->add_option("material", o->material, "Material file, or name of the library")->required();
+  offer_materials(
+      command->add_option("material", o->material, "Material file, or name of the library")->required());
   command->add_option("--format", o->format, "The other program")
       ->required()
       ->check(CLI::IsMember(word_list<decks::CardFormat>()));

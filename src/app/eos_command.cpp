@@ -16,6 +16,7 @@
 #include "eos/curves/samples.hpp"
 #include "eos/curves/tables.hpp"
 #include "eos/experiments/calibration.hpp"
+#include "src/app/completion_command.hpp"
 #include "src/app/eos_audit.hpp"
 #include "src/app/eos_card_command.hpp"
 #include "src/app/eos_figure.hpp"
@@ -200,7 +201,8 @@ void run_samples(const Request& request) {
 void add_query(CLI::App& command, const EosQuery& query) {
   auto request = std::make_shared<Request>();
   CLI::App* sub = command.add_subcommand(query.name, query.summary);
-  sub->add_option("materials", request->materials, "Material files, or names of the library")->required();
+  offer_materials(sub->add_option("materials", request->materials, "Material files, or names of the library")
+                      ->required());
   add_quantities(*sub, query.quantities, request->options);
   sub->add_option(
       "--csv", request->output.csv,
@@ -262,7 +264,7 @@ void add_audit(CLI::App& command) {
   auto name = std::make_shared<std::string>();
   CLI::App* audit = command.add_subcommand(
       "audit", "Is the equation of state sound, and where: limits, stability, identities, verdict");
-  audit->add_option("material", *name, "Material file, or name of the library")->required();
+  offer_materials(audit->add_option("material", *name, "Material file, or name of the library")->required());
   audit->footer("Example:\n  whipple eos audit copper");
   audit->callback([name] { print_audit(read_material(*name), eos::AuditDepth::full); });
 }
@@ -280,7 +282,8 @@ void add_plot(CLI::App& command) {
   auto plot = std::make_shared<Plot>();
   CLI::App* sub =
       command.add_subcommand("plot", "Diagrams of several loci, with phase boundaries and measurements");
-  sub->add_option("materials", plot->materials, "Material files, or names of the library")->required();
+  offer_materials(
+      sub->add_option("materials", plot->materials, "Material files, or names of the library")->required());
   sub->add_option(
          "--kind", plot->kind,
          "us-up: Hugoniots and their melting range; p-v: Hugoniot, isotherm, cold curve; p-t: solidus, "

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "src/app/completion_command.hpp"
 #include "src/app/eos_audit.hpp"
 #include "src/app/materials_table.hpp"
 #include "src/core/base/error.hpp"
@@ -120,7 +121,7 @@ void add_materials_command(CLI::App& app) {
   CLI::App* show = command->add_subcommand(
       "show",
       "Print a material file with its constants and sources, what follows from them, and where it is valid");
-  show->add_option("material", *name, "Material file, or name of the library")->required();
+  offer_materials(show->add_option("material", *name, "Material file, or name of the library")->required());
   show->callback([name] { show_material(*name); });
   const auto markdown = std::make_shared<bool>(false);
   command->add_flag(

@@ -3,12 +3,16 @@
 
 #include <H5public.h>
 #include <fmt/format.h>
+#include <gnu/libc-version.h>
 #include <mpi.h>
 #include <p4est_base.h>
+#include <sc.h>
 #include <spdlog/version.h>
+#include <zlib.h>
 
 #include <Eigen/Core>
 #include <array>
+#include <boost/version.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -18,6 +22,7 @@
 #include "src/app/build_info.hpp"
 #include "src/core/base/json.hpp"
 #include "src/core/base/simd.hpp"
+#include "src/core/input/library_version.hpp"
 
 namespace whipple::app {
 namespace {
@@ -44,7 +49,7 @@ struct Library {
   std::string licence;
 };
 
-/// Lists the libraries that the executable links, in the order in which they are printed.
+/// Lists the libraries that the executable links or includes, in the order in which they are printed.
 std::vector<Library> libraries() {
   return {
       {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION),
@@ -52,6 +57,7 @@ std::vector<Library> libraries() {
       {"HDF5", hdf5_version(), "BSD-3-Clause"},
       {"MPI", mpi_version(), "BSD-3-Clause"},
       {"p4est", P4EST_VERSION, "GPL-2.0-or-later"},
+      {"libsc", SC_VERSION, "LGPL-2.1-or-later"},
       {"CLI11", CLI11_VERSION, "BSD-3-Clause"},
       {"fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100),
        "MIT"},
@@ -60,6 +66,14 @@ std::vector<Library> libraries() {
        fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
                    NLOHMANN_JSON_VERSION_PATCH),
        "MIT"},
+      {"toml++", input::toml_library_version(), "MIT"},
+      {"Boost",
+       fmt::format("{}.{}.{}", BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100),
+       "BSL-1.0"},
+      {"UDUNITS", "2", "UCAR"},  // its header tells no more than the name udunits2
+      {"zlib", zlibVersion(), "Zlib"},
+      {"GCC", __VERSION__, "GPL-3.0-or-later WITH GCC-exception-3.1"},  // libstdc++, libgomp, libgcc
+      {"glibc", gnu_get_libc_version(), "LGPL-2.1-or-later"},
   };
 }
 

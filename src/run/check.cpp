@@ -73,8 +73,9 @@ std::vector<std::string> account_of(const cases::Case& setup, std::size_t body) 
     lines.insert(lines.end(), account.begin(), account.end());
     const double thinnest = part.smallest_extent(setup.bodies[body].velocity);
     if (std::isnan(thinnest)) return;
-    lines.push_back(
-        fmt::format("  {:.3g} cells across the thinnest part", thinnest / setup.geometry.cell_size));
+    const double cells = thinnest / setup.geometry.cell_size;
+    lines.push_back(fmt::format("  {:.3g} cells across the thinnest part{}", cells,
+                                cells < 1.0 ? ": warning: the grid does not resolve it" : ""));
   });
   return lines;
 }

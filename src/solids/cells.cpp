@@ -18,35 +18,32 @@ namespace {
 constexpr double margin = 2.5;  // spacings around the box, so that its cells have all neighbours
 
 void require_few(const Vector3& edges, double spacing) {
-  constexpr double most = 1e7;
+  constexpr double most = 1e6;
   const double count = (edges / spacing).prod();
   if (count <= most) return;
   throw InputError(fmt::format("{:.2g} cells of {:.3g} m fill the box; at most {:.0e}: enlarge 'cell'", count,
                                spacing, most));
 }
 
-}  // namespace
-
-Cells::Cells(std::vector<Vector3> seeds, double spacing) : seeds_(std::move(seeds)), edge_(spacing) {
-  lower_ = seeds_.front();
-  Vector3 upper = lower_;
-  for (const Vector3& x : seeds_) {
-    lower_ = lower_.cwiseMin(x);
+Raster raster_of(const std::vector<Vector3>& seeds, double spacing) {
+  Vector3 lower = seeds.front(), upper = lower;
+  for (const Vector3& x : seeds) {
+    lower = lower.cwiseMin(x);
     upper = upper.cwiseMax(x);
   }
-  for (std::size_t a = 0; a < 3; ++a) {
-    const auto axis = static_cast<Eigen::Index>(a);
-    count_[a] = 1 + static_cast<std::int64_t>((upper[axis] - lower_[axis]) / edge_);
-  }
-  const auto index = [&](const Vector3& x) {
-    const std::array<std::int64_t, 3> bin = bin_of(x);
-    return static_cast<std::size_t>((bin[0] * count_[1] + bin[1]) * count_[2] + bin[2]);
-  };
+  return {lower, upper, spacing};
+}
+
+}  // namespace
+
+Cells::Cells(std::vector<Vector3> seeds, double spacing)
+    : seeds_(std::move(seeds)), raster_(raster_of(seeds_, spacing)) {
+  const auto index = [&](const Vector3& x) { return raster_.index(raster_.bin_of(x)); };
   std::vector<std::size_t> order(seeds_.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return index(seeds_[i]); });
   std::vector<Vector3> sorted;
-  begins_.assign(static_cast<std::size_t>(count_[0] * count_[1] * count_[2]) + 1, 0);
+  begins_.assign(raster_.size() + 1, 0);
   for (const std::size_t i : order) {
     sorted.push_back(seeds_[i]);
     ++begins_[index(seeds_[i]) + 1];
@@ -55,30 +52,19 @@ Cells::Cells(std::vector<Vector3> seeds, double spacing) : seeds_(std::move(seed
   seeds_ = std::move(sorted);
 }
 
-std::array<std::int64_t, 3> Cells::bin_of(const Vector3& point) const {
-  std::array<std::int64_t, 3> bin{};
-  for (std::size_t a = 0; a < 3; ++a) {
-    const auto axis = static_cast<Eigen::Index>(a);
-    bin[a] = std::clamp(static_cast<std::int64_t>(std::floor((point[axis] - lower_[axis]) / edge_)),
-                        std::int64_t{0}, count_[a] - 1);
-  }
-  return bin;
-}
-
 Cells::Distances Cells::distances(const Vector3& point) const {
   constexpr std::int64_t reach = 2;  // bins: seeds farther than two spacings are no neighbours of the cell
-  const std::array<std::int64_t, 3> bin = bin_of(point);
+  const std::array<std::int64_t, 3> bin = raster_.bin_of(point);
   // The bins along z lie next to each other.
   const auto for_each_near = [&](auto&& f) {
     const std::int64_t from = std::max<std::int64_t>(0, bin[2] - reach),
-                       to = std::min(count_[2] - 1, bin[2] + reach);
+                       to = std::min(raster_.count[2] - 1, bin[2] + reach);
     for (std::int64_t i = std::max<std::int64_t>(0, bin[0] - reach);
-         i <= std::min(count_[0] - 1, bin[0] + reach); ++i) {
+         i <= std::min(raster_.count[0] - 1, bin[0] + reach); ++i) {
       for (std::int64_t j = std::max<std::int64_t>(0, bin[1] - reach);
-           j <= std::min(count_[1] - 1, bin[1] + reach); ++j) {
-        const std::int64_t row = (i * count_[1] + j) * count_[2];
-        for (std::size_t s = begins_[static_cast<std::size_t>(row + from)];
-             s < begins_[static_cast<std::size_t>(row + to) + 1]; ++s) {
+           j <= std::min(raster_.count[1] - 1, bin[1] + reach); ++j) {
+        for (std::size_t s = begins_[raster_.index({i, j, from})]; s < begins_[raster_.index({i, j, to}) + 1];
+             ++s) {
           f(s);
         }
       }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "src/core/base/tensor.hpp"
+#include "src/solids/bins.hpp"
 
 namespace whipple::solids {
 
@@ -24,23 +25,19 @@ class Cells {
   [[nodiscard]] std::size_t size() const { return seeds_.size(); }
 
  private:
-  [[nodiscard]] std::array<std::int64_t, 3> bin_of(const Vector3& point) const;
-
   std::vector<Vector3> seeds_;  // sorted by bin
   std::vector<std::size_t> begins_;
-  Vector3 lower_;
-  double edge_;  // of a bin, m
-  std::array<std::int64_t, 3> count_{};
+  Raster raster_;
 };
 
 /// Places the seeds of Kelvin's foam, whose cells are truncated octahedra, in a box and around it: a body-centred
 /// lattice with the first seed in the lower corner.
 /// @param spacing  cube root of the volume of a cell, m
-/// @throws InputError if there are more than ten million
+/// @throws InputError if there are more than a million
 std::vector<Vector3> kelvin_seeds(const Vector3& lower, const Vector3& upper, double spacing);
 
 /// Places seeds at random in a box and around it, none nearer to another than 0.7 spacings.
-/// @throws InputError if there are more than ten million
+/// @throws InputError if there are more than a million
 std::vector<Vector3> random_seeds(const Vector3& lower, const Vector3& upper, double spacing,
                                   std::uint64_t seed);
 

@@ -14,10 +14,30 @@
 
 namespace whipple::solids {
 
+/// Returns a piece of a foreign file for a message: at most 40 bytes, those that are no printable ASCII as \\x0A.
+inline std::string shown(std::string_view piece) {
+  constexpr std::size_t most = 40;
+  std::string text;
+  for (const char c : piece.substr(0, most)) {
+    const bool is_printable = c >= ' ' && c <= '~';
+    text += is_printable ? std::string(1, c) : fmt::format("\\x{:02X}", static_cast<unsigned char>(c));
+  }
+  return piece.size() > most ? text + "..." : text;
+}
+
+/// Returns a text whose letters of ASCII are small.
+inline std::string lower_case(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return result;
+}
+
 /// Walks through the lines of a text and the fields of a line, which blanks separate.
 class Fields {
  public:
-  Fields(std::string_view text, std::string file) : text_(text), file_(std::move(file)) {}
+  /// @param lines_before  of the file, before the text
+  Fields(std::string_view text, std::string file, std::size_t lines_before = 0)
+      : text_(text), file_(std::move(file)), number_(lines_before) {}
 
   /// Goes to the next line; returns whether there is one.
   bool next_line() {
@@ -30,7 +50,6 @@ class Fields {
   }
   /// Takes the next field of the line; empty at its end.
   std::string_view word() {
-    constexpr std::string_view blanks = " \t\r\v\f";
     line_.remove_prefix(std::min(line_.find_first_not_of(blanks), line_.size()));
     const std::size_t end = std::min(line_.find_first_of(blanks), line_.size());
     const std::string_view field = line_.substr(0, end);
@@ -42,7 +61,7 @@ class Fields {
   Number number() {
     const std::string_view field = word();
     const std::optional<Number> value = parsed<Number>(field);
-    if (!value) fail(fmt::format("expected a number instead of \"{}\"", field));
+    if (!value) fail(fmt::format("expected a number instead of \"{}\"", shown(field)));
     return *value;
   }
   template <class Number>
@@ -56,6 +75,8 @@ class Fields {
     }
     return value;
   }
+  /// Returns whether nothing but blanks is left of the line.
+  [[nodiscard]] bool is_blank() const { return line_.find_first_not_of(blanks) == std::string_view::npos; }
   [[nodiscard]] std::string_view rest() const { return line_; }
   /// Returns the number of bytes up to the next line.
   [[nodiscard]] std::size_t bytes_read() const { return std::min(at_, text_.size()); }
@@ -65,9 +86,10 @@ class Fields {
   }
 
  private:
+  static constexpr std::string_view blanks = " \t\r\v\f";
   std::string_view text_, line_;
   std::string file_;
-  std::size_t at_ = 0, number_ = 0;
+  std::size_t at_ = 0, number_;
 };
 
 }  // namespace whipple::solids

@@ -44,8 +44,9 @@ void require_size(const ImageHeader& header, std::size_t available, const std::s
                 : static_cast<double>(available) + (header.packing == Packing::text ? 1.0 : 0.0);
   if (needed > possible)
     throw InputError(fmt::format("{} do not fit into its {} bytes", described, available));
-  if (!header.origin.allFinite() || !(std::abs(header.steps.determinant()) > 0.0) ||
-      !header.steps.allFinite()) {
+  constexpr double flat = 1e-6;  // volume of a voxel in parts of the product of its edges
+  if (!header.origin.allFinite() || !header.steps.allFinite() ||
+      !(std::abs(header.steps.determinant()) > flat * header.steps.colwise().norm().prod())) {
     throw InputError(fmt::format("{}: the steps between voxels do not span space", file));
   }
 }
@@ -135,14 +136,14 @@ Image Image::with_values(const ImageHeader& header, std::string_view bytes, cons
   as_numbers.type = VoxelType::float64;
   as_numbers.order = std::endian::native;
   std::string values;
-  Fields fields(stored, file);
+  Fields fields(stored, file, static_cast<std::size_t>(std::ranges::count(bytes.substr(0, begin), '\n')));
   for (std::uint64_t voxel = 0; voxel < header.count();) {
     if (!fields.next_line())
       throw InputError(fmt::format("{}: {} values, expected {}", file, voxel, header.count()));
     for (std::string_view word = fields.word(); !word.empty() && voxel < header.count();
          word = fields.word()) {
       const auto value = Fields::parsed<double>(word);
-      if (!value) fields.fail(fmt::format("expected a number instead of \"{}\"", word));
+      if (!value) fields.fail(fmt::format("expected a number instead of \"{}\"", shown(word)));
       const auto raw = std::bit_cast<std::array<char, 8>>(*value);
       values.append(raw.data(), raw.size());
       ++voxel;
@@ -182,14 +183,17 @@ std::string unpacked(std::string_view bytes, std::uint64_t size, const std::stri
     throw InputError(fmt::format("{}: the packed values are damaged or too few", file));
   };
   if (size > most_ratio * (bytes.size() + margin)) damaged();
-  std::string result(size, '\0');
+  std::string result;
   z_stream stream{};
   constexpr int either = 32 + MAX_WBITS;  // gzip or zlib by its header
   if (inflateInit2(&stream, either) != Z_OK) throw InputError(fmt::format("{}: zlib does not start", file));
   std::size_t taken = 0, made = 0;
   int state = Z_OK;
   constexpr std::size_t portion = std::size_t{1} << 30U;  // zlib counts in 32 bits
+  constexpr std::size_t step = std::size_t{1} << 20U;
   while (state == Z_OK && made < size && taken < bytes.size()) {
+    // Memory is taken as it is filled: a damaged file of 1 MB may claim to hold 1 GB.
+    if (made == result.size()) result.resize(std::min<std::uint64_t>(size, made + std::max(made, step)));
     const std::size_t in = std::min(portion, bytes.size() - taken),
                       out = std::min(portion, result.size() - made);
     // zlib does not write to its input, but its interface is not const.
@@ -210,7 +214,7 @@ std::filesystem::path beside(std::string_view name, const std::string& file) {
   const std::filesystem::path path{std::string(name)};
   if (path.empty() || path != path.filename() || name == "." || name == "..") {
     throw InputError(
-        fmt::format("{}: the values are in \"{}\"; expected a file beside the header", file, name));
+        fmt::format("{}: the values are in \"{}\"; expected a file beside the header", file, shown(name)));
   }
   return path;
 }

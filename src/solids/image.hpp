@@ -44,6 +44,7 @@ struct ImageHeader {
   Packing packing = Packing::raw;
   std::size_t begin = 0;  ///< byte of the first value in its file, after unpacking of a packed whole file
   bool is_packed_whole = false;  ///< the header is packed together with the values
+  std::optional<double> unit;    ///< m, that the file states for its places
   std::filesystem::path data;    ///< file of the values, beside the header; empty: the same file
 
   [[nodiscard]] std::uint64_t count() const { return size[0] * size[1] * size[2]; }

@@ -36,14 +36,14 @@ Inside::Inside(std::vector<Triangle> triangles, const Audit& audit) : tree_(std:
   double half = half_;
   for (int level = 0; level < depth; ++level) {
     half *= 0.5;
-    divide(cells, half);
+    divide(cells, half, level + 1 == depth);
   }
 }
 
-void Inside::divide(std::vector<Cell>& cells, double half) {
+void Inside::divide(std::vector<Cell>& cells, double half, bool is_last) {
   constexpr double nearness =
       0.25;  // of the winding number to an integer: inside of a surface without 15 % it is 0.85
-  std::vector<std::array<Cell, 8>> divided(cells.size());
+  std::vector<std::array<Cell, 8>> divided(is_last ? 0 : cells.size());  // the smallest cells need no lists
   for (Cell& cell : cells) {
     nodes_[cell.node] = static_cast<std::int32_t>(nodes_.size());
     nodes_.resize(nodes_.size() + 8, mixed);
@@ -51,19 +51,26 @@ void Inside::divide(std::vector<Cell>& cells, double half) {
   const std::vector<Triangle>& triangles = tree_.triangles();
   parallel::for_each_uneven(cells.size(), [&](std::size_t c) {
     for (std::uint32_t octant = 0; octant < 8; ++octant) {
-      Cell& child = divided[c][octant];
+      Cell child;
       child.node = static_cast<std::uint32_t>(nodes_[cells[c].node]) + octant;
       for (std::uint32_t a = 0; a < 3; ++a) {
         child.middle[a] = cells[c].middle[a] + (((octant >> a) & 1U) != 0 ? half : -half);
       }
       for (const std::uint32_t t : cells[c].triangles) {
-        if (may_touch(triangles[t], child.middle, half * (1.0 + 1e-9))) child.triangles.push_back(t);
+        if (!may_touch(triangles[t], child.middle, half * (1.0 + 1e-9))) continue;
+        child.triangles.push_back(t);
+        if (is_last) break;
       }
-      if (!child.triangles.empty()) continue;
+      if (!child.triangles.empty()) {
+        if (!is_last) divided[c][octant] = std::move(child);
+        continue;
+      }
       const double winding = std::abs(tree_.winding_number(child.middle));
       if (winding < nearness) nodes_[child.node] = outside;
       if (winding > 1.0 - nearness) nodes_[child.node] = inside;
+      if (!is_last) divided[c][octant] = std::move(child);
     }
+    cells[c].triangles = {};
   });
   cells.clear();
   for (auto& eight : divided) {

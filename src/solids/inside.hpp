@@ -31,7 +31,7 @@ class Inside {
     std::uint32_t node;
     std::vector<std::uint32_t> triangles;  // that may touch it
   };
-  void divide(std::vector<Cell>& cells, double half);
+  void divide(std::vector<Cell>& cells, double half, bool is_last);
 
   WindingTree tree_;
   Vector3 middle_;

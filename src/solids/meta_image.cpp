@@ -38,12 +38,12 @@ ImageHeader read_meta_image_header(std::string_view bytes, const std::string& fi
     if (!lines.next_line()) lines.fail("the header ends before ElementDataFile");
     const std::string_view key = lines.word();
     if (key.empty()) continue;
-    if (lines.word() != "=") lines.fail(fmt::format("\"{}\" is no \"Key = value\"", key.substr(0, 40)));
+    if (lines.word() != "=") lines.fail(fmt::format("\"{}\" is no \"Key = value\"", shown(key)));
     const auto truth = [&] {
       const std::string_view word = lines.word();
       if (word != "True" && word != "true" && word != "1" && word != "False" && word != "false" &&
           word != "0") {
-        lines.fail(fmt::format("'{}' is \"{}\": expected True or False", key, word));
+        lines.fail(fmt::format("'{}' is \"{}\": expected True or False", shown(key), shown(word)));
       }
       return word == "True" || word == "true" || word == "1";
     };
@@ -51,11 +51,12 @@ ImageHeader read_meta_image_header(std::string_view bytes, const std::string& fi
       if (lines.number<int>() != 3) lines.fail("expected 3 dimensions");
     } else if (key == "DimSize") {
       for (auto& n : header.size) n = lines.number<std::uint64_t>();
+      if (!lines.is_blank()) lines.fail("'DimSize' has more than three numbers");
       has_size = true;
     } else if (key == "ElementType") {
       const std::string_view word = lines.word();
       const auto* found = std::ranges::find(type_names, word, &TypeName::name);
-      if (found == type_names.end()) lines.fail(fmt::format("ElementType \"{}\" is not known", word));
+      if (found == type_names.end()) lines.fail(fmt::format("ElementType \"{}\" is not known", shown(word)));
       header.type = found->type;
       has_type = true;
     } else if (key == "ElementSpacing") {

@@ -72,6 +72,10 @@ ImageHeader read_nifti_header(std::string_view bytes, const std::string& file) {
     header.slope = real(112);
     header.intercept = real(116);
   }
+  constexpr std::array<double, 4> units = {0.0, 1.0, 1e-3, 1e-6};  // m, by the code of space
+  const auto code = static_cast<std::size_t>(number_at<std::uint8_t>(bytes, 123) & 7U);
+  if (code >= units.size()) throw InputError(fmt::format("{}: unit {} of lengths is not known", file, code));
+  if (code > 0) header.unit = units[code];
   if (integer(254) > 0) {  // sform
     for (Eigen::Index a = 0; a < 3; ++a) {
       const auto row = 280 + 16 * static_cast<std::size_t>(a);

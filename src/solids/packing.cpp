@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "src/core/base/error.hpp"
@@ -98,20 +99,24 @@ std::vector<Ball> pack(const PackingOrder& order) {
     balls.push_back(
         {order.lower + wall + part.cwiseProduct(order.upper - order.lower - 2.0 * wall), radii[i]});
   }
-  constexpr int most_rounds = 5000;
+  constexpr int most_rounds = 5000, patience = 300;
+  constexpr double progress = 0.98;  // of the overlap within the rounds of patience
   const double apart = std::cbrt((order.upper - order.lower).prod() / static_cast<double>(balls.size()));
   Bins bins(order.lower, order.upper, std::max(2.01 * largest, 0.5 * apart));
-  double overlap = 0.0;
-  for (int round = 0; round < most_rounds; ++round) {
+  double least = std::numeric_limits<double>::infinity();
+  int least_round = 0, round = 0;
+  for (; round < most_rounds && round - least_round < patience; ++round) {
     std::vector<Ball> before = balls;
-    overlap = push_apart(balls, bins, order);
+    const double overlap = push_apart(balls, bins, order);
     if (overlap <= 0.0) return before;  // those of which it was measured
+    if (overlap > progress * least) continue;
+    least = overlap;
+    least_round = round;
   }
   throw InputError(
       fmt::format("a fraction of {} is not reached: {} spheres still overlap by {:.2g} of their distance "
-                  "after {} rounds; equal "
-                  "spheres reach about 0.55",
-                  order.fraction, balls.size(), overlap, most_rounds));
+                  "after {} rounds; equal spheres reach about 0.55",
+                  order.fraction, balls.size(), least, round));
 }
 
 }  // namespace whipple::solids

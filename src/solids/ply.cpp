@@ -75,21 +75,22 @@ class PlyReader {
         } else if (word == "binary_big_endian") {
           coding_ = Coding::big_endian;
         } else {
-          fields_.fail(
-              fmt::format("format \"{}\"; known: ascii, binary_little_endian, binary_big_endian", word));
+          fields_.fail(fmt::format("format \"{}\"; known: ascii, binary_little_endian, binary_big_endian",
+                                   shown(word)));
         }
       } else if (key == "element") {
         const std::string name(fields_.word());
         const auto count = fields_.number<std::uint64_t>();
         if (count > bytes_.size()) {
-          fields_.fail(fmt::format("{} elements \"{}\" in a file of {} bytes", count, name, bytes_.size()));
+          fields_.fail(
+              fmt::format("{} elements \"{}\" in a file of {} bytes", count, shown(name), bytes_.size()));
         }
         elements_.push_back({name, count, {}});
       } else if (key == "property") {
         if (elements_.empty()) fields_.fail("a property before the first element");
         read_property(elements_.back());
       } else if (key != "comment" && key != "obj_info" && !key.empty()) {
-        fields_.fail(fmt::format("\"{}\" is no word of a PLY header", key.substr(0, 20)));
+        fields_.fail(fmt::format("\"{}\" is no word of a PLY header", shown(key)));
       }
     }
     if (!coding_) fields_.fail("the header states no format");
@@ -110,7 +111,7 @@ class PlyReader {
     for (const Type& type : types) {
       if (word == type.names[0] || word == type.names[1]) return type;
     }
-    fields_.fail(fmt::format("\"{}\" is no type of a property", word));
+    fields_.fail(fmt::format("\"{}\" is no type of a property", shown(word)));
   }
 
   double take(const Type& type) {
@@ -129,8 +130,10 @@ class PlyReader {
   }
 
   void next_row() {
-    if (coding_ == Coding::text && !fields_.next_line())
-      fields_.fail("the file ends before its last element");
+    if (coding_ != Coding::text) return;
+    do {
+      if (!fields_.next_line()) fields_.fail("the file ends before its last element");
+    } while (fields_.is_blank());
   }
 
   void read_element(const Element& element) {
@@ -152,7 +155,7 @@ class PlyReader {
         const double length = take(*property.count);
         if (!(length >= 0.0 && length <= static_cast<double>(bytes_.size()))) {
           throw InputError(
-              fmt::format("{}: {} {} has a list of {} numbers", file_, element.name, row, length));
+              fmt::format("{}: {} {} has a list of {} numbers", file_, shown(element.name), row, length));
         }
         for (double i = 0; i < length; ++i) list.push_back(take(*property.value));
         if (are_faces && (property.name == "vertex_indices" || property.name == "vertex_index"))

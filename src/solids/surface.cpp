@@ -8,6 +8,8 @@
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <numeric>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 
@@ -59,20 +61,6 @@ std::size_t filter(std::vector<Triangle>& triangles, std::vector<Corners>& corne
   return dropped;
 }
 
-std::size_t drop_repeated(std::vector<Triangle>& triangles, std::vector<Corners>& corners) {
-  std::vector<std::pair<Corners, std::uint32_t>> sorted(corners.size());
-  for (std::uint32_t t = 0; t < corners.size(); ++t) {
-    sorted[t] = {corners[t], t};
-    std::ranges::sort(sorted[t].first);
-  }
-  std::ranges::sort(sorted);
-  std::vector<bool> repeats(corners.size(), false);
-  for (std::size_t i = 1; i < sorted.size(); ++i) {
-    if (sorted[i].first == sorted[i - 1].first) repeats[sorted[i].second] = true;
-  }
-  return filter(triangles, corners, [&](std::size_t t) { return !repeats[t]; });
-}
-
 /// Holds one edge of a triangle.
 struct Edge {
   std::uint32_t from, to;  ///< corners, from < to
@@ -104,9 +92,102 @@ void for_each_pair(const std::vector<Edge>& edges, Function&& f) {
   }
 }
 
+/// Finds which corner stands for all corners that triangles connect with it.
+class Connected {
+ public:
+  explicit Connected(const std::vector<Corners>& corners) {
+    std::uint32_t count = 0;
+    for (const Corners& c : corners) count = std::max(count, 1 + std::ranges::max(c));
+    parent_.resize(count);
+    std::iota(parent_.begin(), parent_.end(), 0U);
+    for (const Corners& c : corners) {
+      for (const std::size_t i : {1U, 2U}) parent_[of(c[i])] = of(c[0]);
+    }
+  }
+  std::uint32_t of(std::uint32_t corner) {
+    while (parent_[corner] != corner) corner = parent_[corner] = parent_[parent_[corner]];
+    return corner;
+  }
+  [[nodiscard]] std::size_t size() const { return parent_.size(); }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+/// Returns for every triangle whether it belongs to a closed shell all of whose triangles are there in both senses.
+/// @param cancels  whether there is one of the opposite sense
+/// @param copy  whether a triangle is the second one of such a pair
+std::vector<bool> of_doubled_shells(const std::vector<Corners>& corners, const std::vector<bool>& cancels,
+                                    const std::vector<bool>& copy) {
+  Connected shells(corners);
+  std::vector<bool> is_doubled(shells.size(), true);
+  std::vector<Corners> once;
+  for (std::size_t t = 0; t < corners.size(); ++t) {
+    if (!cancels[t]) is_doubled[shells.of(corners[t][0])] = false;
+    if (cancels[t] && !copy[t]) once.push_back(corners[t]);
+  }
+  const std::vector<Edge> edges = edges_of(once);
+  for_each_pair(edges, [&](std::size_t begin, std::size_t end) {
+    if (end - begin == 1) is_doubled[shells.of(edges[begin].from)] = false;
+  });
+  std::vector<bool> result(corners.size());
+  for (std::size_t t = 0; t < corners.size(); ++t) result[t] = is_doubled[shells.of(corners[t][0])];
+  return result;
+}
+
+/// Drops triangles with the corners of another one, and counts them.
+void drop_copies(std::vector<Triangle>& triangles, std::vector<Corners>& corners, Audit& audit) {
+  struct Item {
+    Corners sorted;
+    bool is_odd;  // an odd permutation of the sorted corners
+    std::uint32_t triangle;
+  };
+  std::vector<Item> items(corners.size());
+  for (std::uint32_t t = 0; t < corners.size(); ++t) {
+    const auto& [a, b, c] = corners[t];
+    items[t] = {corners[t], (a > b) != ((b > c) != (a > c)), t};
+    std::ranges::sort(items[t].sorted);
+  }
+  std::ranges::sort(items, {}, [](const Item& item) {
+    return std::tuple(item.sorted[0], item.sorted[1], item.sorted[2], item.is_odd, item.triangle);
+  });
+  std::vector<bool> repeats(corners.size(), false), cancels(corners.size(), false),
+      copy(corners.size(), false);
+  for (std::size_t begin = 0, end = 0; begin < items.size(); begin = end) {
+    while (end < items.size() && items[end].sorted == items[begin].sorted) ++end;
+    std::size_t odd = begin;
+    while (odd < end && !items[odd].is_odd) ++odd;
+    const std::size_t pairs = std::min(odd - begin, end - odd);
+    for (std::size_t i = 0; i < pairs; ++i) {
+      const std::uint32_t a = items[begin + i].triangle, b = items[odd + i].triangle;
+      cancels[a] = cancels[b] = copy[std::max(a, b)] = true;
+    }
+    // One triangle stays of those without an opposite one.
+    for (std::size_t i = begin; i < end; ++i) {
+      repeats[items[i].triangle] = (i < odd ? i - begin : i - odd) > pairs;
+    }
+  }
+  audit.repeated += filter(triangles, corners, [&, t = std::size_t{0}](std::size_t i) mutable {
+    if (repeats[i]) return false;
+    cancels[t] = cancels[i];
+    copy[t++] = copy[i];
+    return true;
+  });
+  if (std::ranges::find(cancels, true) == cancels.end()) return;
+  const std::vector<bool> is_doubled = of_doubled_shells(corners, cancels, copy);
+  std::size_t copies = 0;
+  const std::size_t dropped = filter(triangles, corners, [&](std::size_t t) {
+    copies += is_doubled[t] && copy[t] ? 1 : 0;
+    return is_doubled[t] ? !copy[t] : !cancels[t];
+  });
+  audit.repeated += copies;
+  audit.cancelled = (dropped - copies) / 2;
+}
+
 /// Turns triangles so that those connected by an edge of two triangles have one orientation, that of the larger area.
-/// Returns how many were turned.
-std::size_t turn(std::vector<Triangle>& triangles, const std::vector<Edge>& edges) {
+/// Returns the number of the part of each triangle, and counts those turned.
+std::vector<std::uint32_t> turn(std::vector<Triangle>& triangles, std::vector<Corners>& corners,
+                                const std::vector<Edge>& edges, Audit& audit) {
   constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   struct Link {
     std::uint32_t neighbour = none;
@@ -125,8 +206,8 @@ std::size_t turn(std::vector<Triangle>& triangles, const std::vector<Edge>& edge
   });
   enum : std::uint8_t { unseen, kept, turned };
   std::vector<std::uint8_t> state(triangles.size(), unseen);
-  std::vector<std::uint32_t> part;
-  std::size_t count = 0;
+  std::vector<std::uint32_t> part, numbers(triangles.size());
+  audit.are_parts_closed = audit.open_edges == 0;
   for (std::uint32_t first = 0; first < triangles.size(); ++first) {
     if (state[first] != unseen) continue;
     part.assign(1, first);
@@ -136,18 +217,64 @@ std::size_t turn(std::vector<Triangle>& triangles, const std::vector<Edge>& edge
       const std::uint32_t t = part[i];
       balance += (state[t] == kept ? 1.0 : -1.0) * area_of(triangles[t]);
       for (const Link& to : links[t]) {
-        if (to.neighbour == none || state[to.neighbour] != unseen) continue;
-        state[to.neighbour] = (state[t] == kept) != to.against ? kept : turned;
-        part.push_back(to.neighbour);
+        if (to.neighbour == none) continue;
+        const std::uint8_t wanted = (state[t] == kept) != to.against ? kept : turned;
+        if (state[to.neighbour] == unseen) {
+          state[to.neighbour] = wanted;
+          part.push_back(to.neighbour);
+        } else if (state[to.neighbour] != wanted) {
+          audit.are_parts_closed = false;  // as a band that is turned by half a turn
+        }
       }
     }
     for (const std::uint32_t t : part) {
+      numbers[t] = static_cast<std::uint32_t>(audit.parts.size());
       if ((state[t] == turned) != (balance >= 0.0)) continue;
       std::swap(triangles[t][1], triangles[t][2]);
-      ++count;
+      std::swap(corners[t][1], corners[t][2]);
+      ++audit.flipped;
     }
+    audit.parts.emplace_back();
   }
-  return count;
+  return numbers;
+}
+
+/// Checks at edges of more than two triangles that every part is closed by itself.
+void check_crowded(const std::vector<Corners>& corners, const std::vector<Edge>& edges,
+                   const std::vector<std::uint32_t>& part_of, Audit& audit) {
+  std::vector<std::pair<std::uint32_t, int>> senses;  // part; +1 or -1
+  for_each_pair(edges, [&](std::size_t begin, std::size_t end) {
+    if (end - begin <= 2 || !audit.are_parts_closed) return;
+    senses.clear();
+    for (std::size_t i = begin; i < end; ++i) {
+      const Corners& c = corners[edges[i].triangle];
+      const auto at = static_cast<std::size_t>(std::ranges::find(c, edges[i].from) - c.begin());
+      senses.emplace_back(part_of[edges[i].triangle], c[(at + 1) % 3] == edges[i].to ? 1 : -1);
+    }
+    std::ranges::sort(senses);
+    for (std::size_t i = 0, j = 0; i < senses.size(); i = j) {
+      int sum = 0;
+      for (; j < senses.size() && senses[j].first == senses[i].first; ++j) sum += senses[j].second;
+      if (sum != 0) audit.are_parts_closed = false;
+    }
+  });
+}
+
+/// Sums up areas and volumes, and takes samples of the parts.
+void measure(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& part_of,
+             Audit& audit) {
+  constexpr std::size_t most_samples = 20000;
+  const std::size_t stride = std::max<std::size_t>(1, triangles.size() / most_samples);
+  const Vector3 middle = 0.5 * (audit.lower + audit.upper);
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const Triangle& t = triangles[i];
+    const double volume = (t[0] - middle).dot((t[1] - middle).cross(t[2] - middle)) / 6.0;
+    Part& part = audit.parts[part_of[i]];
+    audit.area += area_of(t);
+    audit.volume += volume;
+    part.volume += volume;
+    if (i % stride == 0 || part.samples.empty()) part.samples.push_back(t);
+  }
 }
 
 }  // namespace
@@ -157,10 +284,11 @@ Audit repair(std::vector<Triangle>& triangles) {
   audit.triangles = triangles.size();
   std::vector<Corners> corners = numbered(triangles);
   audit.degenerate = filter(triangles, corners, [&](std::size_t t) { return area_of(triangles[t]) > 0.0; });
-  audit.repeated = drop_repeated(triangles, corners);
+  drop_copies(triangles, corners, audit);
   if (triangles.empty()) {
-    throw InputError(audit.triangles == 0
-                         ? std::string("holds no triangle: it encloses nothing")
+    throw InputError(audit.triangles == 0 ? std::string("holds no triangle: it encloses nothing")
+                     : audit.cancelled > 0
+                         ? fmt::format("its triangles cancel: {} pairs of opposite senses", audit.cancelled)
                          : fmt::format("none of its {} triangles has an area", audit.triangles));
   }
   const std::vector<Edge> edges = edges_of(corners);
@@ -168,7 +296,8 @@ Audit repair(std::vector<Triangle>& triangles) {
     audit.open_edges += end - begin == 1 ? 1 : 0;
     audit.crowded_edges += end - begin > 2 ? 1 : 0;
   });
-  audit.flipped = turn(triangles, edges);
+  const std::vector<std::uint32_t> part_of = turn(triangles, corners, edges, audit);
+  check_crowded(corners, edges, part_of, audit);
   audit.lower = audit.upper = triangles[0][0];
   for (const Triangle& t : triangles) {
     for (const Vector3& x : t) {
@@ -176,11 +305,7 @@ Audit repair(std::vector<Triangle>& triangles) {
       audit.upper = audit.upper.cwiseMax(x);
     }
   }
-  const Vector3 middle = 0.5 * (audit.lower + audit.upper);
-  for (const Triangle& t : triangles) {
-    audit.area += area_of(t);
-    audit.volume += (t[0] - middle).dot((t[1] - middle).cross(t[2] - middle)) / 6.0;
-  }
+  measure(triangles, part_of, audit);
   if (!(audit.upper - audit.lower).allFinite() || !((audit.upper - audit.lower).minCoeff() > 0.0)) {
     throw InputError("its triangles lie in a plane: they bound no solid");
   }

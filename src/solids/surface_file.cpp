@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -40,7 +41,7 @@ std::vector<Triangle> read_text_stl(std::string_view text, const std::string& fi
   std::size_t corners = 0;
   bool is_ended = false;
   while (fields.next_line()) {
-    const std::string_view key = fields.word();
+    const std::string key = lower_case(fields.word());
     if (key == "vertex") {
       if (corners == 3) fields.fail("a facet of more than three corners");
       for (Eigen::Index i = 0; i < 3; ++i) triangle[corners][i] = fields.number<double>();
@@ -51,8 +52,10 @@ std::vector<Triangle> read_text_stl(std::string_view text, const std::string& fi
       corners = 0;
     } else if (key == "endsolid") {
       is_ended = true;
-    } else if (!key.empty() && key != "solid" && key != "facet" && key != "outer" && key != "endfacet") {
-      fields.fail(fmt::format("\"{}\" is no word of an STL file", key.substr(0, 20)));
+    } else if (key == "solid") {
+      is_ended = false;
+    } else if (!key.empty() && key != "facet" && key != "outer" && key != "endfacet") {
+      fields.fail(fmt::format("\"{}\" is no word of an STL file", shown(key)));
     }
   }
   if (corners != 0 || !is_ended) fields.fail("the file ends before \"endsolid\"");
@@ -75,7 +78,7 @@ std::vector<Triangle> read_obj(std::string_view text, const std::string& file) {
         const auto number = Fields::parsed<std::int64_t>(word.substr(0, word.find('/')));
         const auto count = static_cast<std::int64_t>(corners.size());
         if (!number || *number == 0 || *number > count || *number < -count) {
-          fields.fail(fmt::format("a face with corner \"{}\"; there are {} before it", word, count));
+          fields.fail(fmt::format("a face with corner \"{}\"; there are {} before it", shown(word), count));
         }
         face.push_back(static_cast<std::size_t>(*number > 0 ? *number - 1 : count + *number));
       }
@@ -93,25 +96,29 @@ bool is_obj(std::string_view text) {
   while (fields.next_line()) {
     const std::string_view key = fields.word();
     if (key == "v") return true;
-    if (!key.empty() && !key.starts_with('#') && key != "mtllib" && key != "o" && key != "g" && key != "s") {
-      return false;
-    }
+    constexpr std::array<std::string_view, 8> before = {"mtllib", "usemtl", "o", "g", "s", "vn", "vt", "vp"};
+    if (!key.empty() && !key.starts_with('#') && std::ranges::find(before, key) == before.end()) return false;
   }
   return false;
 }
 
 std::vector<Triangle> read_any(std::string_view bytes, const std::string& file) {
   if (bytes.empty()) throw InputError(fmt::format("{}: the file is empty", file));
+  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);  // mark of UTF-8
   if (bytes.starts_with("ply")) return read_ply(bytes, file);
   // Many binary STL files begin with "solid" as well: their size decides.
   const std::size_t announced =
       bytes.size() < stl_header ? 0
                                 : stl_header + stl_record * std::size_t{number_at<std::uint32_t>(bytes, 80)};
   if (bytes.size() == announced) return read_binary_stl(bytes, file);
-  if (bytes.starts_with("solid") && bytes.substr(0, 2000).find("facet") != std::string_view::npos) {
+  const std::string head = lower_case(bytes.substr(0, 2000));
+  if (head.starts_with("solid") && head.find("facet") != std::string::npos) {
     return read_text_stl(bytes, file);
   }
   if (is_obj(bytes)) return read_obj(bytes, file);
+  if (head.find('\0') == std::string::npos) {
+    throw InputError(fmt::format("{}: a text, but neither STL, OBJ nor PLY", file));
+  }
   throw InputError(
       fmt::format("{}: neither STL, OBJ nor PLY; a binary STL file would have {} bytes by its number of "
                   "triangles, this one "

@@ -9,6 +9,7 @@ import dataclasses
 import itertools
 import json
 import pathlib
+import sys
 import tomllib
 
 import numpy as np
@@ -38,7 +39,8 @@ SPALL_SHARE = 0.01     # of the plug of the wall (here of the tile): least mass 
 SPALL_SPEED = 10.0     # m/s, by which it leaves the wall
 SPALL_PARTICLES = 4
 GAP = 2.0              # cells
-LINK = 0.5             # cells, edge of cubes: particles in cubes that touch are of one piece (of the rule: within 0.99 cells)
+LINK = 0.5             # cells, edge of cubes; particles in cubes that touch are of one piece: all within 0.5 along each axis, none beyond 1
+                       # along one (across a corner up to 1.7; decision 23 links within 0.99)
 GROWTH = 0.05          # of the plastic strain: below it the wall has stopped
 BULGED = 0.1           # of the thickness
 
@@ -101,8 +103,10 @@ UNITS = {"MPa": 1e6, "GPa": 1e9, "g/cm^3": 1.0, "kg/m^3": 1e-3}
 
 
 def value_of(material, table, key):
-    """Value of a key of a material of the library: Pa or g/cm^3."""
-    value, unit = library(material)[table][key].split()
+    """Value of a key of a material of the library: Pa or g/cm^3. @throws SystemExit without the key, or in another unit"""
+    value, _, unit = str(library(material).get(table, {}).get(key, "")).partition(" ")
+    if unit not in UNITS:
+        sys.exit(f"{commands.LIBRARY / material}: {table}.{key}: a number and one of {', '.join(UNITS)} are wanted, not '{value} {unit}'")
     return float(value) * UNITS[unit]
 
 
@@ -307,7 +311,10 @@ class Left:
 
 
 def left_of(tile, position, speed, mass, intact, strain, rear_half):
-    """What is left of a tile's wall. position: mm, x along the flight; speed: along x, m/s; rear_half: began behind the middle."""
+    """What is left of a tile's wall. position: mm, x along the flight; speed: along x, m/s; rear_half: began behind the middle.
+
+    Material that has left the domain is not there: shares and the mean strain are of the mass that remains.
+    """
     total = mass.sum()
     state = mass[~intact].sum() / total, (mass * strain).sum() / total
     label = np.full(len(mass), -1)
@@ -329,7 +336,8 @@ def left_of(tile, position, speed, mass, intact, strain, rear_half):
     off = Off()
     if len(own) >= SPALL_PARTICLES:
         off = Off(own.sum() / total, (own * away[loose]).sum() / own.sum(), (own * distance[loose]).sum() / own.sum())
-    return Left(True, (mass * speed)[rear_half].sum() / mass[rear_half].sum(), off, *state)
+    behind = mass[rear_half].sum()
+    return Left(True, (mass * speed)[rear_half].sum() / behind if behind > 0 else np.nan, off, *state)
 
 
 def history(run, tile):
@@ -373,12 +381,17 @@ def verdict_of(records, thickness, held):
     def answer(outcome, time, reason):
         return {"outcome": outcome, "defeated": outcome in ("perforated", "detached spall"), "time": 1e-6 * time, "reason": reason}
 
+    def undecided(reason):
+        return {"outcome": "undecided", "defeated": None, "time": None, "reason": reason}
+
     for time, left in records:
         if not left.closed:
             return answer("perforated", time, "no intact piece closes the tile")
         if left.loose.leaves() and left.loose.distance >= thickness:
             return answer("detached spall", time, f"{left.loose}, loose")
     before, (time, now) = records[-2][1], records[-1]
+    if not np.isfinite(now.speed):
+        return undecided(f"the rear half of the tile has left the domain by {time:.3g} us: it has no speed")
     pushed = held(max(now.speed, 0.0))
     told = f"its rear half moves at {now.speed:.3g} m/s, which its rim stops after {pushed:.3g} mm"
     if pushed >= thickness:
@@ -386,7 +399,7 @@ def verdict_of(records, thickness, held):
     if now.loose.leaves():
         return answer("detached spall", time, f"{now.loose}, loose")
     if now.strain - before.strain > GROWTH * now.strain or now.failed - before.failed >= SPALL_SHARE:
-        return {"outcome": "undecided", "defeated": None, "time": None, "reason": f"the tile still deforms at {time:.3g} us"}
+        return undecided(f"the tile still deforms at {time:.3g} us")
     return answer("bulge" if pushed > BULGED * thickness else "whole", time, told)
 
 
@@ -411,33 +424,39 @@ def shot_in(entry, folder):
     return Shot(entry, tomllib.loads((folder / "case.toml").read_text(encoding="utf-8")), folder)
 
 
-def run(whipple, threads, case, text, folder):
-    """Runs a case, unless the same program has done so."""
+class RunFailed(Exception):
+    """A run that ended because its model broke down (code 3), with the reason that it gives."""
+
+
+def run(whipple, threads, text, folder):
+    """Runs a case, which it writes beside the folder, unless the same program has done so. @throws RunFailed"""
+    case = folder.parent / f"{folder.name}.toml"
     case.write_text(text, encoding="utf-8")
-    commands.compute(whipple, folder, [["run", case, "--output", folder, "--force", "--quiet", "--threads", threads]], [case])
+    commands.compute(whipple, folder, [["run", case, "--output", folder, "--force", "--quiet", "--threads", threads]], [case], allowed=(0, 3))
+    status = json.loads((folder / "status.json").read_text(encoding="utf-8"))
+    if status["state"] == "failed":
+        raise RunFailed(f"the run of {folder.name} failed: {status['message']}")
 
 
 def computed_load(whipple, threads, shot):
-    """Load of the core of the cloud of a shot, from its section without the wall."""
+    """Load of the core of the cloud of a shot, from its section without the wall. @throws RunFailed"""
     folder = shot.folder / "cloud"
-    run(whipple, threads, shot.folder / "cloud.toml", section_case(shot.case, shot.entry, shot.folder), folder)
+    run(whipple, threads, section_case(shot.case, shot.entry, shot.folder), folder)
     bodies = [body["name"] for body in shot.case["body"] if body["name"] != "wall"]
     return load_of_run(folder, shot.wall_at, bodies, FINER * 1e3 * shot.entry["case"]["cell_size"],
                        SLOWEST * 1e-3 * shot.entry["sphere"]["velocity"])
 
 
-def computed_tile(whipple, threads, shot, load, seed, coarser):
-    """Tile of a shot, what is left of its wall in every snapshot, and the folder of its run.
+def tile_of_shot(shot, load, seed, coarser):
+    """Tile of a shot. coarser: cell size over that of the rule."""
+    return tile_of(load, 1e3 * shot.entry["wall"]["thickness"], value_of(shot.material("sphere"), "eos", "reference_density"), seed, coarser)
 
-    coarser: cell size over that of the rule.
-    """
-    grain, wall = shot.material("sphere"), shot.material("wall")
-    density = value_of(grain, "eos", "reference_density")
-    thickness = 1e3 * shot.entry["wall"]["thickness"]
-    tile = tile_of(load, thickness, density, seed, coarser)
-    folder = shot.folder / f"tile_{seed}_{coarser:g}"
-    run(whipple, threads, folder.with_suffix(".toml"), tile_case(tile, 1e3 * shot.entry["sphere"]["diameter"], grain, wall), folder)
-    return tile, history(folder, tile), folder
+
+def computed_history(whipple, threads, shot, tile, folder):
+    """What is left of the wall of a tile in every snapshot of its run in a folder. @throws RunFailed"""
+    text = tile_case(tile, 1e3 * shot.entry["sphere"]["diameter"], shot.material("sphere"), shot.material("wall"))
+    run(whipple, threads, text, folder)
+    return history(folder, tile)
 
 
 def judged(shot, load, tile, records):

@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Loads, tiles, and the outcome of tiles in the study of shields."""
+import dataclasses
+import json
 import pathlib
 import tempfile
 import tomllib
 import unittest
 
+import h5py
 import numpy as np
 
-from studies.shields import tile
+from studies.shields import tile, tile_checks
 
 DELAYS = np.linspace(-0.1, 0.3, 401)
 LOAD = tile.Load(7.5, 0.1, 5.0, 0.4, DELAYS, np.ones(401), 0.8, 0.05)
@@ -152,6 +155,21 @@ class Wall(unittest.TestCase):
         for stops, outcome in ((1.6, "perforated"), (1.4, "bulge"), (0.1, "whole")):
             self.assertEqual(self.outcome(left, lambda speed, stops=stops: stops)["outcome"], outcome)
 
+    def test_whose_rear_half_is_gone_is_undecided(self):
+        points = lattice((0, 0, 0), (1.5, 2, 2), 0.0625)
+        left = tile.left_of(self.TILE, points, np.zeros(len(points)), np.ones(len(points)), np.ones(len(points), dtype=bool),
+                            np.full(len(points), 0.1), np.zeros(len(points), dtype=bool))
+        self.assertTrue(left.closed and np.isnan(left.speed))
+        found = self.outcome(left, before=dataclasses.replace(left, speed=100.0))
+        self.assertEqual((found["outcome"], found["defeated"], found["time"]), ("undecided", None, None))
+        self.assertIn("left the domain by 4 us", found["reason"])
+
+    def test_rim_is_asked_before_loose_pieces_nearer_than_a_thickness(self):
+        left = tile.Left(True, 200.0, tile.Off(0.1, 100.0, 0.5), 0.1, 0.1)
+        for stops, outcome in ((1.6, "perforated"), (1.4, "detached spall")):
+            self.assertEqual(self.outcome(left, lambda speed, stops=stops: stops)["outcome"], outcome)
+        self.assertEqual(self.outcome(dataclasses.replace(left, loose=tile.Off(0.1, 100.0, 1.5)), lambda speed: 9.0)["outcome"], "detached spall")
+
     def test_that_still_fails_is_undecided(self):
         points = lattice((0, 0, 0), (1.5, 2, 2), 0.0625)
         failed = points[:, 0] < 0.1
@@ -176,7 +194,97 @@ class Wall(unittest.TestCase):
             self.assertEqual(len(np.unique(found[label == name])), 1)
 
 
+def made_up_run(folder, snapshots):
+    """Writes a run whose snapshots (time in s, fields by body, in SI) were not computed."""
+    names = list(next(iter(snapshots.values())))
+    (folder / "run.toml").write_text("".join(f'[[body]]\nname = "{name}"\n' for name in names), encoding="utf-8")
+    files = []
+    for number, (time, bodies) in enumerate(snapshots.items()):
+        files.append({"name": f"a.particles.{number:06}.hdf", "time": time})
+        with h5py.File(folder / files[-1]["name"], "w") as file:
+            data = {key: np.concatenate([bodies[name][key] for name in names]) for key in bodies[names[0]]}
+            file["VTKHDF/Points"] = data.pop("position")
+            file["VTKHDF/PointData/body"] = np.repeat(np.arange(len(names)), [len(bodies[name]["mass"]) for name in names])
+            for key, values in data.items():
+                file[f"VTKHDF/PointData/{key}"] = values
+    (folder / "a.particles.hdf.series").write_text(json.dumps({"files": files}), encoding="utf-8")
+
+
+def particles(position, speed, mass, **fields):
+    """Fields of particles in SI, with the same value for all where it is a number. position: mm; speed: along the first axis, m/s."""
+    count = len(position)
+    velocity = np.zeros((count, 3))
+    velocity[:, 0] = speed
+    return {"position": 1e-3 * np.asarray(position, dtype=float), "velocity": velocity, "mass": np.full(count, mass),
+            **{key: np.broadcast_to(value, count) for key, value in fields.items()}}
+
+
+class Runs(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+
+    def test_load_is_that_of_all_bodies_before_the_wall_and_its_piece_of_the_sphere(self):
+        r = np.arange(0.05, 10.0, 0.1)
+        places = np.column_stack([np.zeros(r.size), r, np.zeros(r.size)])
+        failed = (r > 2.0).astype(float)  # 20 of 100 points are intact, those with r < 1 touch, the others are too far apart
+        places[(r > 1.0) & (r < 2.0), 0] = -1.0 * np.arange(1, 11)
+        sphere = particles(places, 5000.0, 2e-6, failed=failed, phase=0, fragment_size=3e-4)
+        sheet = particles(places + (-1, 0, 0), [5000.0] * 50 + [900.0] * 50, 1e-6, failed=1.0, phase=0, fragment_size=5e-4)
+        made_up_run(self.folder, {0.0: {"sphere": sphere, "bumper": sheet}})
+        load = tile.load_of_run(self.folder, 50.0, ["sphere", "bumper"], 0.4, 1.0)
+        self.assertAlmostEqual(load.failed, 0.8)
+        self.assertAlmostEqual(load.piece, 0.1)
+        self.assertEqual(load.size, 0.3)
+        self.assertAlmostEqual(load.speed, 5.0)
+        self.assertAlmostEqual(load.radius, 2.05)  # 62.5 of 250 mg that are fast enough: 3 mg every 0.1 mm
+        self.assertAlmostEqual(load.mass, 63.0 / (np.pi * 2.05**2))
+
+    def test_history_follows_the_half_that_began_behind(self):
+        struck = tile.Tile(2.0, 0.125, 1.5, np.array([[-0.3, 1.0, 1.0]]), 0.4, 5.0)
+        places = lattice((0, 0, 0), (1.5, 2, 2), 0.0625)
+        rear = places[:, 0] > 0.75
+        fields = {"id": np.arange(len(places)), "failed": 0.0, "phase": 0, "plastic_strain": 0.1}
+        later = particles(places + np.outer(~rear, (1.0, 0, 0)), np.where(rear, 30.0, 90.0), 1e-9, **fields)
+        made_up_run(self.folder, {0.0: {"wall": particles(places, 0.0, 1e-9, **fields)}, 4e-6: {"wall": later}, 4.001e-6: {"wall": later}})
+        (time, left), = tile.history(self.folder, struck)
+        self.assertAlmostEqual(time, 4.0)
+        self.assertAlmostEqual(left.speed, 30.0)
+        self.assertTrue(left.closed)
+
+
+    def test_checks_compare_the_rear_half_with_its_load_and_count_what_has_left(self):
+        places = lattice((0, 0, 0), (1.5, 2, 2), 0.0625)
+        rear = places[:, 0] > 0.75
+        kept = ~rear | (places[:, 1] < 1.0)
+        fields = {"failed": 0.0, "phase": 0, "plastic_strain": 0.1}
+        first = particles(places, 0.0, 1e-9, id=np.arange(len(places)), **fields)
+        last = particles(places[kept], np.where(rear[kept], 300.0, 0.0), 1e-9, id=np.flatnonzero(kept), **fields)
+        made_up_run(self.folder, {0.0: {"wall": first}, 2e-6: {"wall": last}, 4e-6: {"wall": last}})
+        grain = '{ sphere = { center = ["0 mm", "0 mm", "0 mm"], radius = "0.0002 m" } }'
+        (self.folder / "run.toml").write_text(f"""[domain]
+upper = ["3 mm", "2 mm", "0.002 m"]
+cell_size = "0.125 mm"
+[[body]]
+name = "wall"
+shape = {{ union = [{grain}, {grain}] }}
+""", encoding="utf-8")
+        wall = {"name": "wall", "material": "aluminium_6061_mie_gruneisen.toml"}
+        shot = tile.Shot({"source": "S", "name": "1", "wall": {"thickness": 1.5e-3}}, {"body": [wall]}, self.folder)
+        found = tile_checks.check_of(shot, LOAD, self.folder)
+        density, shear = tile.value_of(wall["material"], "eos", "reference_density"), tile.shear_yield(wall["material"])
+        self.assertEqual((found.shot, found.grains, found.cell), ("S/1", 2, 0.125))
+        self.assertAlmostEqual(found.lost, 0.5)
+        self.assertAlmostEqual(found.speed, 300.0)
+        self.assertAlmostEqual(found.spread, 1e3 * 0.5 / (density * 1.5))
+        self.assertAlmostEqual(found.stopped, tile.held_within(density, 7.5, 300.0, shear) / 1.5)
+        self.assertAlmostEqual(found.spread_stopped / found.stopped, (found.spread / 300.0)**2)
+
+
 class Materials(unittest.TestCase):
+    def test_without_the_key_or_in_another_unit_are_refused_by_name(self):
+        with self.assertRaisesRegex(SystemExit, r"aluminium_6061_mie_gruneisen.toml: strength.no_key: a number and one of MPa, GPa"):
+            tile.value_of("aluminium_6061_mie_gruneisen.toml", "strength", "no_key")
+
     def test_have_the_keys_of_those_they_are_based_on(self):
         self.assertAlmostEqual(tile.shear_yield("aluminium_6061_fracture_mie_gruneisen.toml"),
                                tile.value_of("aluminium_6061_mie_gruneisen.toml", "strength", "yield_stress") / np.sqrt(3))

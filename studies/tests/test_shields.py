@@ -10,6 +10,7 @@ import unittest.mock
 
 import numpy as np
 
+from studies import commands
 from studies.shields import curve, page, run_shots, scores, tile
 
 
@@ -100,6 +101,10 @@ class Page(unittest.TestCase):
         self.assertIn("| section, tile | 0 | 1 | 1 | 0 | 1 |", text)
         self.assertIn("Of 2 shots 1 change between defeated and not.", text)
         self.assertIn("| b | detached spall | perforated |", text)
+        self.assertIn("chosen when the outcomes of all shots were known", text.lower())
+        before, tiles = text.split("## Runs: tile")
+        self.assertIn("a model that was amended while it was scored", tiles)
+        self.assertNotIn("amended", before)
 
 
 PROGRAM = """#!/usr/bin/python3
@@ -153,7 +158,7 @@ class Batch(unittest.TestCase):
         folder = run_shots.folder_of(self.program(3), [], "S/1", self.folder)
         verdict = run_shots.judged(self.program(3), 1, folder)
         case = {"model": "space", "cell_size": 1e-4, "resolved": True, "particles": 10}
-        row = run_shots.row_of("S/1", case, verdict, run_shots.status_of(folder / "run"), 2)
+        row = run_shots.row_of("S/1", case, verdict, run_shots.status_of(folder / "run"), 2, dict.fromkeys(run_shots.SETTINGS, ""))
         self.assertEqual((row["outcome"], row["time [us]"], row["core hours"], row["revision"]), ("undecided", "", "2", "r1"))
         self.assertEqual(row["reason"], "the run failed: out of range")
         run_shots.append(self.folder / "outcomes.csv", row)
@@ -171,7 +176,8 @@ class Batch(unittest.TestCase):
         records = [(time, tile.Left(True, 400.0, tile.Off(), 0.1, 0.1)) for time in (1.0, 4.0)]
         entry = {"sphere": {"diameter": 3e-3}, "case": {"model": "section", "cell_size": 2e-4, "resolved": True, "particles": 10}}
         with unittest.mock.patch.object(tile, "computed_load", return_value=load), \
-                unittest.mock.patch.object(tile, "computed_tile", return_value=(struck, records, folder / "tile_1_1")):
+                unittest.mock.patch.object(tile, "tile_of_shot", return_value=struck), \
+                unittest.mock.patch.object(tile, "computed_history", return_value=records):
             return run_shots.tile_row(self.program(0), 2, "S/1", entry, folder, 1, 1.0)
 
     def test_grains_strike_a_tile_and_one_piece_the_section(self):
@@ -185,6 +191,56 @@ class Batch(unittest.TestCase):
             row = self.tile_row(piece, size)
             self.assertEqual((row["outcome"], row["model"], row["cell size [mm]"], row["core hours"]), ("whole", "tile", "0.2", "3"))
             self.assertIn(f"one piece of {100 * piece:.0f} % of the sphere", row["reason"])
+
+
+    def test_cases_of_tiles_have_the_name_of_their_run(self):
+        for name in ("tile_1_1", "tile_1_1.25"):
+            with unittest.mock.patch.object(commands, "compute") as compute:
+                (self.folder / name).mkdir()
+                (self.folder / name / "status.json").write_text('{"state": "done"}', encoding="utf-8")
+                tile.run("whipple", 2, f"# {name}", self.folder / name)
+            self.assertEqual(compute.call_args.args[3], [self.folder / f"{name}.toml"])
+            self.assertEqual((self.folder / f"{name}.toml").read_text(encoding="utf-8"), f"# {name}")
+        self.assertEqual((self.folder / "tile_1_1.toml").read_text(encoding="utf-8"), "# tile_1_1")
+
+    def test_failed_cloud_or_tile_is_a_row_with_its_reason(self):
+        load = tile.Load(7.0, 0.1, 5.0, 0.4, np.zeros(1), np.ones(1), 0.3, 0.1)
+        keys = {"title": "t", "domain": {"lower": [], "upper": []}, "body": [{"name": name, "material": "aluminium_6061_mie_gruneisen.toml",
+                "shape": {}} for name in ("sphere", "wall")]}
+        entry = {"sphere": {"diameter": 3e-3, "velocity": 5e3}, "wall": {"thickness": 1.5e-3}, "bumpers": [{"spacing": 0.05}],
+                 "case": {"model": "section", "cell_size": 2e-4, "resolved": True, "particles": 10}}
+        status = {"state": "failed", "revision": "r1", "wall_time": 1800, "message": "out of range"}
+
+        def compute(whipple, folder, words, inputs, allowed):
+            self.assertEqual(allowed, (0, 3))
+            folder.mkdir(exist_ok=True)
+            (folder / "status.json").write_text(json.dumps(status | {"state": "failed" if folder.name == broken else "done"}), encoding="utf-8")
+
+        for broken, cell, hours in (("cloud", "0.2", "1"), ("tile_3_1.25", "0.1385", "2")):
+            with unittest.mock.patch.object(commands, "compute", compute), unittest.mock.patch.object(tile, "load_of_run", return_value=load), \
+                    unittest.mock.patch.object(tile, "section_case", return_value=""), \
+                    unittest.mock.patch.object(tile, "shot_in", lambda entry, folder: tile.Shot(entry, keys, folder)):
+                row = run_shots.tile_row("whipple", 2, "S/1", entry | {"bumpers": [{"spacing": 0.05, "thickness": 1e-3}]}, self.folder, 3, 1.25)
+            self.assertEqual((row["outcome"], row["time [us]"], row["reason"]), ("undecided", "", f"the run of {broken} failed: out of range"))
+            self.assertEqual((row["cell size [mm]"], row["core hours"], row["seed"], row["coarser"]), (cell, hours, "3", "1.25"))
+
+    def test_rows_of_other_settings_or_columns_are_refused(self):
+        file, settings = self.folder / "outcomes.csv", run_shots.tile_settings(1, 1.0)
+        self.assertEqual(run_shots.rows_of(file, "tile", settings), [])
+        row = dict.fromkeys(run_shots.COLUMNS, "") | {"shot": "S/1", "model": "tile"} | settings
+        run_shots.append(file, row)
+        self.assertEqual(run_shots.rows_of(file, "tile", settings), [row])
+        self.assertEqual(run_shots.rows_of(file, "section", dict.fromkeys(run_shots.SETTINGS, "")), [])
+        for other in (run_shots.tile_settings(2, 1.0), run_shots.tile_settings(1, 1.25), settings | {"tile.py": "0"}):
+            with self.assertRaisesRegex(SystemExit, "S/1 has .* need another --outcomes"):
+                run_shots.rows_of(file, "tile", other)
+        file.write_text("shot,outcome\n", encoding="utf-8")
+        with self.assertRaisesRegex(SystemExit, "line 1"):
+            run_shots.rows_of(file, "tile", settings)
+
+    def test_outcomes_that_are_kept_have_the_columns(self):
+        for name in ("outcomes.csv", *page.REPEATS.values()):
+            self.assertEqual((page.HERE / name).read_text(encoding="utf-8").splitlines()[0], ",".join(run_shots.COLUMNS))
 
 
 class Tables(unittest.TestCase):

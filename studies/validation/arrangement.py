@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The bodies of a case at its start as a section, drawn from the case file alone: which body fills which point of a plane
-through the domain. Shapes as in docs/manual/input_reference.md; distances in m."""
+through the domain. Shapes as in docs/manual/input_reference.md; distances in m. Bodies of other files, generated ones and
+bars are named instead."""
 import math
 import re
 import tomllib
@@ -8,23 +9,28 @@ from dataclasses import dataclass
 
 import numpy as np
 
-LENGTHS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "km": 1e3}
-ANGLES = {"rad": 1.0, "deg": math.pi / 180, "degree": math.pi / 180}
+LENGTHS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "micron": 1e-6, "nm": 1e-9, "km": 1e3, "inch": 0.0254, "in": 0.0254,
+           "mil": 2.54e-5, "ft": 0.3048, "foot": 0.3048}
+ANGLES = {"rad": 1.0, "radian": 1.0, "deg": math.pi / 180, "degree": math.pi / 180, "degrees": math.pi / 180}
 NONE = -1  # no body
 COLUMNS = 240  # points across the picture
+MOST_COPIES = 1000  # of an array: more are finer than the picture
 SMALL = 1e-9  # of the domain: beside a mirror plane, not on it
 
 
 class Unknown(Exception):
-    """Name a shape that is not drawn."""
+    """Tell what of a body is not drawn."""
 
 
 def number(text, units=LENGTHS):
-    """Return the value in SI of "3 mm"; a bare number is itself."""
+    """Return the value in SI of "3 mm"; a bare number is itself. @raises Unknown"""
     if isinstance(text, (int, float)):
         return float(text)
-    value, unit = re.fullmatch(r"\s*([-+.\deE]+)\s*(\S*)\s*", text).groups()
-    return float(value) * units[unit or next(iter(units))]
+    found = re.fullmatch(r"\s*([-+.\d]+(?:[eE][-+]?\d+)?)\s*(\S*)\s*", text)
+    unit = (found[2] or next(iter(units))) if found else None
+    if unit not in units:
+        raise Unknown(f'the quantity "{text}"')
+    return float(found[1]) * units[unit]
 
 
 def vector(values):
@@ -32,11 +38,32 @@ def vector(values):
     return [number(value) for value in values] + [0.0] * (3 - len(values))
 
 
+def minus(points, place):
+    return [x - p for x, p in zip(points, place)]
+
+
+def ahead(shape, points):
+    """Return height above the base along the axis, and the coordinates along the two axes behind it: of z, x and y."""
+    axis = "xyz".index(shape.get("axis", "z"))
+    offset = minus(points, vector(shape["base"]))
+    return offset[axis], offset[(axis + 1) % 3], offset[(axis + 2) % 3]
+
+
 def along(shape, points, base):
     """Return height above the base along the axis, and distance from it."""
-    axis = "xyz".index(shape["axis"])
-    offset = [p - b for p, b in zip(points, base)]
+    axis = "xyz".index(shape.get("axis", "z"))
+    offset = minus(points, base)
     return offset[axis], np.hypot(*(offset[i] for i in range(3) if i != axis))
+
+
+def in_polygon(first, second, x, y):
+    """Return the points from which a ray crosses the boundary an odd number of times."""
+    found = np.zeros(np.shape(x), dtype=bool)
+    corners = list(zip(map(number, first), map(number, second)))
+    for (ax, ay), (bx, by) in zip(corners, corners[1:] + corners[:1]):
+        if ay != by:
+            found ^= ((ay > y) != (by > y)) & (x < ax + (y - ay) * (bx - ax) / (by - ay))
+    return found
 
 
 def sphere(shape, points):
@@ -67,34 +94,77 @@ def cone(shape, points):
 
 def ogive(shape, points):
     height, radius = along(shape, points, vector(shape["base"]))
-    shank, nose, wide = (number(shape[key]) for key in ("shank_length", "nose_length", "radius"))
+    shank, nose, wide = number(shape.get("shank_length", 0.0)), number(shape["nose_length"]), number(shape["radius"])
     arc = (wide**2 + nose**2) / (2 * wide)  # radius of the arc, tangent to the shank
     tip = np.sqrt(np.maximum(arc**2 - (height - shank) ** 2, 0)) - (arc - wide)
     return (0 <= height) & (height <= shank + nose) & (radius <= np.where(height > shank, tip, wide))
 
 
 def half_space(shape, points):
-    return sum(n * (x - p) for n, x, p in zip(shape["normal"], points, vector(shape["point"]))) <= 0
+    return sum(n * x for n, x in zip(shape["normal"], minus(points, vector(shape["point"])))) <= 0
+
+
+def prism(shape, points):
+    height, x, y = ahead(shape, points)
+    sector = 2 * math.pi / shape["sides"]
+    angle = np.arctan2(y, x)
+    from_face = angle - sector * np.round(angle / sector)
+    return (0 <= height) & (height <= number(shape["height"])) & (np.hypot(x, y) * np.cos(from_face) <= number(shape["inner_radius"]))
+
+
+def extrude(shape, points):
+    height, x, y = ahead(shape, points)
+    return (0 <= height) & (height <= number(shape["height"])) & in_polygon(shape["first"], shape["second"], x, y)
+
+
+def revolve(shape, points):
+    height, radius = along(shape, points, vector(shape["base"]))
+    return in_polygon(shape["radius"], shape["along"], radius, height)
 
 
 def difference(shape, points):
     return inside(shape["from"], points) & ~np.logical_or.reduce([inside(other, points) for other in shape["minus"]])
 
 
+def intersection(shapes, points):
+    return np.logical_and.reduce([inside(shape, points) for shape in shapes])
+
+
+def union(shapes, points):
+    return np.logical_or.reduce([inside(shape, points) for shape in shapes])
+
+
 def moved(shape, points):
-    """Undo the translation and the turn about an axis through the origin (Rodrigues)."""
-    x = [p - t for p, t in zip(points, vector(shape.get("translation", [0, 0, 0])))]
-    size = math.hypot(*shape["axis"])
-    n, angle = [a / size for a in shape["axis"]], -number(shape["angle"], ANGLES)
+    """Undo the translation and the turn about an axis through the centre (Rodrigues)."""
+    center = vector(shape.get("center", []))
+    x = minus(minus(points, vector(shape.get("translation", []))), center)
+    axis = shape.get("axis", [0.0, 0.0, 1.0])
+    size = math.hypot(*axis)
+    n, angle = [a / size for a in axis], -number(shape.get("angle", 0.0), ANGLES)
     cross = [n[1] * x[2] - n[2] * x[1], n[2] * x[0] - n[0] * x[2], n[0] * x[1] - n[1] * x[0]]
     dot = sum(a * b for a, b in zip(n, x))
-    turned = [a * math.cos(angle) + c * math.sin(angle) + m * dot * (1 - math.cos(angle)) for a, c, m in zip(x, cross, n)]
-    return inside(shape["shape"], turned)
+    return inside(shape["shape"], [a * math.cos(angle) + c * math.sin(angle) + m * dot * (1 - math.cos(angle)) + o
+                                   for a, c, m, o in zip(x, cross, n, center)])
 
 
-SHAPES = {"sphere": sphere, "box": box, "cylinder": cylinder, "tube": tube, "cone": cone, "ogive": ogive,
-          "half_space": half_space, "difference": difference, "moved": moved,
-          "union": lambda shapes, points: np.logical_or.reduce([inside(shape, points) for shape in shapes])}
+def scaled(shape, points):
+    center = vector(shape.get("center", []))
+    factors = [*shape["factors"], 1.0][:3]  # of a section two
+    return inside(shape["shape"], [x / f + c for x, f, c in zip(minus(points, center), factors, center)])
+
+
+def array(shape, points):
+    if shape["count"] > MOST_COPIES:
+        raise Unknown(f"array of {shape['count']}")
+    step, found = vector(shape["step"]), False
+    for i in range(shape["count"]):
+        found = found | inside(shape["shape"], minus(points, [i * s for s in step]))
+    return found
+
+
+SHAPES = {"sphere": sphere, "box": box, "cylinder": cylinder, "tube": tube, "cone": cone, "ogive": ogive, "prism": prism,
+          "half_space": half_space, "extrude": extrude, "revolve": revolve, "difference": difference,
+          "intersection": intersection, "union": union, "moved": moved, "scaled": scaled, "array": array}
 
 
 def inside(shape, points):
@@ -102,13 +172,25 @@ def inside(shape, points):
     (kind, keys), = shape.items()
     if kind not in SHAPES:
         raise Unknown(kind)
-    return SHAPES[kind](keys, points)
+    try:
+        return SHAPES[kind](keys, points)
+    except (LookupError, TypeError, ValueError) as fault:
+        raise Unknown(f"{kind} with other keys ({fault})") from fault
+
+
+def filled(body, points):
+    """Return which points a body fills. @raises Unknown"""
+    if "shape" not in body:
+        raise Unknown("bars" if "bar" in body else "mesh of a file")
+    return inside(body["shape"], points)
 
 
 @dataclass(frozen=True)
 class Section:
-    """Hold what a picture shows: names of the bodies, size in m, and rectangles (body, x, y, width, height) in cells of it."""
+    """Hold what a picture shows: names of the bodies, size in m, rectangles (body, x, y, width, height) in cells of it; and
+    what it does not show, "name (kind)"."""
     bodies: list
+    left_out: list
     axes: str
     width: float
     height: float
@@ -132,10 +214,9 @@ def plane_of(domain):
 
 
 def section(path):
-    """Return the section of a case file. @raises Unknown"""
+    """Return the section of a case file. @raises Unknown  if not even its domain is understood"""
     case = tomllib.loads(path.read_text(encoding="utf-8"))
     domain = case["domain"]
-    bodies = [body for body in case["body"] if "shape" in body]  # others are bars, or what a mesh file holds
     lower, upper = (vector(domain[key]) for key in ("lower", "upper"))
     u, v, at = plane_of(domain)
     width, height = upper[u] - lower[u], upper[v] - lower[v]
@@ -144,11 +225,18 @@ def section(path):
     points = [np.full((rows, COLUMNS), x) for x in at]
     points[u] = np.broadcast_to(across, (rows, COLUMNS))
     points[v] = np.broadcast_to((upper[v] - (np.arange(rows) + 0.5) * height / rows)[:, None], (rows, COLUMNS))
+    drawn, left_out = {}, []
+    for body in case["body"]:
+        try:
+            drawn[body["name"]] = filled(body, points)
+        except Unknown as why:
+            left_out.append(f"{body['name']} ({why})")
+    left_out += ["loads"] if "load" in case else []
     fills = np.full((rows, COLUMNS), NONE)
-    for k in reversed(range(len(bodies))):
-        fills[inside(bodies[k]["shape"], points)] = k
+    for k, mask in reversed(list(enumerate(drawn.values()))):
+        fills[mask] = k
     rectangles = merged([runs(line) for line in fills.tolist()])
-    return Section([body["name"] for body in bodies], "xyz"[u] + "xyz"[v], width, height, (COLUMNS, rows), rectangles)
+    return Section(list(drawn), left_out, "xyz"[u] + "xyz"[v], width, height, (COLUMNS, rows), rectangles)
 
 
 def runs(line):

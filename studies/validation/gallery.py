@@ -116,13 +116,16 @@ def cost(case):
                for record in run["records"].values() if record["wall_time"] is not None)
 
 
-def entry(name, title, case, found):
-    """Return the lines of a case on the page. @param found  the pictures"""
+def entry(name, title, case, found, left_out):
+    """Return the lines of a case on the page. @param found  the pictures @param left_out  what the section does not show"""
     links = f"[case](../../cases/{name})"
     lines = [f"## {title}", ""]
     if name in OF_RUNS:
         lines += [f"![{title}](../images/{OF_RUNS[name]})", ""]
-    lines += [f"![bodies at the start](gallery/{name}.svg)", ""]
+    if PICTURES / f"{name}.svg" in found:
+        lines += [f"![bodies at the start](gallery/{name}.svg)", ""]
+    if left_out:
+        lines += [f"Not drawn: {', '.join(left_out)}.", ""]
     if case is None:
         return [*lines, f"No stored result: {links}.", ""]
     if PICTURES / f"{name}_compared.svg" in found:
@@ -146,10 +149,14 @@ def pages(results):
     lines, found = [INTRODUCTION], {}
     for folder in sorted(path.parent for path in (ROOT / "cases").glob("*/case.toml")):
         name, case = folder.name, results["cases"].get(folder.name)
-        found[PICTURES / f"{name}.svg"] = section_picture(arrangement.section(folder / "case.toml"))
+        try:
+            section = arrangement.section(folder / "case.toml")
+            found[PICTURES / f"{name}.svg"], left_out = section_picture(section), section.left_out
+        except arrangement.Unknown as why:
+            left_out = [f"the bodies ({why})"]
         if case and compared(case):
             found[PICTURES / f"{name}_compared.svg"] = chart(case)
-        lines += entry(name, case["title"] if case else title_of(folder / "README.md"), case, found)
+        lines += entry(name, case["title"] if case else title_of(folder / "README.md"), case, found, left_out)
     return {PAGE: "\n".join(lines).rstrip("\n") + "\n"} | found
 
 

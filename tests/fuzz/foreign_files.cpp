@@ -3,6 +3,7 @@
 // no crash, no hang, no memory for what a file only declares (tests/fuzz/trials.hpp).
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <zlib.h>
 
 #include <array>
 #include <fstream>
@@ -14,6 +15,7 @@
 #include "src/analysis/run.hpp"
 #include "src/case/case.hpp"
 #include "src/case/shapes/image.hpp"
+#include "src/case/shapes/surface.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
 #include "src/core/base/log.hpp"
@@ -26,8 +28,6 @@
 #include "src/io/sealed_file.hpp"
 #include "src/material/material_file.hpp"
 #include "src/run/restart.hpp"
-#include "src/solids/inside.hpp"
-#include "src/solids/surface_file.hpp"
 #include "tests/fuzz/trials.hpp"
 #include "tests/unit/eos_support.hpp"
 #include "tests/unit/folder_test.hpp"
@@ -226,17 +226,49 @@ TEST_F(ForeignFiles, Surfaces) {
     ply += fmt::format("3 {} {} {}\n", face[0], face[1], face[2]);
   }
   text += "endsolid t\n";
-  for (const auto& [bytes, change] :
-       {std::pair<std::string, Change>{binary, damaged}, {text, garbled}, {obj, garbled}, {ply, garbled}}) {
+  std::string binary_ply =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty "
+      "float z\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n";
+  const auto append_ply = [&](auto value) {
+    binary_ply.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  for (const Vector3& corner : corners) {
+    for (const double x : corner) append_ply(static_cast<float>(x));
+  }
+  for (const auto& face : faces) {
+    append_ply(std::uint8_t{3});
+    for (const std::size_t corner : face) append_ply(static_cast<std::int32_t>(corner));
+  }
+  for (const auto& [bytes, change] : {std::pair<std::string, Change>{binary, damaged},
+                                      {text, garbled},
+                                      {obj, garbled},
+                                      {ply, garbled},
+                                      {binary_ply, damaged}}) {
     const fs::path path = folder_ / "surface";
     std::ofstream(path, std::ios::binary) << bytes;
     try_all("surface", path, change, [&] {
-      std::vector<solids::Triangle> triangles = solids::read_surface(path, 1.0);
-      const solids::Audit audit = solids::repair(triangles);
-      const solids::Inside inside(std::move(triangles), audit);
-      static_cast<void>(inside.contains(Vector3(0.1, 0.1, 0.1)));
+      const cases::Surface body({.file = "surface", .unit = 1.0, .digest = {}}, folder_);
+      ASSERT_GT(body.volume(), 0.0);
+      static_cast<void>(body.contains(Vector3(0.1, 0.1, 0.1)));
     });
   }
+}
+
+/// Packs a text as gzip does.
+std::string packed(const std::string& bytes) {
+  z_stream stream{};
+  constexpr int as_gzip = 16 + MAX_WBITS;
+  deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, as_gzip, 8, Z_DEFAULT_STRATEGY);
+  std::string result(deflateBound(&stream, bytes.size()) + 64, '\0');
+  // zlib does not write to its input, but its interface is not const.
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));  // NOLINT
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  stream.next_out = reinterpret_cast<Bytef*>(result.data());  // NOLINT
+  stream.avail_out = static_cast<uInt>(result.size());
+  deflate(&stream, Z_FINISH);
+  result.resize(stream.total_out);
+  deflateEnd(&stream);
+  return result;
 }
 
 TEST_F(ForeignFiles, Images) {
@@ -262,11 +294,23 @@ TEST_F(ForeignFiles, Images) {
   keys.file = "image";
   keys.unit = 1.0;
   keys.values = {1};
-  for (const auto& [header, change] :
-       {std::pair<std::string, Change>{nrrd, garbled}, {meta, garbled}, {nifti, damaged}}) {
-    std::ofstream(path, std::ios::binary) << header + values;
+  const auto try_image = [&](const std::string& bytes, const Change& change) {
+    std::ofstream(path, std::ios::binary) << bytes;
     try_all("image", path, change, [&] { ASSERT_GT(cases::VoxelBody(keys, folder_).volume(), 0.0); });
-  }
+  };
+  try_image(nrrd + values, garbled);
+  try_image(meta + values, garbled);
+  try_image(nifti + values, damaged);
+  std::string packed_nrrd = nrrd;
+  packed_nrrd.replace(nrrd.find("raw"), 3, "gzip");
+  try_image(packed_nrrd + packed(values), damaged);
+  try_image(packed(nifti + values), damaged);
+  std::ofstream(folder_ / "values", std::ios::binary) << values;
+  std::string detached = meta;
+  detached.replace(meta.find("LOCAL"), 5, "values");
+  try_image(detached, garbled);
+  keys.size = {3, 3, 3};
+  try_image(values, damaged);
 }
 
 TEST_F(ForeignFiles, DecksOfOtherCodes) {

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The packages of cpack: what is in them, the tarball from a folder of its own, and where mmdebstrap and a mirror are at
-hand (as root), the installation into an empty Debian 12: a user without rights computes the first tutorial there, and
-removing the packages leaves nothing.
+"""The packages of cpack: what is in them, and the tarball from a folder of its own. With --install, those in FOLDER are
+installed in an empty Debian 12: a user without rights computes the first tutorial there, and removing the packages leaves
+nothing. This takes mmdebstrap, the rights of root and a mirror of Debian, and therefore is done only if
+WHIPPLE_INSTALL_PACKAGES is set in the environment (to a mirror, or to "default"); otherwise the exit code is 77.
 
-Usage: packages.py BUILD_FOLDER ROOT FOLDER
+Usage: packages.py BUILD_FOLDER ROOT FOLDER [--install]
 """
 import os
 import pathlib
@@ -11,10 +12,11 @@ import shutil
 import subprocess
 import sys
 
-BUILD, ROOT, FOLDER = (pathlib.Path(argument).resolve() for argument in sys.argv[1:])
+BUILD, ROOT, FOLDER = (pathlib.Path(argument).resolve() for argument in sys.argv[1:4])
 sys.path.insert(0, str(ROOT / "tests/unit"))
 from checks import require  # noqa: E402
 
+MIRROR = "WHIPPLE_INSTALL_PACKAGES"
 PROGRAM, LIBRARY, PYTHON = "whipple", "libwhipple-dev", "python3-whipple"
 HOLDS = {
     PROGRAM: ("usr/bin/whipple", "usr/bin/whipple-md", "usr/bin/whipple-fit", "usr/share/whipple/materials/copper.toml",
@@ -53,15 +55,11 @@ def check_tarball(tarball):
     output(moved / "bin/whipple", "check", "whipple_shield/case.toml", "--brief", cwd=moved / "share/whipple/cases")
 
 
-def check_clean_root(packages):
-    if shutil.which("mmdebstrap") is None or os.geteuid() != 0:
-        print("not done: installation into an empty root (mmdebstrap, as root)")
-        return
+def check_clean_root(packages, mirror):
+    require(os.geteuid() == 0 and shutil.which("mmdebstrap"), "an empty root is made by root, with mmdebstrap (Debian has a package of this name)")
     root = FOLDER / "root"
-    done = subprocess.run(["mmdebstrap", "--quiet", "--variant=minbase", "bookworm", root], check=False)
-    if done.returncode != 0:
-        print("not done: installation into an empty root: no mirror of Debian")
-        return
+    shutil.rmtree(root, ignore_errors=True)
+    output("mmdebstrap", "--quiet", "--variant=minbase", "bookworm", root, *([] if mirror == "default" else [mirror]))
     environment = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "DEBIAN_FRONTEND": "noninteractive", "LANG": "C.UTF-8"}
     (root / "packages").mkdir()
     for name in (PROGRAM, PYTHON):
@@ -84,11 +82,21 @@ def check_clean_root(packages):
     print("installed into an empty Debian 12, run there by a user, removed")
 
 
-shutil.rmtree(FOLDER, ignore_errors=True)
-FOLDER.mkdir(parents=True)
-output("cpack", "--config", BUILD / "CPackConfig.cmake", "-B", FOLDER / "packages", cwd=BUILD)
-found = {path.name.split("_")[0]: path for path in (FOLDER / "packages").glob("*.deb")}
-require(set(found) == set(HOLDS), f"packages: {sorted(found)}")
-check_contents(found)
-check_tarball(next((FOLDER / "packages").glob("*.tar.gz")))
-check_clean_root(found)
+def built():
+    """Return the packages in the folder by their names."""
+    found = {path.name.split("_")[0]: path for path in (FOLDER / "packages").glob("*.deb")}
+    require(set(found) == set(HOLDS), f"packages: {sorted(found)}")
+    return found
+
+
+if "--install" in sys.argv:
+    if MIRROR not in os.environ:
+        print(f"SKIPPED: installation into an empty Debian: {MIRROR} is not set")
+        sys.exit(77)
+    check_clean_root(built(), os.environ[MIRROR])
+else:
+    shutil.rmtree(FOLDER, ignore_errors=True)
+    FOLDER.mkdir(parents=True)
+    output("cpack", "--config", BUILD / "CPackConfig.cmake", "-B", FOLDER / "packages", cwd=BUILD)
+    check_contents(built())
+    check_tarball(next((FOLDER / "packages").glob("*.tar.gz")))

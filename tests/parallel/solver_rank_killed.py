@@ -45,13 +45,16 @@ def main():
     job = subprocess.Popen([whipple, "run", case, "-o", killed, "--ranks", "3", *options], stderr=subprocess.PIPE,
                            text=True)
     deadline = time.monotonic() + 120
-    while not list(killed.glob("checkpoint/checkpoint.*.h5")):
-        assert job.poll() is None and time.monotonic() < deadline, "no checkpoint while the job runs"
-        time.sleep(0.02)
-    ranks = [child for child in children_of(job.pid) if name_of(child) == "whipple"]
-    assert len(ranks) == 3, f"expected three ranks, found {ranks}"
-    os.kill(ranks[1], signal.SIGKILL)
-    _, message = job.communicate(timeout=60)
+    try:
+        while not list(killed.glob("checkpoint/checkpoint.*.h5")):
+            assert job.poll() is None and time.monotonic() < deadline, "no checkpoint while the job runs"
+            time.sleep(0.02)
+        ranks = [child for child in children_of(job.pid) if name_of(child) == "whipple"]
+        assert len(ranks) == 3, f"expected three ranks, found {ranks}"
+        os.kill(ranks[1], signal.SIGKILL)
+        _, message = job.communicate(timeout=60)
+    finally:
+        job.terminate()  # if it still runs: it ends its ranks
     assert job.returncode != 0, "a job with a killed rank must not end with 0"
     assert "signal 9" in message, f"the message does not say that a rank was killed: {message!r}"
 

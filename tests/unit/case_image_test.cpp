@@ -262,6 +262,50 @@ TEST_F(Images, WhatIsNoImageIsRefused) {
   EXPECT_NE(refusal(flat).find("do not span space"), std::string::npos);
 }
 
+/// Words of a header that move or scale the body are read, compared with the case, or refused.
+TEST_F(Images, WordsOfHeadersCount) {
+  const std::string bytes = values<std::uint8_t>(false);
+  expect_ball(
+      *body(nrrd("UChar", "Encoding: RAW\nspace units: \"mm\" \"mm\" \"mm\"\naxis mins: nan nan nan\n") +
+            bytes),
+      "capitals, unit of the case");
+  EXPECT_NE(refusal(nrrd("uchar", "encoding: raw\naxis mins: 100 0 0\n") + bytes)
+                .find("head:11: 'axis mins' is not read"),
+            std::string::npos);
+  EXPECT_NE(refusal(nrrd("uchar", "encoding: raw\nspace units: \"m\" \"m\" \"m\"\n") + bytes)
+                .find("the file states lengths in units of 1 m, 'unit' is 0.001 m"),
+            std::string::npos);
+  EXPECT_NE(refusal(nrrd("uchar", "encoding: raw\nspace units: \"m\" \"mm\" \"m\"\n") + bytes)
+                .find("different units"),
+            std::string::npos);
+  EXPECT_NE(refusal(nrrd("uchar", "encoding: raw\nspace units: \"ell\" \"ell\" \"ell\"\n") + bytes)
+                .find("unit \"ell\" is not known"),
+            std::string::npos);
+  const std::string head = nrrd("uchar", "encoding: raw\n");
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string text = head;
+    text.replace(text.find(from), from.size(), to);
+    return refusal(text + bytes);
+  };
+  EXPECT_NE(changed("sizes: 20 24 28", "sizes: 20 24 28 3").find("'sizes' has more than three"),
+            std::string::npos);
+  EXPECT_NE(changed("dimension: 3\n", "").find("states no dimension"), std::string::npos);
+  EXPECT_NE(changed("(0.5,0,0) (0,0.4,0)", "(0.5,0,0) (0.5,1e-13,0)").find("do not span space"),
+            std::string::npos);
+  std::string micrometers = nifti(false, true);
+  micrometers[123] = 3;
+  EXPECT_NE(refusal(micrometers).find("units of 1e-06 m"), std::string::npos);
+  micrometers[123] = 2 + 8;  // mm and s
+  expect_ball(*body(micrometers), "NIfTI in millimetres");
+}
+
+/// A line of values is named as an editor counts it.
+TEST_F(Images, LinesOfValuesCountFromTheStartOfTheFile) {
+  EXPECT_NE(refusal(nrrd("int", "encoding: ascii\n") + "0 1\n0 x\n" + text_values())
+                .find("head:13: expected a number"),
+            std::string::npos);
+}
+
 TEST_F(Images, RunsKeepBothFiles) {
   write(values<std::int16_t>(false), "values.raw");
   const auto one = body(meta("ElementType = MET_SHORT\nElementDataFile = values.raw\n"));

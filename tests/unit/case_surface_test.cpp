@@ -229,13 +229,132 @@ TEST_F(Surfaces, TurnedAndDoubledSurfacesAreBodies) {
   std::vector<Triangle> doubled = turned;
   for (const Triangle& t : block({10, 10, 10})) doubled.push_back(t);
   const auto other = read(binary_stl(doubled));
-  EXPECT_EQ(other->audit().repeated, 12U);
+  EXPECT_EQ(other->audit().repeated, 12U);  // a closed shell in both senses stays
+  EXPECT_EQ(other->audit().cancelled, 0U);
   EXPECT_TRUE(other->audit().is_closed());
   EXPECT_NEAR(other->volume(), 1e-6, 1e-12);
 
   std::vector<Triangle> one_turned = block({10, 10, 10});
   std::swap(one_turned[3][1], one_turned[3][2]);
   EXPECT_EQ(read(binary_stl(one_turned))->audit().flipped, 1U);
+}
+
+/// Says whether a line of the account holds a piece.
+bool says(const Surface& body, const std::string& piece) {
+  return std::ranges::any_of(body.account(),
+                             [&](const std::string& line) { return line.find(piece) != std::string::npos; });
+}
+
+void turn(std::vector<Triangle>& triangles) {
+  for (Triangle& t : triangles) std::swap(t[1], t[2]);
+}
+
+void add(std::vector<Triangle>& to, const std::vector<Triangle>& part, const Vector3& shift) {
+  for (const Triangle& t : part) to.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+}
+
+/// Faces that two plates share cancel, whichever plate comes first; membranes within a body as well.
+TEST_F(Surfaces, PlatesInContactAreOneBody) {
+  const std::vector<Triangle> plate = block({10, 10, 4});
+  for (const std::array<double, 3>& order : {std::array{0.0, 4.0, 8.0}, std::array{0.0, 8.0, 4.0}}) {
+    std::vector<Triangle> laminate;
+    for (const double z : order) add(laminate, plate, Vector3(0, 0, z));
+    const auto body = read(binary_stl(laminate));
+    EXPECT_EQ(body->audit().cancelled, 4U);
+    EXPECT_EQ(body->audit().repeated, 0U);
+    EXPECT_NEAR(body->volume(), 1.2e-6, 1e-13);
+    for (const double z : {1.0, 3.99, 4.01, 7.99, 8.01, 11.0}) {
+      EXPECT_TRUE(body->contains({5e-3, 4e-3, 1e-3 * z})) << z;
+    }
+    EXPECT_TRUE(says(*body, "4 faces within the solid"));
+  }
+  std::vector<Triangle> cube = block({16, 16, 16});
+  for (const double z : {4.0, 8.0, 12.0}) {
+    const Triangle membrane = {Vector3(0, 0, z), Vector3(16, 0, z), Vector3(16, 16, z)};
+    cube.push_back(membrane);
+    cube.push_back({membrane[0], membrane[2], membrane[1]});
+  }
+  const auto body = read(binary_stl(cube));
+  EXPECT_EQ(body->audit().cancelled, 3U);
+  EXPECT_NEAR(body->volume(), 4.096e-6, 1e-12);
+}
+
+/// The volume of a closed surface is not left to points, of which thin walls and small parts hold few.
+TEST_F(Surfaces, ThinAndScatteredBodiesHaveTheirVolume) {
+  const double ball_volume = read(binary_stl(ball(1.0, 40)))->volume();
+  std::vector<Triangle> shell = ball(10.0, 40), inner = ball(9.9, 40);
+  turn(inner);
+  add(shell, inner, Vector3::Zero());
+  const double thin = ball_volume * (1000.0 - std::pow(9.9, 3));
+  EXPECT_NEAR(read(binary_stl(shell))->volume(), thin, 1e-4 * thin);
+
+  std::vector<Triangle> two = ball(0.5, 40);
+  add(two, ball(0.5, 40), Vector3(200, 190, 180));
+  const auto scattered = read(binary_stl(two));
+  EXPECT_NEAR(scattered->volume(), 0.25 * ball_volume, 1e-4 * ball_volume);
+  EXPECT_TRUE(says(*scattered, "by the divergence theorem"));
+}
+
+TEST_F(Surfaces, PartsCountByTheWindingNumberOnTheirSides) {
+  // A ball within a ball, with its sense, is no cavity.
+  std::vector<Triangle> twice = ball(10.0, 40);
+  add(twice, ball(8.0, 40), Vector3::Zero());
+  const auto solid = read(binary_stl(twice));
+  EXPECT_NEAR(solid->volume(), read(binary_stl(ball(10.0, 40)))->volume(), 1e-12);
+  EXPECT_TRUE(says(*solid, "1 of 2 closed parts enclosed twice"));
+  // Two cubes that share an edge, one of them turned: both are bodies.
+  std::vector<Triangle> cubes = block({5, 5, 5}), other = block({5, 5, 5});
+  turn(other);
+  add(cubes, other, Vector3(-5, -5, 0));
+  const auto both = read(binary_stl(cubes));
+  EXPECT_EQ(both->audit().crowded_edges, 1U);
+  EXPECT_NEAR(both->volume(), 2.5e-7, 1e-13);
+  EXPECT_TRUE(says(*both, "1 of 2 closed parts turned inside out"));
+  // Parts that cross are counted: an eighth of each cube is there twice.
+  std::vector<Triangle> crossing = block({10, 10, 10});
+  add(crossing, block({10, 10, 10}), Vector3(5, 5, 5));
+  const auto counted = read(binary_stl(crossing));
+  EXPECT_NEAR(counted->volume(), 1.875e-6, 0.002e-6);
+  EXPECT_TRUE(says(*counted, "closed parts cross"));
+}
+
+TEST_F(Surfaces, ExtentsOfScaledBodiesAreScaled) {
+  write(binary_stl(block({10, 10, 10})));
+  const std::string file = (folder_ / "part.stl").string();
+  const auto shape =
+      shape_test::shape_of("{ scaled = { factors = [0.1, 2.0, 1.0], shape = { surface = { file = \"" + file +
+                           "\", unit = 1e-3 } } } }");
+  EXPECT_NEAR(shape->smallest_extent(Vector3::UnitX()), 1e-3, 2e-5);
+}
+
+TEST_F(Surfaces, WritingsOfOtherProgramsAreRead) {
+  const std::vector<Triangle> cube = block({10, 10, 10});
+  std::string text = text_stl(cube), upper = text;
+  for (char& c : upper) c = c >= 'a' && c <= 'z' && c != 'e' ? static_cast<char>(c - 'a' + 'A') : c;
+  for (const std::string& bytes : {upper, "\xEF\xBB\xBF" + text, "usemtl steel\n" + obj(cube),
+                                   replaced(ply(cube, Order::text), "end_header\n", "end_header\n \n")}) {
+    EXPECT_NEAR(read(bytes)->volume(), 1e-6, 1e-12);
+  }
+  std::vector<Triangle> second;
+  add(second, cube, Vector3(20, 0, 0));
+  EXPECT_NEAR(read(text + text_stl(second))->volume(), 2e-6, 1e-12);
+  EXPECT_NE(refusal(text + text.substr(0, text.size() - 14)).find("before \"endsolid\""), std::string::npos);
+  EXPECT_NE(refusal("solid x\n facet\n outer loop\n vertex 0 0 \x1b[31m" + std::string(200, 'y') + "\n")
+                .find("instead of \"\\x1B[31m" + std::string(35, 'y') + "...\""),
+            std::string::npos);
+}
+
+TEST_F(Surfaces, FilesAreNamedByTheirDigest) {
+  write(binary_stl(block({1, 1, 1})));
+  EXPECT_NE(message_of<InputError>([&] {
+              Surface({.file = "part.stl", .unit = 1.0, .digest = "../../etc"}, folder_);
+            }).find("'digest' has 64 digits"),
+            std::string::npos);
+  std::filesystem::create_symlink("loop.stl", folder_ / "loop.stl");
+  EXPECT_NE(message_of<InputError>([&] {
+              Surface({.file = "loop.stl", .unit = 1.0, .digest = {}}, folder_);
+            }).find("loop.stl: "),
+            std::string::npos);
 }
 
 TEST_F(Surfaces, HollowBodiesHaveCavitiesAndWallsAThickness) {
@@ -266,7 +385,7 @@ TEST_F(Surfaces, WhatIsNoSurfaceIsRefused) {
   EXPECT_NE(refusal("ply\nformat ascii 1.0\nelement vertex 99999999999\n").find("in a file of"),
             std::string::npos);
   EXPECT_NE(refusal("ply\nformat binary_middle_endian 1.0\n").find("known: ascii"), std::string::npos);
-  EXPECT_NE(refusal("lattice of nothing\n").find("neither STL, OBJ nor PLY"), std::string::npos);
+  EXPECT_NE(refusal("lattice of nothing\n").find("a text, but neither STL, OBJ nor PLY"), std::string::npos);
   const std::vector<Triangle> flat(2, Triangle{Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(0, 1, 0)});
   EXPECT_NE(refusal(binary_stl(flat)).find("bound no solid"), std::string::npos);
   EXPECT_NE(message_of<InputError>([&] {

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Formulas as they are written in the documents become TeX that says the same; every numbered equation of the theory is
-one that is understood, and KaTeX accepts it where KaTeX and Node are installed. Citations are found in sentences.
+one that is understood, and KaTeX accepts it. Citations are found in sentences. Exit code 77 if all but KaTeX was asked,
+because Node or KaTeX is missing.
 
 Usage: site_formulas.py ROOT
 """
@@ -34,6 +35,9 @@ SAME = (
     ("(1 - x)^-2(a - b) e^(a x)", r"(1 - x)^{-2(a - b)} e^{a x}"),
     ("chi^2_k = P1a + E_0H", r"\chi_{k}^{2} = P_{1a} + E_{0H}"),
     ("dD = dep/max{D1, eps_m}", r"dD = \frac{d\mathit{ep}}{\max\{D_{1}, \varepsilon_{m}\}}"),
+    ("beta_1 = (f x b + c x e)/3", r"\beta_{1} = \frac{f \times b + c \times e}{3}"),
+    ("3 x 1.54 e^(a x)/x", r"3 \times 1.54 \frac{e^{a x}}{x}"),
+    ("2 x y + x_a x f_a", r"2 x y + x_{a} \times f_{a}"),
     ("0 if the gap is open, else e_p^{n+1}", None),
 )
 
@@ -67,15 +71,15 @@ def main():
             except formulas.NoFormula as fault:
                 require(not numbered, f"{page.name}:{begin + 1}: {fault}: {lines[begin].strip()}")
     require(numbers > 250, f"only {numbers} numbered equations in docs/theory")
-    if shutil.which("node") and pathlib.Path(KATEX).is_file():
-        script = f"const k = require('{KATEX}'); let n = 0;" \
-            "for (const [page, text, tex] of JSON.parse(require('fs').readFileSync(0)))" \
-            "try { k.renderToString(tex, { strict: false }); n++ } catch (e) { console.log(page, text, e.message) } console.log(n)"
-        done = subprocess.run(["node", "-e", script], input=json.dumps(found), capture_output=True, text=True, check=True)
-        require(done.stdout.split() == [str(len(found))], f"KaTeX refuses:\n{done.stdout}")
-        print(f"KaTeX accepts {len(found)} formulas, {numbers} with numbers")
-    else:
-        print(f"{len(found)} formulas, {numbers} with numbers; KaTeX or Node is not here: not asked")
+    if shutil.which("node") is None or not pathlib.Path(KATEX).is_file():
+        print(f"SKIPPED: whether KaTeX accepts {len(found)} formulas: no {KATEX}, or no Node (scripts/install_deps.sh --site)")
+        sys.exit(77)
+    script = f"const k = require('{KATEX}'); let n = 0;" \
+        "for (const [page, text, tex] of JSON.parse(require('fs').readFileSync(0)))" \
+        "try { k.renderToString(tex, { strict: false }); n++ } catch (e) { console.log(page, text, e.message) } console.log(n)"
+    done = subprocess.run(["node", "-e", script], input=json.dumps(found), capture_output=True, text=True, check=True)
+    require(done.stdout.split() == [str(len(found))], f"KaTeX refuses:\n{done.stdout}")
+    print(f"KaTeX accepts {len(found)} formulas, {numbers} with numbers")
 
 
 main()

@@ -48,6 +48,18 @@ class Array final : public Shape {
       table->error_at("shape", "'shape' of an array has no end: intersect it with a bounded shape");
       return nullptr;
     }
+    constexpr double most = 1000.0;
+    const Shape::Bounds box = shape->bounds();
+    Eigen::Index axis = 0;
+    const double step = row.step.cwiseAbs().maxCoeff(&axis);
+    const double copies =
+        std::min((box.upper - box.lower)[axis] / step, static_cast<double>(row.count)) + 1.0;
+    if (copies > most) {
+      table->error_at("step",
+                      fmt::format("'step' is so short that {:.2g} copies reach each place; at most {:.0f}",
+                                  copies, most));
+      return nullptr;
+    }
     return std::make_unique<Array>(row, std::move(shape));
   }
 

@@ -5,23 +5,29 @@
 
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "src/case/shapes/spread_points.hpp"
+#include "src/core/parallel/threads.hpp"
 
 namespace whipple::cases {
 
 double counted_volume(const Shape& shape) {
-  constexpr int points = 96;
   const Shape::Bounds box = shape.bounds();
-  const Vector3 step = (box.upper - box.lower) / points;
-  if (!step.allFinite()) return std::numeric_limits<double>::infinity();
-  long inside = 0;
-  for (int i = 0; i < points; ++i) {
-    for (int j = 0; j < points; ++j) {
-      for (int k = 0; k < points; ++k) {
-        inside += shape.contains(box.lower + step.cwiseProduct(Vector3(i + 0.5, j + 0.5, k + 0.5))) ? 1 : 0;
-      }
+  const Vector3 edges = box.upper - box.lower;
+  if (!edges.allFinite()) return std::numeric_limits<double>::infinity();
+  // Points of a lattice would agree with the cells of periodic shapes.
+  constexpr std::size_t points = 1000000, first = 1000000;  // far from the points that calibrate fillings
+  constexpr std::size_t portion = 10000;
+  std::vector<std::size_t> inside(points / portion, 0);
+  parallel::for_each_uneven(inside.size(), [&](std::size_t p) {
+    for (std::size_t i = 0; i < portion; ++i) {
+      const Vector3 part = spread_point(first + p * portion + i);
+      inside[p] += shape.contains(box.lower + part.cwiseProduct(edges)) ? 1 : 0;
     }
-  }
-  return static_cast<double>(inside) * step.prod();
+  });
+  const std::size_t count = std::accumulate(inside.begin(), inside.end(), std::size_t{0});
+  return static_cast<double>(count) / static_cast<double>(points) * edges.prod();
 }
 
 std::string list_as_toml(const Parts& parts) {

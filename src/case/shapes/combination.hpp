@@ -16,7 +16,7 @@ namespace whipple::cases {
 
 using Parts = std::vector<std::unique_ptr<Shape>>;
 
-/// Returns the volume of a shape (m^3) by counting the points of a lattice over its bounds.
+/// Returns the volume of a shape (m^3) by counting a million quasi-random points of its bounds.
 double counted_volume(const Shape& shape);
 
 /// Returns "[{ ... }, { ... }]" as written in a case file.

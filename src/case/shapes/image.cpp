@@ -17,14 +17,16 @@
 namespace whipple::cases {
 namespace {
 
+bool is_whole(double value) { return value == std::floor(value); }
+
 /// Describes a file without header by the keys of the case.
 solids::ImageHeader raw_header(const ImageKeys& keys) {
   solids::ImageHeader header;
   if (keys.size.size() != 3) throw InputError("'size' has three numbers of voxels");
   for (std::size_t a = 0; a < 3; ++a) {
     constexpr double most = 1e6;
-    if (!(keys.size[a] >= 1.0 && keys.size[a] <= most))
-      throw InputError("'size' has three numbers from 1 to 1e6");
+    if (!(keys.size[a] >= 1.0 && keys.size[a] <= most && is_whole(keys.size[a])))
+      throw InputError("'size' has three whole numbers from 1 to 1e6");
     header.size[a] = static_cast<std::uint64_t>(keys.size[a]);
   }
   header.type = keys.type;
@@ -33,8 +35,6 @@ solids::ImageHeader raw_header(const ImageKeys& keys) {
   header.steps = keys.spacing.asDiagonal();
   return header;
 }
-
-bool is_whole(double value) { return value == std::floor(value); }
 
 }  // namespace
 
@@ -72,6 +72,10 @@ VoxelBody::VoxelBody(ImageKeys keys, const std::filesystem::path& folder) : keys
   keys_.digest = source_.digest;
   const solids::Image image =
       is_raw ? solids::Image::read_raw(source_.path, raw_header(keys_)) : solids::Image::read(source_.path);
+  if (const auto unit = image.header().unit; unit && std::abs(*unit / keys_.unit - 1.0) > 1e-6) {
+    throw InputError(fmt::format("{}: the file states lengths in units of {} m, 'unit' is {} m",
+                                 utf8(source_.path.string()), *unit, keys_.unit));
+  }
   take(image);
   describe_labels(image);
   if (keys_.smooth) volume_ = counted_volume(*this);

@@ -26,7 +26,8 @@ struct PackingKeys {
         real("spread", &K::spread, "", range::between(0.0, 1.0),
              "standard deviation of the logarithm of the radii, which are cut off at 2.5 of them")
             .optional(),
-        real("fraction", &K::fraction, "", range::open_between(0.0, 0.7), "part of the box that is filled"),
+        real("fraction", &K::fraction, "", range::open_between(0.0, 0.6),
+             "part of the box that is filled; equal spheres reach about 0.55"),
         integer("seed", &K::seed, range::between(0, 1e15), "selects one of many random packings").optional()};
   }
 };

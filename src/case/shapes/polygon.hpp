@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -20,6 +22,14 @@ struct Polygon {
     if (first.size() < 3) return "a polygon has at least three corners";
     corners.clear();
     for (std::size_t i = 0; i < first.size(); ++i) corners.push_back({first[i], second[i]});
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      for (std::size_t j = i + 2; j < corners.size(); ++j) {
+        if (i == 0 && j + 1 == corners.size()) continue;  // neighbours
+        if (!do_cross(corners[i], next(i), corners[j], next(j))) continue;
+        return fmt::format("the edges from corner {} to {} and from corner {} to {} cross", i + 1, i + 2,
+                           j + 1, (j + 1) % corners.size() + 1);
+      }
+    }
     return area() > 0.0 ? std::string() : std::string("the polygon has no area");
   }
 
@@ -42,10 +52,21 @@ struct Polygon {
   /// Calls f(from, to) for every edge.
   template <class Function>
   void for_each_edge(Function&& f) const {
-    for (std::size_t i = 0; i < corners.size(); ++i) f(corners[i], corners[(i + 1) % corners.size()]);
+    for (std::size_t i = 0; i < corners.size(); ++i) f(corners[i], next(i));
   }
 
  private:
+  using Point = std::array<double, 2>;
+  [[nodiscard]] const Point& next(std::size_t i) const { return corners[(i + 1) % corners.size()]; }
+  /// Returns twice the area of a triangle, positive counter-clockwise.
+  static double side(const Point& a, const Point& b, const Point& c) {
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+  }
+  /// Returns whether each of two edges has the ends of the other one on different sides: those that touch do not cross.
+  static bool do_cross(const Point& a, const Point& b, const Point& c, const Point& d) {
+    const auto apart = [](double x, double y) { return (x > 0.0 && y < 0.0) || (x < 0.0 && y > 0.0); };
+    return apart(side(a, b, c), side(a, b, d)) && apart(side(c, d, a), side(c, d, b));
+  }
   /// Sums f over the triangles of the origin with every edge, weighted by their areas.
   template <class Function>
   [[nodiscard]] double moment(Function&& f) const {

@@ -38,7 +38,7 @@ class Scaled final : public Shape {
     return std::make_unique<Scaled>(scaling, std::move(shape));
   }
 
-  Scaled(const Scaling& scaling, std::unique_ptr<Shape> shape)
+  Scaled(const Scaling& scaling, std::shared_ptr<const Shape> shape)
       : scaling_(scaling), shape_(std::move(shape)) {}
   [[nodiscard]] bool contains(const Vector3& point) const override {
     return shape_->contains((point - scaling_.center).cwiseQuotient(scaling_.factors) + scaling_.center);
@@ -48,10 +48,19 @@ class Scaled final : public Shape {
     return {image(box.lower), image(box.upper)};
   }
   [[nodiscard]] double volume() const override { return scaling_.factors.prod() * shape_->volume(); }
-  void visit(const std::function<void(const Shape&)>& f) const override {
-    f(*this);
-    shape_->visit(f);
+  /// Returns that of the shape times the smallest factor: the true one or, where its direction is stretched more, less.
+  [[nodiscard]] double smallest_extent(const Vector3& direction) const override {
+    return scaling_.factors.minCoeff() *
+           shape_->smallest_extent(direction.cwiseQuotient(scaling_.factors).eval());
   }
+  /// Calls f for the stretched shape and for all that it is made of, each stretched.
+  void visit(const std::function<void(const Shape&)>& f) const override {
+    shape_->visit([&](const Shape& part) {
+      f(Scaled(scaling_, std::shared_ptr<const Shape>(std::shared_ptr<const Shape>(), &part)));
+    });
+  }
+  [[nodiscard]] std::optional<SourceFile> source() const override { return shape_->source(); }
+  [[nodiscard]] std::vector<std::string> account() const override { return shape_->account(); }
   [[nodiscard]] bool fills_lattice() const override { return shape_->fills_lattice(); }
   [[nodiscard]] std::string toml() const override { return holder_as_toml(name, scaling_, *shape_); }
   [[nodiscard]] std::optional<fem::Hexahedra> hexahedra(double size, const Bounds& clip) const override {
@@ -71,7 +80,7 @@ class Scaled final : public Shape {
   }
 
   Scaling scaling_;
-  std::unique_ptr<Shape> shape_;
+  std::shared_ptr<const Shape> shape_;
 };
 
 }  // namespace whipple::cases

@@ -31,11 +31,18 @@ SourceFile find_source(const std::string& file, const std::string& digest, const
                                  utf8(source.path.string())));
   }
   if (!digest.empty()) {
+    constexpr std::size_t digits = 64;
+    if (digest.size() != digits || digest.find_first_not_of("0123456789abcdef") != std::string::npos) {
+      throw InputError("'digest' has 64 digits, 0 to 9 and a to f: a SHA-256");
+    }
     const fs::path kept = fs::absolute(folder / kept_name(digest, source.path));
     std::error_code none;
     if (fs::is_regular_file(kept, none)) source.path = kept;
   }
-  if (!fs::exists(source.path)) throw InputError(fmt::format("{}: no such file", source.path.string()));
+  std::error_code fault;
+  if (!fs::exists(source.path, fault)) {
+    throw InputError(fmt::format("{}: {}", source.path.string(), fault ? fault.message() : "no such file"));
+  }
   source.digest = sha256_of_file(regular_file(source.path));
   const fs::path further = companion != nullptr ? companion(source.path) : fs::path();
   if (!further.empty()) {

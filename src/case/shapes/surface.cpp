@@ -37,14 +37,12 @@ Surface::Surface(SurfaceKeys keys, const std::filesystem::path& folder)
     throw InputError(fmt::format("{}: {}", utf8(source_.path.string()), error.what()));
   }
   inside_ = std::make_shared<const solids::Inside>(std::move(triangles), audit_);
-  counted_ = counted_volume(*this);
-  if (!(counted_ > 0.0)) {
+  enclosure_ = solids::enclosure_of(inside_->tree(), audit_);
+  volume_ = enclosure_ ? enclosure_->volume : counted_volume(*this);
+  if (!(volume_ > 0.0)) {
     throw InputError(fmt::format("{}: its {} triangles enclose no volume: {} edges are open",
                                  utf8(source_.path.string()), audit_.triangles, audit_.open_edges));
   }
-  constexpr double agreement = 0.02;  // of counting, with margin
-  const double enclosed = std::abs(audit_.volume);
-  volume_ = audit_.is_closed() && std::abs(enclosed - counted_) < agreement * counted_ ? enclosed : counted_;
   measure_thickness();
 }
 
@@ -88,14 +86,27 @@ std::vector<std::string> Surface::account() const {
       fmt::format("surface {}: {} triangles, {:.4g} x {:.4g} x {:.4g} mm, SHA-256 {}",
                   source_.path.filename().string(), audit_.triangles, size[0], size[1], size[2],
                   source_.digest),
-      fmt::format(
-          "  volume {:.6g} mm^3 by the divergence theorem, {:.6g} mm^3 by counting; thinnest part {:.3g} mm",
-          1e9 * audit_.volume, 1e9 * counted_, 1e3 * thickness_)};
-  if (audit_.volume < 0.0) lines.emplace_back("  turned inside out: read as its inside");
+      fmt::format("  volume {:.6g} mm^3 by {}; thinnest part {:.3g} mm", 1e9 * volume_,
+                  enclosure_ ? "the divergence theorem" : "counting", 1e3 * thickness_)};
+  if (enclosure_ && enclosure_->inverted > 0) {
+    lines.push_back(fmt::format("  {} of {} closed parts turned inside out: read as their inside",
+                                enclosure_->inverted, enclosure_->parts));
+  }
+  if (enclosure_ && enclosure_->covered > 0) {
+    lines.push_back(
+        fmt::format("  {} of {} closed parts enclosed twice: they lie in the solid, with its sense; turned "
+                    "they would be cavities: look at it",
+                    enclosure_->covered, enclosure_->parts));
+  }
+  if (!enclosure_ && audit_.are_parts_closed) lines.emplace_back("  closed parts cross: look at it");
   if (audit_.degenerate + audit_.repeated + audit_.flipped > 0) {
     lines.push_back(
         fmt::format("  repaired: {} triangles without area and {} repeated ones dropped, {} turned",
                     audit_.degenerate, audit_.repeated, audit_.flipped));
+  }
+  if (audit_.cancelled > 0) {
+    lines.push_back(
+        fmt::format("  {} faces within the solid, given once in each sense, dropped", audit_.cancelled));
   }
   if (!audit_.is_closed()) {
     lines.push_back(

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "src/case/shapes/made.hpp"
+#include "src/solids/enclosure.hpp"
 #include "src/solids/surface.hpp"
 
 namespace whipple::solids {
@@ -33,8 +34,8 @@ class Surface final : public Shape, public Made<Surface, SurfaceKeys> {
 
   [[nodiscard]] bool contains(const Vector3& point) const override;
   [[nodiscard]] Bounds bounds() const override { return {audit_.lower, audit_.upper}; }
-  /// Returns the volume by the divergence theorem if the surface is closed and does not enclose a part twice, otherwise
-  /// by counting.
+  /// Returns the volume by the divergence theorem if all parts of the surface are closed and do not cross, otherwise by
+  /// counting.
   [[nodiscard]] double volume() const override { return volume_; }
   /// Returns the thickness that 1 % of the area falls below, from points on the surface inwards to the next one.
   [[nodiscard]] double smallest_extent(const Vector3&) const override { return thickness_; }
@@ -51,8 +52,8 @@ class Surface final : public Shape, public Made<Surface, SurfaceKeys> {
   SourceFile source_;
   solids::Audit audit_;
   std::shared_ptr<const solids::Inside> inside_;
+  std::optional<solids::Enclosure> enclosure_;  // nothing: counted
   double volume_ = 0.0;
-  double counted_ = 0.0;
   double thickness_ = 0.0;
 };
 

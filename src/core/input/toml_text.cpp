@@ -11,6 +11,7 @@
 
 #include "src/core/base/error.hpp"
 #include "src/core/base/text.hpp"
+#include "src/core/input/library_version.hpp"
 #include "src/core/input/structure_check.hpp"
 
 namespace whipple::input {
@@ -36,6 +37,10 @@ std::optional<toml::table> parsed_value(std::string_view value) {
 }
 
 }  // namespace
+
+std::string toml_library_version() {
+  return fmt::format("{}.{}.{}", TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH);
+}
 
 toml::table parse_toml(const std::string& text, const std::filesystem::path& path) {
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF") ||
