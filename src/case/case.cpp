@@ -10,6 +10,7 @@
 
 #include "src/case/build/bars.hpp"
 #include "src/case/build/lithostatic.hpp"
+#include "src/case/build/patches.hpp"
 #include "src/case/build/placement.hpp"
 #include "src/case/shapes/mesh_shape.hpp"
 #include "src/core/base/error.hpp"

@@ -11,7 +11,7 @@
 namespace whipple::cases {
 
 ParameterTable<Faces> Faces::parameters() {
-  const auto face = [](const char* name, grid::Boundary Faces::* member) {
+  const auto face = [](const char* name, grid::Boundary Faces::*member) {
     return choice(name, member,
                   "material leaves the domain and is counted | frictionless mirror plane | no-slip wall | "
                   "frictionless wall that transmits compression only | the same with Coulomb friction")
@@ -144,8 +144,7 @@ void Domain::check(const Case& setup, const Faults& faults) const {
                                ? "'friction' is the coefficient of faces of kind \"friction\": there is none"
                                : "faces of kind \"friction\" need the coefficient 'domain.friction'");
   }
-  const bool lets_part = boundary.any(grid::Boundary::separating) || boundary.any(grid::Boundary::friction);
-  if (lets_part && setup.time.scheme == Scheme::usf) {
+  if (std::ranges::any_of(boundary.in_order(), grid::lets_part) && setup.time.scheme == Scheme::usf) {
     faults.add(
         "boundary",
         "a separating wall, with or without friction, is found to be in contact by the forces on the grid, "

@@ -22,9 +22,13 @@ void Gravity::check(const Case& setup, const Faults& faults) const {
     faults.add("acceleration", "'acceleration': particles of transfer.free_flight would not fall");
   }
   table.check(faults);
-  if (rise_time > 0.0 && table.times.size() > 1) {
+  if (table.is_default()) return;
+  if (rise_time > 0.0) {
     faults.add("rise_time",
                "gravity increases with 'rise_time' or by the table of 'times' and 'factors', not both");
+  }
+  if (acceleration.isZero(0.0)) {
+    faults.add("times", "'times' and 'factors' are those of 'acceleration', which is missing or zero");
   }
 }
 

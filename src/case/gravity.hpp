@@ -15,11 +15,12 @@ struct Gravity {
   static ParameterTable<Gravity> parameters();
   void check(const Case& setup, const Faults& faults) const;
 
-  /// Returns the acceleration at a time (s); it increases linearly from 0 up to `rise_time`.
-  [[nodiscard]] Vector3 at(double time) const {
-    return rise_time > time ? Vector3(time / rise_time * acceleration)
-                            : Vector3(table.at(time) * acceleration);
+  /// Returns the factor of the acceleration over time: with `rise_time` linear from 0 at the start.
+  [[nodiscard]] TimeTable factor() const {
+    return rise_time > 0.0 ? TimeTable{{0.0, rise_time}, {0.0, 1.0}} : table;
   }
+  /// Returns the acceleration at a time, m/s^2.
+  [[nodiscard]] Vector3 at(double time) const { return factor().at(time) * acceleration; }
 };
 
 }  // namespace whipple::cases

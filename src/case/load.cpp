@@ -4,27 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <vector>
 
-#include "src/case/build/placement.hpp"
+#include "src/case/build/patches.hpp"
 #include "src/case/case.hpp"
 
 namespace whipple::cases {
 namespace {
-
-struct FacePlane {
-  int axis;
-  double position;  // m
-  double inward;    // 1 or -1
-};
-
-FacePlane plane_of(const grid::Geometry& geometry, Face face) {
-  const int index = static_cast<int>(face), axis = index / 2;
-  const bool low = index % 2 == 0;
-  return {axis, low ? geometry.lower[axis] : geometry.upper(axis), low ? 1.0 : -1.0};
-}
 
 /// Returns the number of directions in which the case has an extent.
 int directions(const Case& setup) { return setup.domain.is_planar() ? 2 : 3; }
@@ -56,9 +42,9 @@ ParameterTable<AppliedLoad> AppliedLoad::parameters() {
                  "strain of 1 m")
               .optional(),
           real("pressure", &L::pressure, "Pa", range::any(),
-               "pressure of the patch of `face` inside the box: a force into the domain, distributed over "
-               "the material "
-               "within a cell of the face by its mass")
+               "pressure of the patch of `face` inside the box: a force into the domain on the area that "
+               "material covers at the start, distributed by mass over the material within a cell of the "
+               "face")
               .optional("none"),
           choice("face", &L::face, "face of the domain, with a pressure").optional("none"),
           real("damping", &L::damping, "1/s", range::positive(),
@@ -82,12 +68,15 @@ void AppliedLoad::check(const Case& setup, const Faults& faults) const {
         fmt::format("a load is one of 'acceleration', 'force', 'pressure' and 'damping', not zero: {} given",
                     given));
   }
-  if ((face != Face::none) != (pressure != not_given)) {
-    faults.add("face", face == Face::none ? "a 'pressure' needs the 'face' of the domain on which it acts"
-                                          : "'face' is that of a 'pressure'");
+  if (pressure != not_given && face == Face::none) {
+    faults.add("face", "a 'pressure' needs the 'face' of the domain on which it acts");
+  } else if (pressure == not_given && face != Face::none && given > 0) {
+    faults.add("face", "'face' is that of a 'pressure'");
   }
   if (setup.domain.is_planar() && face != Face::none && static_cast<int>(face) / 2 == 2) {
     faults.add("face", "in two dimensions there is no face across z");
+  } else if (face != Face::none && setup.geometry.cell_size > 0.0) {
+    check_face(setup, faults);
   }
   if (setup.domain.is_planar()) {
     const bool rings = setup.domain.dimension == grid::Dimension::axisymmetric;
@@ -108,6 +97,37 @@ void AppliedLoad::check(const Case& setup, const Faults& faults) const {
   }
 }
 
+/// Adds faults for a face that would pull material back, and for a box that does not reach the face.
+void AppliedLoad::check_face(const Case& setup, const Faults& faults) const {
+  const FacePlane of_face = plane(setup);
+  if (setup.geometry.mirrors(static_cast<std::size_t>(face))) {
+    const bool is_axis = setup.geometry.is_axisymmetric() && face == Face::y_lower;
+    faults.add("face",
+               is_axis ? "there is no pressure on the axis of rings: it has no area"
+                       : fmt::format("'{}' is of kind \"{}\", to which material is bonded, and would hold it "
+                                     "against the pressure: expected a face of kind \"separating\", "
+                                     "\"friction\" or \"outflow\"",
+                                     word_of(face),
+                                     word_of(setup.geometry.boundary[static_cast<std::size_t>(face)])));
+  }
+  if (!box) return;
+  const double inner = of_face.position + of_face.inward * setup.geometry.cell_size;
+  const double low = std::min(of_face.position, inner), high = std::max(of_face.position, inner);
+  const double tolerance = setup.geometry.tolerance();
+  if (box->lower[of_face.axis] <= low + tolerance && box->upper[of_face.axis] >= high - tolerance) return;
+  faults.add(
+      "box",
+      fmt::format("a pressure acts on material within a cell of its face, {0} = {1:.6g} m to "
+                  "{2:.6g} m: expected a box that contains it, found {0} = {3:.6g} m to {4:.6g} m",
+                  "xyz"[of_face.axis], low, high, box -> lower[of_face.axis], box -> upper[of_face.axis]));
+}
+
+FacePlane AppliedLoad::plane(const Case& setup) const {
+  const int index = static_cast<int>(face), axis = index / 2;
+  return index % 2 == 0 ? FacePlane{axis, setup.geometry.lower[axis], 1.0}
+                        : FacePlane{axis, setup.geometry.upper(axis), -1.0};
+}
+
 LoadedRegion AppliedLoad::region(const Case& setup) const {
   LoadedRegion region{.body = {},
                       .lower = Vector3::Constant(-std::numeric_limits<double>::infinity()),
@@ -117,10 +137,10 @@ LoadedRegion AppliedLoad::region(const Case& setup) const {
     region.upper[a] = box->upper[a];
   }
   if (face != Face::none) {
-    const FacePlane plane = plane_of(setup.geometry, face);
-    const double other = plane.position + plane.inward * setup.geometry.cell_size;
-    region.lower[plane.axis] = std::min(plane.position, other);
-    region.upper[plane.axis] = std::max(plane.position, other);
+    const FacePlane of_face = plane(setup);
+    const double other = of_face.position + of_face.inward * setup.geometry.cell_size;
+    region.lower[of_face.axis] = std::min(of_face.position, other);
+    region.upper[of_face.axis] = std::max(of_face.position, other);
   }
   if (body.empty()) return region;
   const auto known = std::ranges::find(setup.bodies, body, &Body::name);
@@ -130,41 +150,8 @@ LoadedRegion AppliedLoad::region(const Case& setup) const {
 
 Vector3 AppliedLoad::total_force(const Case& setup) const {
   if (face == Face::none) return force;
-  const grid::Geometry& g = setup.geometry;
-  const FacePlane plane = plane_of(g, face);
-  const LoadedRegion patch = region(setup);
-  double area = 1.0;
-  for (int a = 0; a < directions(setup); ++a) {
-    if (a == plane.axis) continue;
-    const double from = std::max(patch.lower[a], g.lower[a]), to = std::min(patch.upper[a], g.upper(a));
-    const bool radial = g.is_axisymmetric() && a == 1;
-    area *= radial ? std::numbers::pi * (to * to - from * from) : std::max(to - from, 0.0);
-  }
-  if (g.is_axisymmetric() && plane.axis == 1) area *= 2.0 * std::numbers::pi * plane.position;
-  return pressure * area * plane.inward * Vector3::Unit(plane.axis);
-}
-
-void check_places_of_loads(const Case& setup, const Faults& faults) {
-  for (std::size_t i = 0; i < setup.loads.size(); ++i) {
-    const AppliedLoad& load = setup.loads[i];
-    if (!load.box && load.face == Face::none) continue;
-    const LoadedRegion region = load.region(setup);
-    bool touches = false;
-    for (std::size_t b = 0; b < setup.bodies.size() && !touches; ++b) {
-      if (region.body && *region.body != b) continue;
-      const std::vector<Shape::Bounds> boxes =
-          particle_boxes(setup, setup.bodies[b], {region.lower, region.upper});
-      touches = std::ranges::any_of(boxes, [&](const Shape::Bounds& particle) {
-        return region.contains(b, 0.5 * (particle.lower + particle.upper));
-      });
-    }
-    if (touches) continue;
-    faults.in("load").in(i).add(
-        load.face == Face::none ? "box" : "face",
-        load.face == Face::none
-            ? "the box of the load touches nothing: no material is in it at the start"
-            : "the patch of the load touches nothing: no material is within a cell of it at the start");
-  }
+  const FacePlane of_face = plane(setup);
+  return pressure * patch_of(setup, *this).covered * of_face.inward * Vector3::Unit(of_face.axis);
 }
 
 }  // namespace whipple::cases

@@ -47,6 +47,13 @@ struct LoadedRegion {
   }
 };
 
+/// Describes the plane of a face of the domain.
+struct FacePlane {
+  int axis;
+  double position;  ///< m
+  double inward;    ///< 1 or -1: direction into the domain
+};
+
 /// Describes an external load: one of an acceleration, a force, a pressure on a wall's patch and a damping, times a
 /// factor over time (docs/theory/mpm.md, equations 3.5b to 3.5d).
 struct AppliedLoad {
@@ -67,13 +74,17 @@ struct AppliedLoad {
 
   /// Returns the points on which it acts; with a pressure those within a cell of the face.
   [[nodiscard]] LoadedRegion region(const Case& setup) const;
-  /// Returns the force (N) at a factor of 1: that of a pressure is pressure times area, into the domain.
+  /// Returns the plane of the face. Requires a face.
+  [[nodiscard]] FacePlane plane(const Case& setup) const;
+  /// Returns the force (N) at a factor of 1: that of a pressure is pressure times the area of the patch that material
+  /// covers at the start, into the domain. Requires geometry and shapes.
   [[nodiscard]] Vector3 total_force(const Case& setup) const;
+  [[nodiscard]] bool is_damping() const { return damping != not_given; }
   /// Returns whether the force is distributed over the mass of the region.
   [[nodiscard]] bool is_force() const { return !force.isZero(0.0) || pressure != not_given; }
-};
 
-/// Adds a fault for each load whose region contains no material at the start. Requires geometry and shapes.
-void check_places_of_loads(const Case& setup, const Faults& faults);
+ private:
+  void check_face(const Case& setup, const Faults& faults) const;
+};
 
 }  // namespace whipple::cases

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <set>
 
 #include "eos/audit.hpp"
+#include "src/case/build/lithostatic.hpp"
 #include "src/case/build/placement.hpp"
 #include "src/fem/structured.hpp"
 #include "src/material/fluid.hpp"
@@ -314,6 +316,7 @@ std::vector<std::string> remarks(const Case& setup) {
   remark_on_grains(setup, found);
   remark_on_crack_friction(setup, found);
   remark_on_meshes(setup, found);
+  std::ranges::move(lithostatic_warnings(setup), std::back_inserter(found));
   return found;
 }
 

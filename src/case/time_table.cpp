@@ -38,7 +38,11 @@ double TimeTable::at(double time) const {
   return (1.0 - share) * factors[behind - 1] + share * factors[behind];
 }
 
-double TimeTable::mean(double time, double step) const { return integral(time, time + step) / step; }
+double TimeTable::mean(double time, double step) const {
+  if (time >= times.back()) return factors.back();
+  if (time + step <= times.front()) return factors.front();
+  return integral(time, time + step) / step;
+}
 
 /// Integrates the factor between two times, piece by piece with the trapezoidal rule, which is exact.
 double TimeTable::integral(double from, double to) const {

@@ -16,6 +16,10 @@ struct TimeTable {
   /// Adds a fault for a table that is empty, incomplete or not in the order of time.
   void check(const Faults& faults) const;
 
+  /// Returns whether it is the one of a load without a table: a factor of 1 at all times.
+  [[nodiscard]] bool is_default() const { return *this == TimeTable{}; }
+  bool operator==(const TimeTable&) const = default;
+
   /// Returns the factor at a time (s).
   [[nodiscard]] double at(double time) const;
   /// Returns the exact mean of the factor over the step from `time` (s) of the length `step` (s) > 0.

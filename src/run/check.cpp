@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "eos/table/table.hpp"
+#include "src/case/build/patches.hpp"
 #include "src/case/build/placement.hpp"
 #include "src/case/build/tables.hpp"
 #include "src/case/remarks.hpp"
@@ -132,6 +133,7 @@ nlohmann::json check_json(const CaseCheck& found) {
                {"memory", found.bytes},
                {"expected_memory", found.expected_memory},
                {"threads", found.threads},
+               {"pressures", cases::describe_patches(setup)},
                {"warnings", found.warnings},
                {"remarks", setup.contact_fields.remarks},
                {"faults", json::array()}};
@@ -160,6 +162,7 @@ std::string check_text(const CaseCheck& found) {
                           table->minimum_density(), table->maximum_density());
     }
   }
+  for (const std::string& load : cases::describe_patches(setup)) text += load + "\n";
   for (const std::string& remark : setup.contact_fields.remarks) text += remark + "\n";
   for (const std::string& remark : found.warnings) text += "warning: " + remark + "\n";
   text += fmt::format("particles: {}{}, memory: {} now\n", found.particles,

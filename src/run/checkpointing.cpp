@@ -62,6 +62,7 @@ io::CheckpointValues to_checkpoint(const solver::RunState& state) {
   values.integers["step"] = state.step;
   values.integers["particles_at_rest"] = state.particles_at_rest;
   values.arrays["touched"] = halves(state.touched);
+  values.arrays["loaded_mass"] = state.loaded_mass;
   std::vector<double>& outflow = values.arrays["outflow_of_body"];
   for (const solver::BodyOutflow& out : state.outflow_of_body) {
     outflow.insert(outflow.end(), {out.mass, out.momentum[0], out.momentum[1], out.momentum[2], out.energy});
@@ -80,10 +81,13 @@ solver::RunState from_checkpoint(const io::CheckpointValues& values) {
   state.step = values.integer("step");
   state.particles_at_rest = values.integer("particles_at_rest");
   state.touched = words(values.array("touched"));
-  for_each_row(values, "outflow_of_body", 5,
-               [&](auto n) { state.outflow_of_body.push_back({n[0], {n[1], n[2], n[3]}, n[4]}); });
-  for_each_row(values, "driven_bodies", 7,
-               [&](auto n) { state.driven.push_back({{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, n[6]}); });
+  state.loaded_mass = values.array("loaded_mass");
+  for_each_row(values, "outflow_of_body", 5, [&](auto n) {
+    state.outflow_of_body.push_back({n[0], {n[1], n[2], n[3]}, n[4]});
+  });
+  for_each_row(values, "driven_bodies", 7, [&](auto n) {
+    state.driven.push_back({{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, n[6]});
+  });
   for_each_real(state, [&](const std::string& name, double& value) { value = values.real(name); });
   return state;
 }

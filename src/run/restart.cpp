@@ -252,6 +252,11 @@ solver::Simulation resume(const cases::Case& setup, io::Checkpoint& checkpoint, 
         "those of the {} of the case",
         checkpoint.path.string(), state.driven.size(), state.outflow_of_body.size(), setup.bodies.size()));
   }
+  if (state.loaded_mass.size() != setup.loads.size()) {
+    throw InputError(
+        fmt::format("{}: holds \"loaded_mass\" of {} loads: expected those of the {} of the case",
+                    checkpoint.path.string(), state.loaded_mass.size(), setup.loads.size()));
+  }
   if (setup.time.end < state.time) {
     throw InputError(
         fmt::format("'time.end' is {} s, and the run is at t = {} s already: expected at least that",

@@ -16,10 +16,6 @@ Load uniform_load(std::string name, std::function<Vector3(double time)> accelera
       .next_event = [begin](double time) { return std::max(begin, time); }};
 }
 
-Load gravity(const cases::Gravity& gravity) {
-  return uniform_load("gravity", [gravity](double time) { return gravity.at(time); });
-}
-
 void Loads::add_to(const LoadedPoints& points, double time, std::span<Vector3> acceleration) const {
   for (const Load& load : loads_) {
     if (load.next_event(time) <= time) load.add(points, time, acceleration);
@@ -29,6 +25,14 @@ void Loads::add_to(const LoadedPoints& points, double time, std::span<Vector3> a
 double Loads::next_event(double time) const {
   double next = std::numeric_limits<double>::infinity();
   for (const Load& load : loads_) next = std::min(next, load.next_event(time));
+  return next;
+}
+
+double Loads::next_start(double time) const {
+  double next = std::numeric_limits<double>::infinity();
+  for (const Load& load : loads_) {
+    if (load.moves == Moves::all_material) next = std::min(next, load.next_event(time));
+  }
   return next;
 }
 

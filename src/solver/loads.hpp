@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "src/case/gravity.hpp"
 #include "src/core/base/tensor.hpp"
 
 namespace whipple::solver {
@@ -22,6 +21,12 @@ struct LoadedPoints {
   std::size_t body = 0;
 };
 
+/// Selects the material that a load accelerates.
+enum class Moves : std::uint8_t {
+  all_material,
+  moving_material  ///< what is at rest stays at rest
+};
+
 /// Describes an acceleration by external forces.
 struct Load {
   std::string name;
@@ -29,15 +34,13 @@ struct Load {
   std::function<void(const LoadedPoints& points, double time, std::span<Vector3> acceleration)> add;
   /// Returns the first time (s), not before the given one, at which the load acts; infinite if it never acts again.
   std::function<double(double time)> next_event = [](double time) { return time; };
+  Moves moves = Moves::all_material;
 };
 
 /// Returns a load with the same acceleration (m/s^2), a function of time (s), for all points.
 /// @param begin  time from which it acts, s
 Load uniform_load(std::string name, std::function<Vector3(double time)> acceleration,
                   double begin = -std::numeric_limits<double>::infinity());
-
-/// Returns the gravity of the case as a load.
-Load gravity(const cases::Gravity& gravity);
 
 /// Collects all loads; they add up, for particles and nodes of elements alike.
 class Loads {
@@ -51,6 +54,8 @@ class Loads {
 
   /// Returns the first time (s), not before the given one, at which any load acts; infinite if none acts again.
   [[nodiscard]] double next_event(double time) const;
+  /// Returns the first time (s), not before the given one, at which any load acts on material at rest.
+  [[nodiscard]] double next_start(double time) const;
 
  private:
   std::vector<Load> loads_;

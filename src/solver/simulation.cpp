@@ -40,6 +40,7 @@ Simulation::Simulation(const cases::Case& setup, MPI_Comm communicator) {
   std::array<double, 1> chemical_energy = {Explosives(*state_).chemical_energy()};
   parallel::sum(communicator, chemical_energy);
   ledger.largest_heating = chemical_energy[0];
+  stages_->applied_loads.weigh();
   stages_->plausibility.begin();
 }
 
@@ -51,7 +52,9 @@ Simulation::Simulation(const cases::Case& setup, Particles particles, const RunS
   for (Carrier* carrier : stages_->carriers) carrier->gather();
   stages_->particles.complete_read(domains::are_needed(*state_, stages_->contact.may_meet_images()));
   stages_->balance.sum();
-  if (state.step == 0) stages_->plausibility.begin();
+  if (state.step > 0) return;
+  stages_->applied_loads.weigh();
+  stages_->plausibility.begin();
 }
 
 Simulation::Simulation(Simulation&&) noexcept = default;

@@ -27,7 +27,6 @@ Stages::Stages(const cases::Case& setup, MPI_Comm communicator, const RunState& 
   for (Carrier* carrier : {static_cast<Carrier*>(&hexahedra), static_cast<Carrier*>(&trusses)}) {
     if (!carrier->empty()) carriers.push_back(carrier);
   }
-  if (!setup.gravity.acceleration.isZero(0.0)) loads.add(gravity(setup.gravity));
   applied_loads.add_to(loads);
   // The force on driven bodies is computed from all others (Drive); registered as a load, it prevents inactive blocks.
   if (std::ranges::any_of(setup.bodies, &cases::Body::driven))

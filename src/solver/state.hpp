@@ -78,6 +78,7 @@ struct RunState {
   Ledger ledger;
   std::vector<BodyOutflow> outflow_of_body;  ///< of each body, over all ranks
   std::vector<DrivenBody> driven;            ///< of each body
+  std::vector<double> loaded_mass;  ///< on which the force of each load acts at the start, kg; 0: no force
 };
 
 /// Holds the data that several stages of a step read and write, on one rank. Data of a single stage are kept there.

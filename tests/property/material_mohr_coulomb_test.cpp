@@ -121,6 +121,26 @@ TEST(MohrCoulomb, ReturnWithoutDilationKeepsTheMeanAndGivesNoWorkBack) {
   EXPECT_GT(edges, 300);
 }
 
+// Trial stresses on the border between a face and an edge: round-off there must not send them to the apex.
+TEST(MohrCoulomb, TheBorderOfAnEdgeIsNotTheApex) {
+  std::mt19937_64 generator(5);
+  for (int trial = 0; trial < 20000; ++trial) {
+    const bool associated = trial % 2 == 0;
+    const Pyramid of = pyramid(33, associated ? 33.0 : 0.0, 1e3 * (trial % 3));
+    std::uniform_real_distribution<double> uniform(0.1, 1.0);
+    // From a state on an edge along the response to the flow of its face
+    const double s3 = -8e5 * uniform(generator), x = 1e-3 * uniform(generator);
+    const double s1 = (of.intercept + s3 * (1.0 - of.sine)) / (1.0 + of.sine);
+    const bool at_greater = trial % 4 < 2;
+    const Vector3 flow(1.0 + of.dilation, 0.0, -1.0 + of.dilation);
+    const Vector3 response = 2.0 * shear * flow + Vector3::Constant((bulk - 2.0 / 3.0 * shear) * flow.sum());
+    const Vector3 edge(s1, at_greater ? s1 : s3, s3);
+    const Vector3 t = edge + x * response;
+    const PrincipalStress s = strength::return_to(of, bulk, shear, descending({t[0], t[1], t[2]}));
+    EXPECT_LT((Vector3(s[0], s[1], s[2]) - edge).norm(), 1e-9 * t.norm()) << trial;
+  }
+}
+
 MohrCoulomb sand() {
   MohrCoulomb law;
   law.shear_modulus = shear;

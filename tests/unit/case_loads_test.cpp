@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Loads, tables of time, lithostatic states and walls with friction: the keys of a case and one message per fault.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 
+#include "src/case/build/patches.hpp"
+#include "src/case/remarks.hpp"
 #include "tests/unit/case_support.hpp"
 
 namespace whipple::cases {
 namespace {
 
-std::string load(const std::string& keys) { return domain + sphere + "[[load]]\n" + keys; }
+const std::string with_wall = replaced(domain, "x_lower = \"symmetry\"", "x_lower = \"separating\"");
+std::string load(const std::string& keys) { return with_wall + sphere + "[[load]]\n" + keys; }
 
 TEST(CaseLoads, TablesAreLinearWithExactMeansAndNextEvents) {
   TimeTable table;
@@ -48,7 +52,35 @@ TEST(CaseLoads, FaultsNameTheKeyAndWhatIsAccepted) {
   expect_error(load(force + "box = { lower = [0, 0, 0.02], upper = [0.01, 0.01, 0.01] }\n"),
                {"the box has no extent along z"});
   expect_error(load("pressure = \"1 MPa\"\nface = \"z_upper\"\n"), {"the patch of the load touches nothing"});
+  expect_error(load("pressure = \"1 MPa\"\nface = \"y_lower\"\n"),
+               {"'y_lower' is of kind \"symmetry\", to which material is bonded"});
+  const std::string away = "box = { lower = [0.0005, 0, -0.01], upper = [0.01, 0.01, 0.01] }\n";
+  expect_error(load("pressure = \"1 MPa\"\nface = \"x_lower\"\n" + away),
+               {"within a cell of its face, x = 0 m to 0.001 m", "found x = 0.0005 m to 0.01 m"});
+  const std::string unreadable = error_of(load("pressure = \"1 Mfoo\"\nface = \"x_lower\"\n"));
+  EXPECT_NE(unreadable.find("Mfoo"), std::string::npos) << unreadable;
+  EXPECT_EQ(unreadable.find("'face' is that"), std::string::npos) << unreadable;
   EXPECT_EQ(error_of(load("pressure = \"1 MPa\"\nface = \"x_lower\"\n")), "");
+}
+
+// The nodes of elements and bars lie at their surface: a thin box there holds material.
+TEST(CaseLoads, BoxesOnBarsAndElementsTouchThem) {
+  const std::string bars =
+      "[[body]]\nname = \"bars\"\nmaterial = \"copper.toml\"\ndiscretization = { method = \"bars\", "
+      "bar_diameter = 1e-4 }\n[[body.bar]]\nfrom = [0.001, 0.001, 0.001]\nto = [0.005, 0.001, 0.001]\n";
+  const std::string block =
+      "[[body]]\nname = \"block\"\nmaterial = \"copper.toml\"\ndiscretization = { method = "
+      "\"finite_elements\" }\nshape = { box = { lower = [0.001, 0.001, 0.001], upper = [0.005, 0.005, 0.005] "
+      "} }\n";
+  for (const std::string& body : {bars, block}) {
+    const auto with_box = [&](const std::string& bounds) {
+      return with_wall + body + "[[load]]\nforce = [1, 0, 0]\nbox = { " + bounds + " }\n";
+    };
+    const std::string at_end = "lower = [0.00099, 0, 0], upper = [0.00101, 0.01, 0.01]";
+    EXPECT_EQ(error_of(with_box(at_end)).find("touches nothing"), std::string::npos)
+        << error_of(with_box(at_end));
+    expect_error(with_box("lower = [0.006, 0, 0], upper = [0.007, 0.01, 0.01]"), {"touches nothing"});
+  }
 }
 
 TEST(CaseLoads, AreWrittenAndReadAgain) {
@@ -58,8 +90,12 @@ TEST(CaseLoads, AreWrittenAndReadAgain) {
                      "case.toml");
   const std::string text = to_toml(setup, {"copper.toml"});
   EXPECT_EQ(to_toml(read_case_text(text, "run.toml"), {"copper.toml"}), text);
-  // The patch inside the domain: 2 mm times 20 mm
-  EXPECT_NEAR(setup.loads.at(0).total_force(setup)[0], 1e6 * 2e-3 * 20e-3, 1e-9);
+  // The patch inside the domain, 2 mm times 20 mm; of it the part before the sphere, by whole particles
+  const Patch patch = patch_of(setup, setup.loads.at(0));
+  EXPECT_NEAR(patch.area, 2e-3 * 20e-3, 1e-15);
+  const double disk = 2.0 * std::sqrt(5.0) + 9.0 * std::asin(2.0 / 3.0);  // mm^2
+  EXPECT_NEAR(1e6 * patch.covered, disk, 0.05 * disk);
+  EXPECT_NEAR(setup.loads.at(0).total_force(setup)[0], 1e6 * patch.covered, 1e-9);
 }
 
 TEST(CaseLoads, FacesFollowTheSection) {
@@ -70,13 +106,16 @@ TEST(CaseLoads, FacesFollowTheSection) {
       "shape = { cylinder = { center = [0, 0, 0.001], axis = \"z\", radius = 0.005, height = 0.002 } }\n";
   const Case setup = read_case_text(text, "case.toml");
   EXPECT_EQ(setup.loads.at(0).face, Face::x_lower);
-  EXPECT_NEAR(setup.loads.at(0).total_force(setup)[0], 1e6 * M_PI * 1e-4, 1e-6);
+  EXPECT_NEAR(setup.loads.at(0).total_force(setup)[0], 1e6 * M_PI * 25e-6, 1e-6);
 }
 
 TEST(CaseLoads, GravityHasOneOfRiseTimeAndTable) {
   const std::string gravity = "[gravity]\nacceleration = [0, 0, -9.81]\n";
   EXPECT_EQ(error_of(domain + gravity + "times = [0, 1]\nfactors = [0, 1]\n" + sphere), "");
   expect_error(domain + gravity + "times = [0, 1]\nfactors = [0, 1]\nrise_time = 1\n" + sphere, {"not both"});
+  expect_error(domain + gravity + "factors = [2]\nrise_time = 1\n" + sphere, {"not both"});
+  expect_error(domain + "[gravity]\ntimes = [0, 1]\nfactors = [0, 1]\n" + sphere,
+               {"those of 'acceleration', which is missing or zero"});
   expect_error(domain + gravity + "times = [1, 0]\nfactors = [0, 1]\n" + sphere,
                {"not in the order of time"});
 }
@@ -97,9 +136,30 @@ TEST(CaseLoads, LithostaticStatesThatCannotBeAreRefused) {
                {"the weight determines pressure"});
   expect_error(domain + gravity + with("lithostatic = { surface = \"-2 mm\", k0 = 0.5 }"),
                {"the body reaches 0.001 m above the 'surface'"});
+  expect_error(domain + gravity + with("lithostatic = { surface = \"1e9 km\", k0 = 1 }"),
+               {"case.toml:15", "cannot carry its weight below this 'surface'"});
   // Beyond the strength: copper a thousand kilometres below its surface
   expect_error(domain + gravity + with("lithostatic = { surface = \"1000 km\", k0 = 0 }"),
                {"it would flow at once"});
+}
+
+TEST(CaseLoads, RemarksNameLithostaticBodiesThatMove) {
+  const std::string text = domain + "[gravity]\nacceleration = [0, 0, -9.81]\n" +
+                           replaced(sphere, "velocity = [\"0 m/s\", \"0 m/s\", \"5.55 km/s\"]",
+                                    "initial = { lithostatic = { surface = \"-1 mm\", k0 = 1 } }");
+  const auto has = [](const std::vector<std::string>& found, const std::string& part) {
+    return std::ranges::any_of(found,
+                               [&](const std::string& text) { return text.find(part) != std::string::npos; });
+  };
+  EXPECT_TRUE(has(remarks(read_case_text(text, "case.toml")), "the upper surface of \"sphere\""));
+  EXPECT_FALSE(has(remarks(read_case_text(text, "case.toml")), "a load from the start"));
+  const Case loaded = read_case_text(text + "[[load]]\nacceleration = [0, 1, 0]\n", "case.toml");
+  EXPECT_TRUE(has(remarks(loaded), "a load from the start"));
+  const Case flat = read_case_text(
+      replaced(text, "sphere = { center = [\"0 mm\", \"0 mm\", \"-4 mm\"], radius = \"3 mm\" }",
+               "box = { lower = [0, 0, -0.005], upper = [0.004, 0.004, -0.001] }"),
+      "case.toml");
+  EXPECT_FALSE(has(remarks(flat), "the upper surface"));
 }
 
 TEST(CaseLoads, WallsWithFrictionNeedTheirCoefficient) {

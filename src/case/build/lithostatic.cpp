@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "src/case/build/lattice.hpp"
+#include "src/case/build/placement.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::cases {
 namespace {
@@ -85,20 +87,37 @@ double strength(const Material& material, const eos::State& state) {
   return stress[0];
 }
 
+constexpr const char *surface_key = "lithostatic.surface", *k0_key = "lithostatic.k0", *whole = "lithostatic";
+
 struct Fault {
   const char* key;
   std::string text;
 };
 
+/// Returns the fault of the stress at the bottom of a body; without text if there is none.
+Fault fault_of_stress(const Case& setup, const Body& body, const Material& material) {
+  const double k0 = body.initial.lithostatic->k0;
+  const Overburden overburden(setup, body, material);
+  if (overburden.highest() < -setup.geometry.tolerance()) {
+    return {surface_key, fmt::format("the body reaches {:.6g} m above the 'surface'", -overburden.highest())};
+  }
+  const double vertical = overburden.vertical(overburden.deepest()), q = overburden.equivalent(vertical);
+  const eos::State state = overburden.state(overburden.pressure(vertical));
+  if (k0 == 1.0 || q <= strength(material, state)) return {};
+  return {
+      k0_key,
+      fmt::format("'k0' is {}: at the bottom of the body the stress difference of {:.6g} Pa is beyond the "
+                  "strength of {:.6g} Pa at the pressure of {:.6g} Pa: it would flow at once",
+                  k0, q, strength(material, state), state.pressure)};
+}
+
 /// Returns the fault of a lithostatic state; without text if there is none.
 Fault fault_of(const Case& setup, const Body& body, const Material& material) {
-  constexpr const char *surface_key = "lithostatic.surface", *k0_key = "lithostatic.k0",
-                       *whole = "lithostatic";
   const double k0 = body.initial.lithostatic->k0;
   if ((setup.gravity.at(0.0).array() != 0.0).count() != 1) {
     return {surface_key,
             "a lithostatic state needs a gravity along x, y or z that acts from the start: give "
-            "'gravity.acceleration', without 'rise_time'"};
+            "'gravity.acceleration', without 'rise_time', and with no factor of 0 at t = 0"};
   }
   if (std::isfinite(body.initial.pressure) || std::isfinite(body.initial.density)) {
     return {whole,
@@ -124,18 +143,12 @@ Fault fault_of(const Case& setup, const Body& body, const Material& material) {
     return {k0_key, fmt::format("'k0' is {}: material \"{}\" carries no shear stress at rest: expected 1", k0,
                                 material.name)};
   }
-  const Overburden overburden(setup, body, material);
-  if (overburden.highest() < -setup.geometry.tolerance()) {
-    return {surface_key, fmt::format("the body reaches {:.6g} m above the 'surface'", -overburden.highest())};
+  try {
+    return fault_of_stress(setup, body, material);
+  } catch (const InputError& error) {  // of the equation of state, below the depths that it describes
+    return {surface_key,
+            fmt::format("the material cannot carry its weight below this 'surface': {}", error.what())};
   }
-  const double vertical = overburden.vertical(overburden.deepest()), q = overburden.equivalent(vertical);
-  const eos::State state = overburden.state(overburden.pressure(vertical));
-  if (k0 == 1.0 || q <= strength(material, state)) return {};
-  return {
-      k0_key,
-      fmt::format("'k0' is {}: at the bottom of the body the stress difference of {:.6g} Pa is beyond the "
-                  "strength of {:.6g} Pa at the pressure of {:.6g} Pa: it would flow at once",
-                  k0, q, strength(material, state), state.pressure)};
 }
 
 }  // namespace
@@ -181,6 +194,53 @@ void check_lithostatic(const Case& setup, const Faults& faults) {
     const auto [key, text] = fault_of(setup, setup.bodies[b], *setup.materials[b]);
     if (!text.empty()) faults.in("body").in(b).in("initial").add(key, text);
   }
+}
+
+/// Returns how far the upper surface of a body lies below `surface` (m), where it is lowest, from the particles that are
+/// the highest ones of their columns.
+static double lowest_surface(const Case& setup, const Body& body) {
+  const Vector3 gravity = setup.gravity.at(0.0);
+  Eigen::Index axis = 0;
+  gravity.cwiseAbs().maxCoeff(&axis);
+  const double upward = gravity[axis] < 0.0 ? 1.0 : -1.0, scale = 8.0 / setup.geometry.cell_size;
+  const double surface = body.initial.lithostatic->surface;
+  std::map<std::array<long, 2>, double> depth_of_column;
+  const Shape::Bounds whole_domain = domain_of(setup);
+  for (const Shape::Bounds& box : particle_boxes(setup, body, whole_domain)) {
+    const Vector3 centre = 0.5 * (box.lower + box.upper);
+    const std::array column = {std::lround(scale * centre[(axis + 1) % 3]),
+                               std::lround(scale * centre[(axis + 2) % 3])};
+    const double top = upward * (surface - (upward > 0.0 ? box.upper : box.lower)[axis]);
+    const auto [found, is_new] = depth_of_column.insert({column, top});
+    if (!is_new) found->second = std::min(found->second, top);
+  }
+  double lowest = 0.0;
+  for (const auto& [column, depth] : depth_of_column) lowest = std::max(lowest, depth);
+  return lowest;
+}
+
+std::vector<std::string> lithostatic_warnings(const Case& setup) {
+  std::vector<std::string> warnings;
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    const Body& body = setup.bodies[b];
+    if (!body.initial.lithostatic) continue;
+    if (const double lowest = lowest_surface(setup, body); lowest > 0.5 * setup.geometry.cell_size) {
+      warnings.push_back(
+          fmt::format("the upper surface of \"{}\" is up to {:.4g} m below 'initial.lithostatic.surface', "
+                      "with the stress "
+                      "of that depth: it moves unless other material there carries it",
+                      body.name, lowest));
+    }
+    for (const AppliedLoad& load : setup.loads) {
+      const LoadedRegion region = load.region(setup);
+      if (load.is_damping() || load.table.at(0.0) == 0.0 || (region.body && *region.body != b)) continue;
+      warnings.push_back(fmt::format(
+          "'initial.lithostatic' of \"{}\" is the state under gravity alone: a load from the start moves it",
+          body.name));
+      break;
+    }
+  }
+  return warnings;
 }
 
 }  // namespace whipple::cases

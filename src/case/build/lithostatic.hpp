@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
+#include <vector>
 
 #include "src/case/case.hpp"
 #include "src/particles/particles.hpp"
@@ -18,5 +20,9 @@ void set_lithostatic(const Case& setup, std::size_t body, Particles& particles, 
 /// Adds a fault for each body whose lithostatic state cannot exist or cannot stay at rest. Requires shapes and
 /// materials.
 void check_lithostatic(const Case& setup, const Faults& faults);
+
+/// Returns warnings about bodies that their lithostatic state does not keep at rest: an upper surface that is not at
+/// `surface`, a load from the start. Requires that the case has no faults.
+std::vector<std::string> lithostatic_warnings(const Case& setup);
 
 }  // namespace whipple::cases

@@ -9,7 +9,7 @@ namespace whipple::strength {
 namespace {
 
 /// Returns whether a deviator is below the pyramid at a pressure (Pa), from the invariants alone: s1 - s3 = 2 r sin(theta
-/// + pi/3) and s1 + s3 = 2 r cos(theta + pi/3) - 2 p with r = q/sqrt(3) and the Lode angle theta.
+/// + pi/3) and s1 + s3 = 2 r cos(theta + pi/3)/sqrt(3) - 2 p with r = q/sqrt(3) and the Lode angle theta.
 bool is_below(const Pyramid& pyramid, const SymmetricTensor& s, double pressure) {
   const double radius = std::sqrt(0.5 * s.squared_norm());
   if (radius * 2.0 <= pyramid.intercept + 2.0 * pressure * pyramid.sine - 2.0 * radius * pyramid.sine)

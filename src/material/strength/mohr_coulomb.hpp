@@ -91,7 +91,11 @@ inline PrincipalStress return_to(const Pyramid& pyramid, double bulk, double she
                                    trial[2] + least * x + middle * y};
   const double apex = pyramid.intercept / (2.0 * sine);
   const double mean = (s[0] + s[1] + s[2]) / 3.0;
-  if (x < 0.0 || y < 0.0 || mean > apex) return {apex, apex, apex};
+  // Without dilation the mean is that of the trial and decides alone. With it x or y is clearly negative beyond the apex;
+  // at the border of an edge they are so by round-off.
+  constexpr double round_off = 1e-12;
+  const bool leaves_edge = psi > 0.0 && std::min(x, y) < -round_off * std::max(x, y);
+  if (leaves_edge || mean > apex) return {apex, apex, apex};
   return s;
 }
 
@@ -110,7 +114,7 @@ class MohrCoulombModel final : public Strength, public Brittle {
   void shear_modulus(const State&, std::span<double> modulus) const override {
     std::ranges::fill(modulus, modulus_);
   }
-  /// Returns no increment: the pressure is not yet known, and the trial deviator is passed to `turn`.
+  /// Returns no increment: the pressure is not yet known, and the trial deviator is passed to `relax`.
   void plastic_increment(const State&, std::span<const double>, std::span<const double>,
                          std::span<const double>, double, std::span<double> increment) const override {
     std::ranges::fill(increment, 0.0);

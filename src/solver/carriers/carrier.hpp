@@ -109,6 +109,8 @@ class Carrier {
   /// Returns the largest id of an existing particle, or of one that an element may become.
   [[nodiscard]] virtual std::uint64_t largest_particle_id() const { return 0; }
   [[nodiscard]] virtual std::size_t bytes() const = 0;
+  /// Returns the mass (kg) of the particles or nodes in a region.
+  [[nodiscard]] virtual double mass_in(const cases::LoadedRegion& region) const = 0;
   /// Visits every particle or node.
   virtual void for_each_point(const std::function<void(const Point& point)>& visit) const = 0;
   /// Visits all particles, or the eight parts of the selected elements.

@@ -70,6 +70,15 @@ void visit_nodes(const fem::Nodes& nodes, std::size_t body, const State& state, 
   }
 }
 
+/// Returns the mass (kg) of the nodes of a body in a region; of a node on several ranks the contribution of this one.
+inline double mass_of_nodes(const fem::Nodes& nodes, std::size_t body, const cases::LoadedRegion& region) {
+  double mass = 0.0;
+  for (std::size_t a = 0; a < nodes.size(); ++a) {
+    if (region.contains(body, nodes.position[a])) mass += nodes.mass[a];
+  }
+  return mass;
+}
+
 /// Sums a number over all ranks. Collective.
 inline std::size_t sum_over_ranks(MPI_Comm communicator, std::size_t of_rank) {
   auto count = static_cast<double>(of_rank);

@@ -50,6 +50,7 @@ class Hexahedra : public Carrier {
   [[nodiscard]] std::size_t element_count() const override;
   [[nodiscard]] std::uint64_t largest_particle_id() const override;
   [[nodiscard]] std::size_t bytes() const override;
+  [[nodiscard]] double mass_in(const cases::LoadedRegion& region) const override;
   void for_each_point(const std::function<void(const Point& point)>& visit) const override;
   void for_each_part(const SelectElement& select,
                      const std::function<void(const Part& part)>& visit) const override;

@@ -165,6 +165,12 @@ std::size_t Hexahedra::bytes() const {
   return bytes;
 }
 
+double Hexahedra::mass_in(const cases::LoadedRegion& region) const {
+  double mass = 0.0;
+  for (const fem::Mesh& mesh : meshes_) mass += mass_of_nodes(mesh.nodes, mesh.body, region);
+  return mass;
+}
+
 void Hexahedra::for_each_point(const std::function<void(const Point& point)>& visit) const {
   for (const fem::Mesh& mesh : meshes_) visit_nodes(mesh.nodes, mesh.body, state_, visit);
 }

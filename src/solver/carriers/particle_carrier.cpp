@@ -124,6 +124,12 @@ std::uint64_t ParticleCarrier::largest_particle_id() const {
 
 std::size_t ParticleCarrier::bytes() const { return bytes_of(state_.particles); }
 
+double ParticleCarrier::mass_in(const cases::LoadedRegion& region) const {
+  const Particles& q = state_.particles;
+  return parallel::sum<double>(
+      q.size(), [&](std::size_t p) { return region.contains(q.body[p], q.position[p]) ? q.mass[p] : 0.0; });
+}
+
 void ParticleCarrier::for_each_point(const std::function<void(const Point& point)>& visit) const {
   const Particles& q = state_.particles;
   for (std::size_t p = 0; p < q.size(); ++p) {

@@ -137,6 +137,12 @@ std::size_t Trusses::bytes() const {
   return bytes;
 }
 
+double Trusses::mass_in(const cases::LoadedRegion& region) const {
+  double mass = 0.0;
+  for (const fem::Bars& bars : bars_) mass += mass_of_nodes(bars.nodes, bars.body, region);
+  return mass;
+}
+
 void Trusses::for_each_point(const std::function<void(const Point& point)>& visit) const {
   for (const fem::Bars& bars : bars_) visit_nodes(bars.nodes, bars.body, state_, visit);
 }

@@ -29,6 +29,7 @@ class Trusses : public Carrier {
   void add_figures(Figures& figures) const override;
   [[nodiscard]] double largest_speed(const Vector3& frame) override;
   [[nodiscard]] std::size_t bytes() const override;
+  [[nodiscard]] double mass_in(const cases::LoadedRegion& region) const override;
   void for_each_point(const std::function<void(const Point& point)>& visit) const override;
   [[nodiscard]] std::string count_text(std::size_t body) const override;
   void keep_share() override;

@@ -90,7 +90,7 @@ bool Activity::is_restless(std::size_t p) const {
 }
 
 double Activity::next_event() const {
-  double next = loads_.next_event(state_.run.time);
+  double next = loads_.next_start(state_.run.time);
   for (const auto& material : state_.setup.materials) {
     next = std::min(next, solver::next_event(*material, state_.setup.heat, state_.run.time));
   }

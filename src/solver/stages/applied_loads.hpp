@@ -10,30 +10,33 @@
 
 namespace whipple::solver {
 
-/// Evaluates the loads of a case (docs/theory/mpm.md, equations 3.5b to 3.5d): with the mean of their factor over each
+/// Evaluates the loads of a case and its gravity (docs/theory/mpm.md, equations 3.5b to 3.5d): with the mean of their factor over each
 /// step, so that a force gives exactly its impulse, whatever the steps.
 class AppliedLoads {
  public:
-  AppliedLoads(const State& state, const Carriers& carriers);
+  AppliedLoads(State& state, const Carriers& carriers);
   AppliedLoads(const AppliedLoads&) = delete;
   AppliedLoads& operator=(const AppliedLoads&) = delete;
 
   /// Adds the loads to those of the run, which must not outlive this object.
   void add_to(Loads& loads) const;
-  /// Computes the accelerations of the step that begins, with the mass that each force acts on. Collective.
+  /// Stores the mass on which each force acts at the start, `RunState::loaded_mass`. Collective.
+  /// @throws InputError if there is none
+  void weigh();
+  /// Computes the accelerations of the step that begins. Collective if a force acts in it.
   void begin();
 
  private:
   struct Applied {
-    const cases::AppliedLoad* of;
+    cases::AppliedLoad of;
     cases::LoadedRegion region;
     Vector3 force;                           // N, at a factor of 1
     Vector3 acceleration = Vector3::Zero();  // m/s^2, in this step
     double damping = 0.0;                    // 1/s, in this step
   };
-  void weigh(std::vector<double>& mass) const;
+  [[nodiscard]] std::vector<double> masses() const;
 
-  const State& state_;
+  State& state_;
   const Carriers& carriers_;
   std::vector<Applied> applied_;
 };

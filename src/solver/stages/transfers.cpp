@@ -54,6 +54,17 @@ Transfers::Transfers(State& state, const Loads& loads, const Activity& activity)
              .initial_density = state_.initial_density};
 }
 
+/// Sets the accelerations of particles in inactive blocks to 0: nothing moves them in this step.
+static void keep_at_rest(const grid::BlockGrid& grid, std::vector<Vector3>& acceleration) {
+  std::vector<std::uint8_t> takes_part(acceleration.size(), 0);
+  for (std::size_t slot = 0; slot < grid.slots(); ++slot) {
+    for (const std::uint32_t p : grid.particles_in(slot)) takes_part[p] = 1;
+  }
+  for (std::size_t p = 0; p < acceleration.size(); ++p) {
+    if (takes_part[p] == 0) acceleration[p] = Vector3::Zero();
+  }
+}
+
 void Transfers::evaluate_loads() {
   const Particles& particles = state_.particles;
   acceleration_.clear();
@@ -66,6 +77,7 @@ void Transfers::evaluate_loads() {
            std::span(particles.velocity).subspan(first, count), b},
           state_.run.time, std::span(acceleration_).subspan(first, count));
     }
+    if (state_.run.particles_at_rest > 0) keep_at_rest(state_.grid, acceleration_);
   }
   drive_.add(state_, acceleration_);
   for (std::size_t p = 0; p < acceleration_.size(); ++p) {
