@@ -310,6 +310,7 @@ TEST_F(ForeignFiles, Images) {
   detached.replace(meta.find("LOCAL"), 5, "values");
   try_image(detached, garbled);
   keys.size = {3, 3, 3};
+  keys.described_by = cases::ImageDescription::keys;
   try_image(values, damaged);
 }
 

@@ -177,12 +177,17 @@ TEST_F(Images, RawFilesAreDescribedByTheCase) {
   keys.unit = 1e-3;
   keys.values = {3};
   keys.size = {nx, ny, nz};
+  keys.described_by = ImageDescription::keys;
   keys.type = solids::VoxelType::float32;
   keys.order = ByteOrder::big_endian;
   keys.skip = 5;
   keys.spacing = spacing;
   keys.offset = 1e-3 * first;
   expect_ball(VoxelBody(keys, folder_), "raw");
+  ImageKeys of_header = keys;
+  of_header.described_by = ImageDescription::header;
+  EXPECT_NE(message_of<InputError>([&] { VoxelBody(of_header, folder_); }).find("described_by"),
+            std::string::npos);
   keys.size = {nx, ny, nz + 1};
   EXPECT_NE(message_of<InputError>([&] { VoxelBody(keys, folder_); }).find("the file has 53765"),
             std::string::npos);

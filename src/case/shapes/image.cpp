@@ -36,6 +36,16 @@ solids::ImageHeader raw_header(const ImageKeys& keys) {
   return header;
 }
 
+/// @throws InputError if keys of raw files are given for a file whose header says the same
+void refuse_raw_keys(const ImageKeys& keys) {
+  const ImageKeys defaults;
+  if (keys.size.empty() && keys.type == defaults.type && keys.order == defaults.order &&
+      keys.skip == defaults.skip && keys.spacing == defaults.spacing)
+    return;
+  throw InputError(
+      "'size', 'type', 'byte_order', 'skip' and 'spacing' describe a raw file: described_by = \"case\"");
+}
+
 }  // namespace
 
 ParameterTable<ImageKeys> ImageKeys::parameters() {
@@ -50,6 +60,9 @@ ParameterTable<ImageKeys> ImageKeys::parameters() {
                   "the faces of voxels")
               .optional(),
           vector("offset", &K::offset, "m", range::any(), "added to the places of the file").optional(),
+          choice("described_by", &K::described_by,
+                 "the header of the file, or, of a raw file, the case by the following keys")
+              .optional(),
           real_list("size", &K::size, "", range::any(),
                     "of raw files: voxels along the axes, the fastest one first")
               .optional(),
@@ -66,7 +79,8 @@ ParameterTable<ImageKeys> ImageKeys::parameters() {
 VoxelBody::VoxelBody(ImageKeys keys, const std::filesystem::path& folder) : keys_(std::move(keys)) {
   if (keys_.values.empty() || keys_.values.size() > 2)
     throw InputError("'values' is [LABEL] or [LEAST, GREATEST]");
-  const bool is_raw = !keys_.size.empty();
+  const bool is_raw = keys_.described_by == ImageDescription::keys;
+  if (!is_raw) refuse_raw_keys(keys_);
   source_ = find_source(keys_.file, keys_.digest, folder, is_raw ? nullptr : &solids::Image::companion);
   keys_.file = named_file(keys_.file, folder).string();
   keys_.digest = source_.digest;

@@ -18,6 +18,12 @@ constexpr std::array<Word<ByteOrder>, 2> words(ByteOrder) {
   return {{{ByteOrder::little_endian, "little_endian"}, {ByteOrder::big_endian, "big_endian"}}};
 }
 
+/// Selects what describes a file: its header, or the case.
+enum class ImageDescription : std::uint8_t { header, keys };
+constexpr std::array<Word<ImageDescription>, 2> words(ImageDescription) {
+  return {{{ImageDescription::header, "header"}, {ImageDescription::keys, "case"}}};
+}
+
 /// Names the voxels of a body in an image.
 struct ImageKeys {
   static constexpr const char* name = "image";
@@ -26,6 +32,7 @@ struct ImageKeys {
   std::vector<double> values;
   bool smooth = false;
   Vector3 offset = Vector3::Zero();
+  ImageDescription described_by = ImageDescription::header;
   // Of files without header.
   std::vector<double> size;
   solids::VoxelType type = solids::VoxelType::uint8;
