@@ -21,6 +21,8 @@ upper = ["4 mm", "4 mm", "4 mm"]
 cell_size = "0.8 mm"
 [time]
 end = "0.3 us"
+[output]
+snapshot_every = "0.15 us"
 [[body]]
 name = "cube"
 material = "copper.toml"

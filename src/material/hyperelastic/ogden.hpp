@@ -48,7 +48,7 @@ struct Ogden {
     Matrix3 tensor;
     tensor << b[0], b[3], b[5], b[3], b[1], b[4], b[5], b[4], b[2];
     const Eigen::SelfAdjointEigenSolver<Matrix3> axes(tensor);
-    const Vector3 square = axes.eigenvalues();
+    const Vector3& square = axes.eigenvalues();
     hyperelastic::Response out{};
     Vector3 t = Vector3::Zero(), slope = Vector3::Zero();  // of t_i by the logarithm of l_i
     for (std::size_t a = 0; a < mu.size(); ++a) {
