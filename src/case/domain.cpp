@@ -11,7 +11,7 @@
 namespace whipple::cases {
 
 ParameterTable<Faces> Faces::parameters() {
-  const auto face = [](const char* name, grid::Boundary Faces::*member) {
+  const auto face = [](const char* name, grid::Boundary Faces::* member) {
     return choice(name, member,
                   "material leaves the domain and is counted | frictionless mirror plane | no-slip wall | "
                   "frictionless wall that transmits compression only | the same with Coulomb friction")

@@ -82,12 +82,10 @@ solver::RunState from_checkpoint(const io::CheckpointValues& values) {
   state.particles_at_rest = values.integer("particles_at_rest");
   state.touched = words(values.array("touched"));
   state.loaded_mass = values.array("loaded_mass");
-  for_each_row(values, "outflow_of_body", 5, [&](auto n) {
-    state.outflow_of_body.push_back({n[0], {n[1], n[2], n[3]}, n[4]});
-  });
-  for_each_row(values, "driven_bodies", 7, [&](auto n) {
-    state.driven.push_back({{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, n[6]});
-  });
+  for_each_row(values, "outflow_of_body", 5,
+               [&](auto n) { state.outflow_of_body.push_back({n[0], {n[1], n[2], n[3]}, n[4]}); });
+  for_each_row(values, "driven_bodies", 7,
+               [&](auto n) { state.driven.push_back({{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, n[6]}); });
   for_each_real(state, [&](const std::string& name, double& value) { value = values.real(name); });
   return state;
 }
