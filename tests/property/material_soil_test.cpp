@@ -134,28 +134,7 @@ TEST(DruckerPrager, ACriterionOfTensionSeesNoMoreThanTheGapsLeave) {
   }
 }
 
-template <class Law>
-void expect_dissipation(const Law& law) {
-  const Material material = soil(law);
-  std::mt19937_64 generator(11);
-  int flowed = 0;
-  for (int path = 0; path < 20; ++path) {
-    Body body{material};
-    for (int leg = 0; leg < 4; ++leg) {
-      const Matrix3 next = diagonal(0.998, 0.998, 0.998) + 0.004 * random_matrix(generator, 1.0);
-      const Matrix3 from = body.place;
-      for (int i = 1; i <= 200; ++i) {
-        const double before = body.points.plastic_strain[0];
-        const MaterialReport report = body.strain_to((from + (next - from) * i / 200).eval());
-        EXPECT_GE(report.plastic_work, 0.0);
-        EXPECT_GE(body.points.plastic_strain[0], before);
-        flowed += report.plastic_work > 0.0 ? 1 : 0;
-      }
-    }
-  }
-  EXPECT_GT(flowed, 2000);
-}
-TEST(DruckerPrager, NeverGivesWorkBack) { expect_dissipation(clay(MatchedStates::plane_strain)); }
+TEST(DruckerPrager, NeverGivesWorkBack) { expect_dissipation(soil(clay(MatchedStates::plane_strain)), 11); }
 
 GranularFlow beads() {  // Jop, Forterre and Pouliquen (2006)
   GranularFlow law;
@@ -168,7 +147,7 @@ GranularFlow beads() {  // Jop, Forterre and Pouliquen (2006)
   return law;
 }
 
-TEST(GranularFlow, NeverGivesWorkBack) { expect_dissipation(beads()); }
+TEST(GranularFlow, NeverGivesWorkBack) { expect_dissipation(soil(beads()), 11); }
 
 TEST(GranularFlow, ShearStressIsTheFrictionAtTheInertialNumber) {
   const GranularFlow law = beads();

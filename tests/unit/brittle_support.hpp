@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <random>
+
 #include "eos/model_equation_of_state.hpp"
 #include "eos/models/polynomial.hpp"
 #include "src/material/material_file.hpp"
@@ -88,6 +93,27 @@ inline Matrix3 diagonal(double x, double y, double z) { return Vector3(x, y, z).
 inline RiedelHiermaierThoma rht() {
   return dynamic_cast<const strength::RiedelHiermaierThomaModel&>(*library("concrete_35mpa_rht").strength)
       .law();
+}
+
+/// Expects that random paths about a small compression never give work back, and that they flow.
+inline void expect_dissipation(const Material& material, std::uint64_t seed) {
+  std::mt19937_64 generator(seed);
+  int flowed = 0;
+  for (int path = 0; path < 20; ++path) {
+    Body body{material};
+    for (int leg = 0; leg < 4; ++leg) {
+      const Matrix3 next = diagonal(0.998, 0.998, 0.998) + 0.004 * random_matrix(generator, 1.0);
+      const Matrix3 from = body.place;
+      for (int i = 1; i <= 200; ++i) {
+        const double before = body.points.plastic_strain[0];
+        const MaterialReport report = body.strain_to((from + (next - from) * i / 200).eval());
+        EXPECT_GE(report.plastic_work, 0.0);
+        EXPECT_GE(body.points.plastic_strain[0], before);
+        flowed += report.plastic_work > 0.0 ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(flowed, 2000);
 }
 
 }  // namespace whipple::brittle_test
