@@ -30,6 +30,10 @@ ParameterTable<Body> Body::parameters() {
       boolean("driven", &Body::driven,
               "an external force keeps the mean velocity of the body: a grip, a punch, a die")
           .optional(),
+      choice("volumetric", &Body::volumetric,
+             "pressure and volume rate act at every particle | as means over the particles of a cell, against "
+             "locking of material that keeps its volume")
+          .optional(),
       text("contact_group", &Body::contact_group,
            "bodies of one group share a velocity field and are bonded where they meet, those of different "
            "groups are not; empty: according to contact.method")
@@ -143,6 +147,12 @@ void Body::check(const Case& setup, const Faults& faults) const {
     for (std::size_t i = 0; i < node_conditions.size(); ++i) {
       faults.in("node_condition").in(i).add("", "a body of particles has no nodes");
     }
+  }
+  if (volumetric == Volumetric::cell && !discretization.has_particles() && !discretization.converts()) {
+    faults.add("volumetric", "means over the particles of a cell need particles, this body has none");
+  }
+  if (volumetric == Volumetric::cell && failure.cracks == CrackMotion::fields) {
+    faults.add("volumetric", "\"cell\" does not part at cracks: not with failure.cracks = \"fields\"");
   }
   if (failure.cracks == CrackMotion::fields && !discretization.has_particles() &&
       !discretization.converts()) {
