@@ -31,7 +31,7 @@ constexpr std::array<Word<Evaluation>, 2> words(Evaluation) {
   return {{{Evaluation::model, "model"}, {Evaluation::table, "table"}}};
 }
 
-/// Selects where pressure and volume rate of a body act (docs/theory/mpm.md, 4.1).
+/// Selects where pressure and volume rate of a body act (docs/theory/mpm.md, 4.12 to 4.14).
 enum class Volumetric : std::uint8_t {
   point,  ///< at every particle
   cell,   ///< as their means over the particles of a cell

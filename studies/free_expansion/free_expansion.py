@@ -9,7 +9,7 @@ The sphere of gas of docs/theory/mpm.md, section 7.8 (radius 5 mm, 1 kg/m^3, 1 M
 its plane of symmetry. At 4, 8 and 12 us: internal energy over that of 800 zones that move with the material; the function of entropy
 e rho^-0.4 over its value at the start, mean by energy (the zones have 1.0013 to 1.0017); between the radii that hold 20 to 40, 60 to
 80 and 90 to 95 % of the mass, the sum of the volumes of the particles over the room between those radii, and the standard deviation
-of ln rho. With `volumetric = "cell"` the volume rates are means over cells (mpm.md, 4.1). Runs of the same program and the same case are kept; --table runs nothing.
+of ln rho. With `volumetric = "cell"` the volume rates are means over cells (mpm.md, 4.12 to 4.14). Runs of the same program and the same case are kept; --table runs nothing.
 """
 import argparse
 import itertools

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Means of pressure and volume rate over cells (docs/theory/mpm.md, 4.1): their values, and the identity of work.
+// Means of pressure and volume rate over cells (docs/theory/mpm.md, 4.12 to 4.14): their values, and the identity of work.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -179,6 +179,8 @@ TEST_F(Fronts, PeakAndArrivalOfAGauge) {
   EXPECT_EQ(take("peak.far.pressure"), 300.0);
   EXPECT_EQ(take_on_request(folder.path(), "peak.far.pressure").unit, "Pa");
   EXPECT_EQ(take("arrival.far.pressure"), 3.0);
+  EXPECT_EQ(take("change.far.pressure"), 50.0);
+  EXPECT_EQ(take_on_request(folder.path(), "change.far.pressure").unit, "Pa");
   EXPECT_TRUE(std::isnan(take("peak.near.pressure")));
   file("gauges.csv") << "time [s],far.pressure [Pa]\n0,high\n1,2\n";
   EXPECT_THAT(refusal("peak.far.pressure"), HasSubstr("gauges.csv:2: error: far.pressure is \"high\""));
