@@ -58,6 +58,7 @@ double arrival(const Request& request);
 double history_error(const Request& request);
 double history_shift(const Request& request);
 // Of tests of fracture (fracture_requests.cpp).
+double mean_force(const Request& request);
 double peak_stress(const Request& request);
 double neck_strain(const Request& request);
 double elongation(const Request& request);

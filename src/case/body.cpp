@@ -28,7 +28,8 @@ ParameterTable<Body> Body::parameters() {
              "initial velocity along each axis per distance from that centre, as of a ring that coasts")
           .optional(),
       boolean("driven", &Body::driven,
-              "an external force keeps the mean velocity of the body: a grip, a punch, a die")
+              "an external force keeps the mean velocity of the body and holds it against turning: a grip, a punch, "
+              "a die")
           .optional(),
       choice("volumetric", &Body::volumetric,
              "pressure and volume rate act at every particle | as means over the particles of a cell, against "

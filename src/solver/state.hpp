@@ -54,6 +54,8 @@ constexpr std::array<Word<TimeStepBound>, 10> words(TimeStepBound) {
 struct DrivenBody {
   Vector3 velocity = Vector3::Zero();  ///< mean velocity of the body at the beginning of the last step, m/s
   Vector3 acceleration = Vector3::Zero();  ///< by the driving force in that step, m/s^2
+  Vector3 spin = Vector3::Zero();          ///< about its centre of mass at that time, rad/s
+  Vector3 spin_acceleration = Vector3::Zero();  ///< by the driving force in that step, rad/s^2
   double time_step = 0.0;                  ///< of that step, s; 0: no step yet
 };
 
