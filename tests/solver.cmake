@@ -28,7 +28,7 @@ add_executable(fuzz EXCLUDE_FROM_ALL fuzz/case_fuzz.cpp fuzz/input_fuzz.cpp fuzz
                fuzz/md_potential_fuzz.cpp)
 target_link_libraries(fuzz PRIVATE whipple_flags whipple_app whipple_md_lammps GTest::gmock GTest::gtest_main)
 target_compile_definitions(fuzz PRIVATE WHIPPLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-whipple_test(test_rotation STARTS_MPI SOURCES verification/solver_rotation_test.cpp verification/solver_finest_orders_test.cpp DEPENDS whipple_solver LABELS long)
+whipple_test(test_rotation STARTS_MPI SOURCES verification/solver_rotation_test.cpp verification/solver_rubber_test.cpp verification/solver_finest_orders_test.cpp DEPENDS whipple_solver LABELS long)
 # Writes docs/generated/orders_of_convergence.md; a program of its own, as it takes minutes.
 add_executable(orders_of_convergence EXCLUDE_FROM_ALL verification/solver_orders.cpp)
 target_link_libraries(orders_of_convergence PRIVATE whipple_flags whipple_solver)

@@ -66,7 +66,7 @@ def repeated(whipple, row, variant, work):
         run_shots.delete_snapshots(alone / "run")
     run_shots.delete_snapshots(folder / "run")
     return {"shot": name, "variant": variant, "first": row["outcome"], "outcome": verdict["outcome"],
-            "time [us]": "" if verdict["time"] is None else f"{1e6 * verdict['time']:.4g}", "reason": verdict["reason"], "same bytes": same,
+            "time [us]": "" if verdict["time"] is None else f"{1e6 * verdict['time']:.4g}", "reason": " ".join(verdict["reason"].split()), "same bytes": same,
             "core hours": f"{status['wall_time'] * threads / 3600:.3g}", "revision": status["revision"]}
 
 
