@@ -28,12 +28,14 @@ ParameterTable<Body> Body::parameters() {
              "initial velocity along each axis per distance from that centre, as of a ring that coasts")
           .optional(),
       boolean("driven", &Body::driven,
-              "an external force keeps the mean velocity of the body and holds it against turning: a grip, a punch, "
+              "an external force keeps the mean velocity of the body and holds it against turning: a grip, a "
+              "punch, "
               "a die")
           .optional(),
-      choice("volumetric", &Body::volumetric,
-             "pressure and volume rate act at every particle | as means over the particles of a cell, against "
-             "locking of material that keeps its volume")
+      choice(
+          "volumetric", &Body::volumetric,
+          "pressure and volume rate act at every particle | as means over the particles of a cell, against "
+          "locking of material that keeps its volume")
           .optional(),
       text("contact_group", &Body::contact_group,
            "bodies of one group share a velocity field and are bonded where they meet, those of different "

@@ -33,7 +33,8 @@ ConstitutiveEntry entry() {
 const Catalogue<ConstitutiveEntry>& catalogue() {
   static const Catalogue<ConstitutiveEntry> all(
       "constitutive model", {entry<HyperelasticModel<NeoHookean>>(), entry<HyperelasticModel<MooneyRivlin>>(),
-                             entry<HyperelasticModel<Yeoh>>(), entry<HyperelasticModel<Ogden>>(), entry<HyperelasticModel<BlatzKo>>()});
+                             entry<HyperelasticModel<Yeoh>>(), entry<HyperelasticModel<Ogden>>(),
+                             entry<HyperelasticModel<BlatzKo>>()});
   return all;
 }
 

@@ -104,7 +104,7 @@ void strain_particles(Stages& s) {
       sweep.for_each_stretch(region, [&](const Stretch& stretch) {
         s.transfers.gradient_to_particles(stretch);  // grad v
         s.transfers.average_volume_rate(stretch);
-        s.material.update(stretch);                  // stress, p, T, phase, e from grad v
+        s.material.update(stretch);  // stress, p, T, phase, e from grad v
       });
     }
     s.material.end(stage);

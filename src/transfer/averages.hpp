@@ -33,8 +33,8 @@ void average_stress(const Particles& particles, const grid::BlockGrid& grid, con
 
 /// Replaces the trace of the velocity gradients of a stretch by its mean over the cell (4.13), for particles of averaged
 /// bodies.
-void average_volume_rate(const Particles& particles, const grid::BlockGrid& grid, const AveragedBodies& bodies,
-                         const Stretch& stretch);
+void average_volume_rate(const Particles& particles, const grid::BlockGrid& grid,
+                         const AveragedBodies& bodies, const Stretch& stretch);
 /// Does the same after the gather of the symplectic scheme, and replaces in the internal energy the work on the own
 /// volume rate by that on the mean one (4.14). The sum over a cell is then minus the power of the averaged stress.
 /// @param dt  s

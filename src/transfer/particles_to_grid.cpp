@@ -130,8 +130,8 @@ void particles_to_grid(const ShapeFunctions& functions, const Particles& particl
                        std::span<const double> mean_stress) {
   with_shape(functions.kind, [&]<class Shape>(Shape) {
     const bool rings = grid.geometry().is_axisymmetric();
-    scatter_region<Shape>(Everything<Planar<Shape>>{{particles}, acceleration, mean_stress, rings}, grid, region,
-                          functions.slope_smoothing);
+    scatter_region<Shape>(Everything<Planar<Shape>>{{particles}, acceleration, mean_stress, rings}, grid,
+                          region, functions.slope_smoothing);
   });
 }
 

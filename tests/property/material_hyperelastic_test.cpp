@@ -289,9 +289,9 @@ Material foam_rubber(double gamma = 1e-9) {
   constants.bulk_modulus_slope = 5.0 / 3.0;
   constants.gruneisen = gamma;
   constants.heat_capacity = 1000.0;
-  return make_material("foam rubber", std::make_shared<eos::ModelEquationOfState<eos::Murnaghan>>(constants),
-                       std::make_shared<const material::HyperelasticModel<material::BlatzKo>>(
-                           material::BlatzKo{shear, {}}));
+  return make_material(
+      "foam rubber", std::make_shared<eos::ModelEquationOfState<eos::Murnaghan>>(constants),
+      std::make_shared<const material::HyperelasticModel<material::BlatzKo>>(material::BlatzKo{shear, {}}));
 }
 
 // sigma = G (1 - b^-1/J) for any deformation.
@@ -303,8 +303,7 @@ TEST(BlatzKo, StressIsThatOfTheClosedForm) {
     if (f.determinant() < 0.5) continue;
     const MaterialPoints points = deformed(
         material, 40, [&](double t) { return Matrix3(Matrix3::Identity() + t * (f - Matrix3::Identity())); });
-    const Matrix3 stress =
-        points.deviatoric_stress[0].matrix() - points.pressure[0] * Matrix3::Identity();
+    const Matrix3 stress = points.deviatoric_stress[0].matrix() - points.pressure[0] * Matrix3::Identity();
     const Matrix3 b = f * f.transpose();
     const Matrix3 expected = shear * (Matrix3::Identity() - b.inverse() / f.determinant());
     EXPECT_LT((stress - expected).norm(), 1e-6 * shear) << i;
@@ -342,8 +341,8 @@ TEST(BlatzKo, AClosedPathReturnsItsWork) {
       Matrix3 before = Matrix3::Zero();
       double most = 0.0;
       for (int n = 0; n < steps; ++n) {
-        const Matrix3 gradient = gradient_between(path(double(n) / steps), path(double(n + 1) / steps),
-                                                  settings.time_step);
+        const Matrix3 gradient =
+            gradient_between(path(double(n) / steps), path(double(n + 1) / steps), settings.time_step);
         if (integrated) {
           update_material_and_energy(material, points, 0, 1, std::span(&gradient, 1), settings);
         } else {

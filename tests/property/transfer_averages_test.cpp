@@ -116,10 +116,10 @@ TEST(Averages, TheWorkOfOwnPressureOnMeanRatesIsThatOfMeanPressureOnOwnRates) {
     by_own += own;
     scale += std::abs(own);
   }
-  const TransferBalance balance = two.sweep([&](const Stretch& stretch) {
-    average_volume_rate_and_work(q, two.grid, two.averaged, stretch, dt);
-  });
-  for (std::size_t p = 0; p < q.size(); ++p) energy += q.mass[p] * (q.specific_internal_energy[p] - before[p]);
+  const TransferBalance balance = two.sweep(
+      [&](const Stretch& stretch) { average_volume_rate_and_work(q, two.grid, two.averaged, stretch, dt); });
+  for (std::size_t p = 0; p < q.size(); ++p)
+    energy += q.mass[p] * (q.specific_internal_energy[p] - before[p]);
   EXPECT_GT(std::abs(by_forces - by_own), 1e-3 * scale);
   EXPECT_NEAR(energy, by_forces - by_own, 1e-14 * scale);
   EXPECT_NEAR(balance.work, by_forces - by_own, 1e-14 * scale);

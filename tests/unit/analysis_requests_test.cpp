@@ -174,7 +174,8 @@ TEST_F(Fronts, TheRunDistanceIsWhereAShockBecomesADetonation) {
 }
 
 TEST_F(Requests, TheMeanForceByImpulses) {
-  file("history.csv") << "step,time [s],wall_impulse_x [N s]\n0,0,0\n1,1,-2\n2,3,-8\n3";  // a row in the making
+  file("history.csv")
+      << "step,time [s],wall_impulse_x [N s]\n0,0,0\n1,1,-2\n2,3,-8\n3";  // a row in the making
   EXPECT_EQ(take("mean_force.wall_impulse_x time=1 s"), -3.0);
   EXPECT_EQ(take("mean_force.wall_impulse_x time=2 s"), -3.0);
   EXPECT_TRUE(std::isnan(take("mean_force.wall_impulse_x time=3 s")));

@@ -76,14 +76,17 @@ double turned_by_a_hit(bool plane, bool driven) {
     return plane ? fmt::format("[{}, {}]", x, y) : fmt::format("[{}, {}, {}]", x, y, 1e-3);
   };
   const auto body = [&](const char* name, const char* keys, double x0, double y0, double x1, double y1) {
-    return fmt::format("[[body]]\nname = \"{}\"\nmaterial = \"{}\"\n{}\nshape = {{ box = {{ lower = {}, upper = {} }} }}\n", name,
-                       elastic_aluminium(), keys, corner(x0, y0), opposite(x1, y1));
+    return fmt::format(
+        "[[body]]\nname = \"{}\"\nmaterial = \"{}\"\n{}\nshape = {{ box = {{ lower = {}, upper = {} }} }}\n",
+        name, elastic_aluminium(), keys, corner(x0, y0), opposite(x1, y1));
   };
   const std::string hit = plane ? "velocity = [-20, 0]" : "velocity = [-20, 0, 0]";
   const cases::Case setup = cases::read_case_text(
-      std::string("[domain]\n") + (plane ? "dimension = \"plane_strain\"\nlower = [-0.01, -0.01]\nupper = [0.01, 0.01]\n"
-                                         : "lower = [-0.01, -0.01, -0.005]\nupper = [0.01, 0.01, 0.005]\n") +
-          "cell_size = 0.5e-3\n[time]\nend = 10e-6\n" + body("block", driven ? "driven = true" : "", -1e-3, -3e-3, 1e-3, 3e-3) +
+      std::string("[domain]\n") +
+          (plane ? "dimension = \"plane_strain\"\nlower = [-0.01, -0.01]\nupper = [0.01, 0.01]\n"
+                 : "lower = [-0.01, -0.01, -0.005]\nupper = [0.01, 0.01, 0.005]\n") +
+          "cell_size = 0.5e-3\n[time]\nend = 10e-6\n" +
+          body("block", driven ? "driven = true" : "", -1e-3, -3e-3, 1e-3, 3e-3) +
           body("hammer", hit.c_str(), 1e-3, 1.5e-3, 5e-3, 3e-3),
       "hit.toml");
   solver::Simulation simulation(setup, parallel::world());

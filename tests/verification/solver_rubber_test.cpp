@@ -32,7 +32,8 @@ shear_modulus = "2 MPa"
 
 /// Sums of a body in the plane.
 struct Spin {
-  double angular_momentum = 0.0, kinetic = 0.0, along_x = 0.0, along_y = 0.0;  // the last: second moments of mass
+  double angular_momentum = 0.0, kinetic = 0.0, along_x = 0.0,
+         along_y = 0.0;  // the last: second moments of mass
 };
 Spin spin_of(const Particles& q) {
   Spin spin;
@@ -48,10 +49,13 @@ Spin spin_of(const Particles& q) {
 // Ten turns of a disk of 20 cells across, rim speed 10 m/s: a fifth of the speed of shear waves.
 TEST(Rubber, DiskThatSpinsTenTimesKeepsShapeAndSpin) {
   const cases::Case setup = cases::read_case_text(
-      "[domain]\ndimension = \"plane_strain\"\nlower = [-0.015, -0.015]\nupper = [0.015, 0.015]\ncell_size = 1e-3\n"
+      "[domain]\ndimension = \"plane_strain\"\nlower = [-0.015, -0.015]\nupper = [0.015, 0.015]\ncell_size = "
+      "1e-3\n"
       "[time]\nend = 0.0628\n[artificial_viscosity]\nlinear = 0\nquadratic = 0\n"
-      "[[body]]\nname = \"disk\"\nmaterial = \"" + rubber() + "\"\nangular_velocity = [0, 0, 1000]\nvolumetric = \"cell\"\n"
-      "shape = { cylinder = { center = [0, 0, 0], axis = \"z\", radius = 0.01, height = 2 } }\n",
+      "[[body]]\nname = \"disk\"\nmaterial = \"" +
+          rubber() +
+          "\"\nangular_velocity = [0, 0, 1000]\nvolumetric = \"cell\"\n"
+          "shape = { cylinder = { center = [0, 0, 0], axis = \"z\", radius = 0.01, height = 2 } }\n",
       "disk.toml");
   solver::Simulation simulation(setup, parallel::world());
   const Spin start = spin_of(simulation.particles());

@@ -10,7 +10,7 @@ namespace whipple::material {
 /// state, a Murnaghan isentrope with K0 = 5/3 G and K0' = 5/3; the rest is W = G/2 J^(-2/3) (I2' - 3). Source: P. J.
 /// Blatz, W. L. Ko, Trans. Soc. Rheol. 6 (1962) 223.
 struct BlatzKo {
-  double shear_modulus = 0.0;  ///< G, Pa
+  double shear_modulus = 0.0;           ///< G, Pa
   hyperelastic::Relaxation relaxation;  ///< none: it has no parameters
 
   static ParameterTable<BlatzKo> parameters() {

@@ -63,8 +63,7 @@ class HyperelasticModel final : public Constitutive {
     return std::make_shared<const HyperelasticModel>(constants_);
   }
   [[nodiscard]] double sound_speed(const Material&, const eos::State& state) const override {
-    const hyperelastic::Response at_rest = 
-        constants_.respond({1.0, 1.0, 1.0, 0.0, 0.0, 0.0}, 1.0);
+    const hyperelastic::Response at_rest = constants_.respond({1.0, 1.0, 1.0, 0.0, 0.0, 0.0}, 1.0);
     return wave_speed(state.sound_speed * state.sound_speed, at_rest, 1.0 / state.density);
   }
   void update(const Step& in, Chunk& out) const override {
@@ -99,7 +98,8 @@ class HyperelasticModel final : public Constitutive {
   }
 
   /// Computes b' of each point and the response of the law.
-  void respond(double undeformed, Chunk& out, std::array<hyperelastic::Response, chunk_size>& responses) const {
+  void respond(double undeformed, Chunk& out,
+               std::array<hyperelastic::Response, chunk_size>& responses) const {
     const std::span<const Lanes, 9> f = out.field<9>(deformation_);
     for (std::size_t k = 0; k < out.size; ++k) {
       const auto product = [&](std::size_t i,
@@ -111,10 +111,10 @@ class HyperelasticModel final : public Constitutive {
                                  f[1][k] * (f[3][k] * f[8][k] - f[5][k] * f[6][k]) +
                                  f[2][k] * (f[3][k] * f[7][k] - f[4][k] * f[6][k]);
       const double isochoric = 1.0 / std::cbrt(determinant * determinant);
-      responses[k] = constants_.respond({isochoric * product(0, 0), isochoric * product(1, 1),
-                                         isochoric * product(2, 2), isochoric * product(0, 1),
-                                         isochoric * product(1, 2), isochoric * product(2, 0)},
-                                        1.0 / (undeformed * out.density[k]));
+      responses[k] = constants_.respond(
+          {isochoric * product(0, 0), isochoric * product(1, 1), isochoric * product(2, 2),
+           isochoric * product(0, 1), isochoric * product(1, 2), isochoric * product(2, 0)},
+          1.0 / (undeformed * out.density[k]));
     }
   }
 

@@ -120,8 +120,9 @@ void Plausibility::require_speeds() const {
                                            std::sqrt(2.0 * std::abs(ledger.external_work) / mass)
                                      : 0.0;
   const Vector3 of_frame = frame();
-  const double limit = state_.setup.output.maximum_speed_factor *
-                       (state_.run.reference_speed + external + speed_by_loads() + round_off_of_speed * of_frame.norm());
+  const double limit =
+      state_.setup.output.maximum_speed_factor *
+      (state_.run.reference_speed + external + speed_by_loads() + round_off_of_speed * of_frame.norm());
   if (!std::isfinite(limit) || !(limit > 0.0)) return;
   double fastest = 0.0;
   for (Carrier* carrier : carriers_) fastest = std::max(fastest, carrier->largest_speed(of_frame));

@@ -140,8 +140,8 @@ void Transfers::to_grid(transfer::Region region) {
 
 void Transfers::account_for_hoops() {
   if (!state_.setup.geometry.is_axisymmetric()) return;
-  state_.booked.wall_impulse[1] -= state_.run.time_step * 
-      transfer::hoop_force(state_.particles, state_.grid, mean_stress_);
+  state_.booked.wall_impulse[1] -=
+      state_.run.time_step * transfer::hoop_force(state_.particles, state_.grid, mean_stress_);
 }
 
 void Transfers::clear_momentum() { transfer::clear_momentum(state_.grid); }
