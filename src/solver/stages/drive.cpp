@@ -9,7 +9,8 @@ Drive::Drive(const cases::Case& setup) {
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     const cases::Body& body = setup.bodies[b];
     if (!body.driven) continue;
-    driven_.push_back({.body = b, .velocity = body.velocity, .guided = body.guided_axes(setup)});
+    driven_.push_back(
+        {.body = b, .velocity = body.velocity, .guided = body.guided_axes(setup), .path = body.path});
   }
 }
 
@@ -31,7 +32,8 @@ void Drive::add(State& state, std::vector<Vector3>& acceleration) const {
     DrivenBody& last = state.run.driven[driven.body];
     const Vector3 velocity = Vector3(sums[4 * d + 1], sums[4 * d + 2], sums[4 * d + 3]) / sums[4 * d];
     const double dt = state.run.time_step;
-    Vector3 added = (driven.velocity - velocity) / dt;
+    const double factor = driven.path ? driven.path->factor(state.run.time, dt) : 1.0;
+    Vector3 added = (factor * driven.velocity - velocity) / dt;
     if (last.time_step > 0.0) added -= (velocity - last.velocity) / last.time_step - last.acceleration;
     for (int axis = 0; axis < 3; ++axis) {
       if (driven.guided[axis]) added[axis] = 0.0;

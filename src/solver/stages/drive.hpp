@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "src/solver/state.hpp"
@@ -9,7 +10,7 @@
 namespace whipple::solver {
 
 /// Computes the force on driven bodies (docs/theory/mpm.md, equation 3.5a): a common acceleration of all particles of a
-/// body that keeps its mean velocity v at the velocity V given in the case,
+/// body that keeps its mean velocity v at the velocity V given in the case, or V times the factor of its path,
 /// a = (V - v)/dt - c, c = (v - v')/dt' - a',
 /// where ' denotes the previous step and c the acceleration by all other forces in it, which changes little from step
 /// to step. Along the normal of a mirror plane that the body touches there is no force.
@@ -26,6 +27,7 @@ class Drive {
     std::size_t body;
     Vector3 velocity;            // V, m/s
     std::array<bool, 3> guided;  // by a mirror plane normal to this axis
+    std::optional<cases::Path> path;  // factor of V over time
   };
   std::vector<Driven> driven_;
 };
