@@ -10,13 +10,13 @@ UNITS = {"": 1.0, "%": 0.01, "1": 1.0,
          "s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9,
          "m/s": 1.0, "km/s": 1e3,
          "kg": 1.0, "g": 1e-3, "mg": 1e-6,
-         "J": 1.0, "kJ": 1e3, "Pa": 1.0, "MPa": 1e6, "GPa": 1e9, "K": 1.0, "degree": math.pi / 180}
+         "J": 1.0, "kJ": 1e3, "N": 1.0, "kN": 1e3, "MN": 1e6, "Pa": 1.0, "MPa": 1e6, "GPa": 1e9, "K": 1.0, "degree": math.pi / 180}
 # The kinds of these units: a length is no time.
 LENGTH, TIME, SPEED, NUMBER = "a length", "a time", "a speed", "a number"
 KIND_OF_UNIT = {"": NUMBER, "%": NUMBER, "1": NUMBER,
                 **dict.fromkeys(("m", "cm", "mm", "um"), LENGTH), **dict.fromkeys(("s", "ms", "us", "ns"), TIME),
                 **dict.fromkeys(("m/s", "km/s"), SPEED), **dict.fromkeys(("kg", "g", "mg"), "a mass"),
-                **dict.fromkeys(("J", "kJ"), "an energy"), **dict.fromkeys(("Pa", "MPa", "GPa"), "a pressure"),
+                **dict.fromkeys(("J", "kJ"), "an energy"), **dict.fromkeys(("N", "kN", "MN"), "a force"), **dict.fromkeys(("Pa", "MPa", "GPa"), "a pressure"),
                 "K": "a temperature", "degree": "an angle"}
 KINDS = ("within", "at_most", "at_least", "record")
 # What an expected value comes from. Identities are true by construction and counted apart from physics.

@@ -122,6 +122,13 @@ std::optional<Failure> first_failure(const Section& section) {
 
 }  // namespace
 
+double mean_force(const Request& request) {
+  const RunTable history(request.folder / "history.csv");
+  const std::vector<double>&time = history["time"], &impulse = history[request.names[0]];
+  if (time.empty() || impulse.size() != time.size() || !(request.time < time.back())) return nan;
+  return (impulse.back() - value_at(request.time, time, impulse)) / (time.back() - request.time);
+}
+
 double peak_stress(const Request& request) {
   return forces_of(request).greatest() / (std::numbers::pi * request.place * request.place);
 }

@@ -219,6 +219,11 @@ double run_distance(const Request& request) {
 
 double peak(const Request& request) { return greatest_of(of_gauge(request).value); }
 
+double change(const Request& request) {
+  const History history = of_gauge(request);
+  return history.value.empty() ? nan : history.value.back() - history.value.front();
+}
+
 double arrival(const Request& request) {
   const History history = of_gauge(request);
   if (history.value.empty()) return nan;

@@ -27,6 +27,7 @@ constexpr auto on_request = std::to_array<RequestedMeasure>({
     {"arrival_speed", "TRACERS", "", "m/s", "speed along x of a front: slope by least squares of the places where tracers began over the times at which their pressure first exceeds half of the median of what they reach", "the front passes fewer than three tracers", arrival_speed},
     {"run_distance", "TRACERS", "place", "m", "distance from a place, where a shock enters an explosive, to where it has become a detonation: there the front passes from tracer to tracer faster than the mean of its least speed and of that over the last quarter of the tracers", "the front passes fewer than eight tracers, or its last speed is not a quarter above the least", run_distance},
     {"peak", "GAUGE.QUANTITY", "", "", "greatest value of a column of gauges.csv", "the run has no such column", peak},
+    {"change", "GAUGE.QUANTITY", "", "", "last less first value of a column of gauges.csv: of a coordinate of a moving gauge its displacement", "the run has no such column", change},
     {"arrival", "GAUGE.QUANTITY", "", "s", "when a column of gauges.csv first comes half way from where it began to its greatest value", "the run has no such column", arrival},
     {"history_error", "GAUGE.QUANTITY", "table", "1", "integral of the absolute difference from a measured history over that of the absolute measured value, after a shift in time that makes both reach half of the greatest measured value together", "the run does not reach half of the greatest measured value, or ends before the record", history_error},
     {"history_shift", "GAUGE.QUANTITY", "table", "s", "time by which the run is moved for this comparison", "the run does not reach half of the greatest measured value", history_shift},
@@ -37,6 +38,7 @@ constexpr auto on_request = std::to_array<RequestedMeasure>({
     {"failure_triaxiality", "TRACERS", "", "1", "mean over equivalent stress of that tracer, averaged over its plastic strain", not_failed, failure_triaxiality},
     {"shear_strength", "GAUGE", "place travel", "Pa", "greatest force on the die at the upper plane x over the area of the cut through a plate, 2 pi R t, R the place and t the travel", no_force, shear_strength},
     {"shear_stroke", "GAUGE", "travel", "1", "path of the punch, which the gauge moves with, over a travel, when the force has fallen to half of its greatest value", "the plate is not cut, or the run has no such gauge", shear_stroke},
+    {"mean_force", "IMPULSE", "time", "N", "mean force by a column of impulses of history.csv (wall_impulse_x, ...) from a time to the end: of the planes on the bodies; in plane strain for 1 m of depth", no_force, mean_force},
     {"profile_error", "BODY.QUANTITY", "table", "1", "absolute difference from an exact solution, summed with the masses of the particles of a body at the last snapshot within the places x of its table, over the sum of the absolute exact value; of a velocity its component along x", no_jet, profile_error},
     {"reach", "BODY.AXIS", "fraction", "m", "coordinate along x, y or z that a fraction of the mass of a body exceeds at the last snapshot; in two dimensions x is along the axis and y across it", no_jet, reach},
     {"height", "BODY.AXIS.AXIS", "place", "m", "greatest coordinate along the first axis of the particles of a body within half a cell of a place of the second, at the last snapshot: the surface lies half a spacing of the particles above it", "no particle of the body is there", height},
@@ -81,7 +83,7 @@ std::pair<std::string, std::map<std::string, std::string>> parts_of(const std::s
 /// Parameters that are numbers; the other one is the file of a table.
 struct Parameter {
   std::string_view key, unit;
-  double Request::* member;
+  double Request::*member;
 };
 constexpr std::array<Parameter, 5> parameters = {{{"place", "m", &Request::place},
                                                   {"travel", "m", &Request::travel},

@@ -53,10 +53,12 @@ double wall_speed(const Request& request);
 double arrival_speed(const Request& request);
 double run_distance(const Request& request);
 double peak(const Request& request);
+double change(const Request& request);
 double arrival(const Request& request);
 double history_error(const Request& request);
 double history_shift(const Request& request);
 // Of tests of fracture (fracture_requests.cpp).
+double mean_force(const Request& request);
 double peak_stress(const Request& request);
 double neck_strain(const Request& request);
 double elongation(const Request& request);

@@ -28,7 +28,14 @@ ParameterTable<Body> Body::parameters() {
              "initial velocity along each axis per distance from that centre, as of a ring that coasts")
           .optional(),
       boolean("driven", &Body::driven,
-              "an external force keeps the mean velocity of the body: a grip, a punch, a die")
+              "an external force keeps the mean velocity of the body and holds it against turning: a grip, a "
+              "punch, "
+              "a die")
+          .optional(),
+      choice(
+          "volumetric", &Body::volumetric,
+          "pressure and volume rate act at every particle | as means over the particles of a cell, against "
+          "locking of material that keeps its volume")
           .optional(),
       text("contact_group", &Body::contact_group,
            "bodies of one group share a velocity field and are bonded where they meet, those of different "
@@ -153,6 +160,12 @@ void Body::check(const Case& setup, const Faults& faults) const {
     for (std::size_t i = 0; i < node_conditions.size(); ++i) {
       faults.in("node_condition").in(i).add("", "a body of particles has no nodes");
     }
+  }
+  if (volumetric == Volumetric::cell && !discretization.has_particles() && !discretization.converts()) {
+    faults.add("volumetric", "means over the particles of a cell need particles, this body has none");
+  }
+  if (volumetric == Volumetric::cell && failure.cracks == CrackMotion::fields) {
+    faults.add("volumetric", "\"cell\" does not part at cracks: not with failure.cracks = \"fields\"");
   }
   if (failure.cracks == CrackMotion::fields && !discretization.has_particles() &&
       !discretization.converts()) {

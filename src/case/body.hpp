@@ -32,6 +32,15 @@ constexpr std::array<Word<Evaluation>, 2> words(Evaluation) {
   return {{{Evaluation::model, "model"}, {Evaluation::table, "table"}}};
 }
 
+/// Selects where pressure and volume rate of a body act (docs/theory/mpm.md, 4.12 to 4.14).
+enum class Volumetric : std::uint8_t {
+  point,  ///< at every particle
+  cell,   ///< as their means over the particles of a cell
+};
+constexpr std::array<Word<Volumetric>, 2> words(Volumetric) {
+  return {{{Volumetric::point, "point"}, {Volumetric::cell, "cell"}}};
+}
+
 struct Body {
   std::string name;
   std::string material;  ///< file as written in the case
@@ -41,6 +50,7 @@ struct Body {
   Vector3 angular_velocity = Vector3::Zero();  ///< rad/s
   Vector3 expansion_rate = Vector3::Zero();    ///< 1/s, along the axes
   bool driven = false;
+  Volumetric volumetric = Volumetric::point;
   std::string contact_group;
   Ignition ignition = Ignition::detonators;
   double detonation_velocity = std::numeric_limits<double>::infinity();  ///< m/s; infinite: not given

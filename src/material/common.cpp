@@ -175,18 +175,26 @@ WHIPPLE_KERNEL void energy_ahead_of_elastic(const Step& step, Chunk& chunk) {
 
 }  // namespace
 
-void solve_energy(const Step& step, Chunk& chunk) {
+void solve_energy(const Step& step, const Lanes& elastic_pressure, Chunk& chunk) {
+  const auto add_elastic_pressure = [&] {
+    for (std::size_t k = 0; k < chunk.size; ++k) chunk.acting_pressure[k] += elastic_pressure[k];
+  };
   if (step.energy == Energy::from_grid) {
     energy_ahead_of_elastic(step, chunk);
     evaluate_equation_of_state<false>(step, chunk);
+    add_elastic_pressure();
     return;
   }
   chunk.fetch(step.points.deviatoric_stress, chunk.old_deviator);
   strain_increment(padded(chunk.size), step.settings.time_step, step.settings.rotation, chunk.motion.gradient,
                    chunk.motion.strain);
   work_without_new_pressure(step, chunk);
-  for (std::size_t k = 0; k < chunk.size; ++k) chunk.energy[k] -= chunk.elastic_energy[k] / chunk.density[k];
+  for (std::size_t k = 0; k < chunk.size; ++k) {
+    chunk.energy[k] -=
+        chunk.elastic_energy[k] / chunk.density[k] + chunk.half_change[k] * elastic_pressure[k];
+  }
   evaluate_equation_of_state<false>(step, chunk);
+  add_elastic_pressure();
   for (std::size_t k = 0; k < chunk.size; ++k) {
     chunk.specific_internal_energy[k] = chunk.energy[k] + chunk.elastic_energy[k] / chunk.density[k];
   }

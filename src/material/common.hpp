@@ -73,6 +73,7 @@ void evaluate_equation_of_state(const Step& step, Chunk& chunk, std::span<double
 /// Completes the energy step of a model whose elastic energy is not part of the energy of the equation of state
 /// (without phases and pores): evaluates the equation of state for the energy minus `elastic_energy`. Requires the new
 /// deviator.
-void solve_energy(const Step& step, Chunk& chunk);
+/// @param elastic_pressure  Pa, of the elastic energy, which adds to that of the equation of state
+void solve_energy(const Step& step, const Lanes& elastic_pressure, Chunk& chunk);
 
 }  // namespace whipple::material

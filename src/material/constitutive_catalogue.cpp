@@ -6,6 +6,7 @@
 
 #include "src/material/burn_model.hpp"
 #include "src/material/eos_strength/eos_strength.hpp"
+#include "src/material/hyperelastic/blatz_ko.hpp"
 #include "src/material/hyperelastic/model.hpp"
 #include "src/material/hyperelastic/mooney_rivlin.hpp"
 #include "src/material/hyperelastic/neo_hookean.hpp"
@@ -32,7 +33,8 @@ ConstitutiveEntry entry() {
 const Catalogue<ConstitutiveEntry>& catalogue() {
   static const Catalogue<ConstitutiveEntry> all(
       "constitutive model", {entry<HyperelasticModel<NeoHookean>>(), entry<HyperelasticModel<MooneyRivlin>>(),
-                             entry<HyperelasticModel<Yeoh>>(), entry<HyperelasticModel<Ogden>>()});
+                             entry<HyperelasticModel<Yeoh>>(), entry<HyperelasticModel<Ogden>>(),
+                             entry<HyperelasticModel<BlatzKo>>()});
   return all;
 }
 

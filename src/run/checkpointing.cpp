@@ -69,8 +69,10 @@ io::CheckpointValues to_checkpoint(const solver::RunState& state) {
   }
   std::vector<double>& driven = values.arrays["driven_bodies"];
   for (const solver::DrivenBody& body : state.driven) {
-    const Vector3 &v = body.velocity, &a = body.acceleration;
-    driven.insert(driven.end(), {v[0], v[1], v[2], a[0], a[1], a[2], body.time_step});
+    for (const Vector3& v : {body.velocity, body.acceleration, body.spin, body.spin_acceleration}) {
+      driven.insert(driven.end(), v.begin(), v.end());
+    }
+    driven.push_back(body.time_step);
   }
   for_each_real(state, [&](const std::string& name, double value) { values.reals[name] = value; });
   return values;
@@ -82,10 +84,13 @@ solver::RunState from_checkpoint(const io::CheckpointValues& values) {
   state.particles_at_rest = values.integer("particles_at_rest");
   state.touched = words(values.array("touched"));
   state.loaded_mass = values.array("loaded_mass");
-  for_each_row(values, "outflow_of_body", 5,
-               [&](auto n) { state.outflow_of_body.push_back({n[0], {n[1], n[2], n[3]}, n[4]}); });
-  for_each_row(values, "driven_bodies", 7,
-               [&](auto n) { state.driven.push_back({{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, n[6]}); });
+  for_each_row(values, "outflow_of_body", 5, [&](auto n) {
+    state.outflow_of_body.push_back({n[0], {n[1], n[2], n[3]}, n[4]});
+  });
+  for_each_row(values, "driven_bodies", 13, [&](auto n) {
+    const auto vector = [&](std::size_t at) { return Vector3(n[at], n[at + 1], n[at + 2]); };
+    state.driven.push_back({vector(0), vector(3), vector(6), vector(9), n[12]});
+  });
   for_each_real(state, [&](const std::string& name, double& value) { value = values.real(name); });
   return state;
 }

@@ -46,6 +46,7 @@ void find_surfaces(Stages& s) {
 void particles_to_grid(Stages& s) {
   s.state.profile.time("particles to grid", [&] {
     s.transfers.clear_grid();
+    s.transfers.average_stress();
     for (const Region region : {Region::border, Region::interior}) {
       s.transfers.to_grid(region);
       if (region == Region::border) s.transfers.send_sums();
@@ -102,7 +103,8 @@ void strain_particles(Stages& s) {
       if (region == Region::border) s.transfers.receive();
       sweep.for_each_stretch(region, [&](const Stretch& stretch) {
         s.transfers.gradient_to_particles(stretch);  // grad v
-        s.material.update(stretch);                  // stress, p, T, phase, e from grad v
+        s.transfers.average_volume_rate(stretch);
+        s.material.update(stretch);  // stress, p, T, phase, e from grad v
       });
     }
     s.material.end(stage);
@@ -193,6 +195,7 @@ void step_usl(Stages& s, double until) {
       if (region == Region::border) s.transfers.receive();
       sweep.for_each_stretch(region, [&](const Stretch& stretch) {
         s.transfers.velocity_to_particles(stretch, Gradients::of_grid_velocity);  // (5.1)-(5.2) v, x at n+1
+        s.transfers.average_volume_rate(stretch);
         s.material.update(stretch);  // (5.7) stress, e from grad v^{n+1}
       });
     }

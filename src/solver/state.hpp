@@ -53,8 +53,10 @@ constexpr std::array<Word<TimeStepBound>, 10> words(TimeStepBound) {
 /// Holds the data of the last step from which the force on a driven body is computed (equation 3.5a).
 struct DrivenBody {
   Vector3 velocity = Vector3::Zero();  ///< mean velocity of the body at the beginning of the last step, m/s
-  Vector3 acceleration = Vector3::Zero();  ///< by the driving force in that step, m/s^2
-  double time_step = 0.0;                  ///< of that step, s; 0: no step yet
+  Vector3 acceleration = Vector3::Zero();       ///< by the driving force in that step, m/s^2
+  Vector3 spin = Vector3::Zero();               ///< about its centre of mass at that time, rad/s
+  Vector3 spin_acceleration = Vector3::Zero();  ///< by the driving force in that step, rad/s^2
+  double time_step = 0.0;                       ///< of that step, s; 0: no step yet
 };
 
 /// Holds the state of a run that changes with time, apart from the data of the carriers; saved in checkpoints.

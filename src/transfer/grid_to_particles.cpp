@@ -75,10 +75,12 @@ double squared_change(Lanes velocity, const Vector3& former) {
 }
 
 /// @param radius  of a ring, where it was before the step (m); 0: not axisymmetric
+/// @param volume_rate  of the mean of old and new grid velocity, 1/s
 template <bool affine, bool planar>
 [[gnu::always_inline]] inline TransferBalance update_particle(Particles& particles, std::size_t p, double dt,
                                                               const Advance<>& advance, AffineField field,
-                                                              Matrix3& gradient, const Losses& losses,
+                                                              Matrix3& gradient, double& volume_rate,
+                                                              const Losses& losses,
                                                               std::span<const Vector3> acceleration,
                                                               double radius) {
   const double mean_stress = -(particles.pressure[p] + particles.artificial_viscosity[p]);
@@ -102,8 +104,8 @@ template <bool affine, bool planar>
   store_columns(gradient, l);
   const double mass = particles.mass[p], loss = advance.heat[0], volume_and_time = particles.volume[p] * dt;
   const double work = sum3(power) * volume_and_time;
-  const double viscous_work =
-      -particles.artificial_viscosity[p] * (mean[0][0] + mean[1][1] + mean[2][2]) * volume_and_time;
+  volume_rate = mean[0][0] + mean[1][1] + mean[2][2];
+  const double viscous_work = -particles.artificial_viscosity[p] * volume_rate * volume_and_time;
   const double heat_of_contact = advance.increment.value[3];  // docs/theory/contact.md, 4.6
   DividedLosses divided{.heat = loss, .of_contact = heat_of_contact};
   if (losses.become == LossesBecome::unresolved_energy) {
@@ -134,18 +136,18 @@ constexpr auto particle_kind = BlockGrid::Points::particles;
 template <class Shape>
 constexpr Widest widest_of_sums = std::is_same_v<Shape, CubicBSpline> ? Widest::narrow : Widest::wide;
 
-/// Calls gather(kernels, slot, sum of the slot, gradients of its particles) for the slots of a stretch.
+/// Calls gather(kernels, slot, sum of the slot, place of its first particle in the stretch) for the slots of a stretch.
 template <class Shape, Widest widest, class Gather>
 void for_each_slot(const BlockGrid& grid, const Stretch& stretch, Gather&& gather) {
   with_kernels<Shape, widest>([&](auto kernels) {
-    Matrix3* gradients = stretch.gradients.data();
+    std::size_t first = 0;
     for (std::size_t i = 0; i < stretch.balances.size(); ++i) {
       const std::size_t slot = stretch.first_slot + i, size = grid.particles_in(slot).size();
       if (size == 0) continue;
       TransferBalance balance;  // of its own: slots of other threads share lines of the cache
-      gather(kernels, slot, balance, gradients);
+      gather(kernels, slot, balance, first);
       stretch.balances[i] = balance;
-      gradients += size;
+      first += size;
     }
   });
 }
@@ -157,7 +159,7 @@ void update_exactly(const ExactUpdate& update, Particles& particles, BlockGrid& 
   const bool radial = Planar<Shape> && grid.geometry().is_axisymmetric();
   for_each_slot<Shape, Widest::wide>(
       grid, stretch,
-      [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance& balance, Matrix3* gradients) {
+      [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance& balance, std::size_t first) {
         const auto take = [&](std::size_t place, std::size_t p, const Advance<>& advance) WHIPPLE_INLINE {
           if (prefetches(p)) {
             prefetch_state(particles, p + prefetch_distance);  // most of it for the material
@@ -168,8 +170,9 @@ void update_exactly(const ExactUpdate& update, Particles& particles, BlockGrid& 
             }
           }
           const double radius = radial ? particles.position[p][1] : 0.0;
-          balance += update_particle<affine, Planar<Shape>>(particles, p, dt, advance, field,
-                                                            gradients[place], losses, acceleration, radius);
+          balance += update_particle<affine, Planar<Shape>>(
+              particles, p, dt, advance, field, stretch.gradients[first + place],
+              stretch.volume_rates[first + place], losses, acceleration, radius);
         };
         Kernels::template gather<Shape>(particles, grid, particle_kind, slot, functions.slope_smoothing,
                                         typename Kernels::template Transfer<affine>{field, dt}, take);
@@ -184,7 +187,7 @@ void update_velocities(const RelaxedUpdate& update, Particles& particles, BlockG
   const bool radial = Planar<Shape> && grid.geometry().is_axisymmetric();
   for_each_slot<Shape, widest_of_sums<Shape>>(
       grid, stretch,
-      [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance& balance, Matrix3* gradients) {
+      [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance& balance, std::size_t first) {
         const auto take = [&](std::size_t place, std::size_t p, const VelocityUpdate<>& sums) WHIPPLE_INLINE {
           const Lanes after = sums.after.value, increment = sums.increment, before = after - increment;
           double* const velocity = particles.velocity[p].data();
@@ -200,7 +203,7 @@ void update_velocities(const RelaxedUpdate& update, Particles& particles, BlockG
             if (prefetches(p)) prefetch_state(particles, p);  // for the material
             std::array<Lanes, 3> l = sums.after.gradient;
             if (radial) add_hoop_rate(l, after[1], radius);
-            gradients[place] = matrix(l);
+            stretch.gradients[first + place] = matrix(l);
           }
           if (!acceleration.empty()) {
             balance.external_work += external_work(after, increment, particles.mass[p], acceleration[p], dt);
@@ -292,7 +295,7 @@ void gather_first(Wanted wanted, const ShapeFunctions& functions, const Particle
   const bool radial = grid.geometry().is_axisymmetric();
   with_shape(functions.kind, [&]<class Shape>(Shape) {
     for_each_slot<Shape, widest_of_sums<Shape>>(
-        grid, stretch, [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance&, Matrix3* gradients) {
+        grid, stretch, [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance&, std::size_t first) {
           const auto take = [&](std::size_t place, std::size_t p, const ValueAndGradient<>& sums)
                                 WHIPPLE_INLINE {
                                   if (wanted == Wanted::velocity)
@@ -300,7 +303,7 @@ void gather_first(Wanted wanted, const ShapeFunctions& functions, const Particle
                                   if (prefetches(p)) prefetch_state(particles, p);  // for the material
                                   std::array<Lanes, 3> l = sums.gradient;
                                   if (radial) add_hoop_rate(l, sums.value[1], grid.radius_at_bin(p));
-                                  gradients[place] = matrix(l);
+                                  stretch.gradients[first + place] = matrix(l);
                                 };
           Kernels::template gather<Shape>(particles, grid, particle_kind, slot, functions.slope_smoothing,
                                           typename Kernels::First{}, take);

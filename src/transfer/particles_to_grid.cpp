@@ -42,6 +42,13 @@ template <bool affine, class Points>
   return out;
 }
 
+/// Mean stress of a particle, Pa.
+/// @param averaged  of all particles, or empty
+[[gnu::always_inline]] inline double mean_stress_of(const Particles& particles, std::size_t p,
+                                                    std::span<const double> averaged) {
+  return averaged.empty() ? -(particles.pressure[p] + particles.artificial_viscosity[p]) : averaged[p];
+}
+
 /// Contributions of the points in the form that the kernel requires, with their inputs prefetched: all
 /// quantities of particles, mass and momentum of particles with given velocities, or all quantities of
 /// element nodes.
@@ -53,7 +60,8 @@ template <bool planar>
 struct Everything : OfParticles {
   using Content = grid::Node;
   std::span<const Vector3> acceleration;
-  bool rings;  ///< of axisymmetry
+  std::span<const double> mean_stress;  ///< Pa, averaged; empty: of the own pressure
+  bool rings;                           ///< of axisymmetry
   WHIPPLE_INLINE void prefetch_from(std::size_t p) const {
     prefetch(p, points.mass, points.velocity, points.sound_speed, points.volume, points.pressure,
              points.artificial_viscosity, points.deviatoric_stress);
@@ -63,7 +71,7 @@ struct Everything : OfParticles {
   /// -V sigma_zz N_i / r towards the axis.
   template <bool affine>
   [[nodiscard, gnu::always_inline]] Payload load(std::size_t p) const {
-    const double mean = -(points.pressure[p] + points.artificial_viscosity[p]);
+    const double mean = mean_stress_of(points, p, mean_stress);
     const std::array<Lanes, 3> stress = stress_columns<1>(points.deviatoric_stress[p], mean);
     const Lanes minus_volume = -points.volume[p] * Lanes{0.0, 1.0, 1.0, 1.0};
     Payload out = inertia<affine>(points, p);
@@ -118,19 +126,21 @@ void scatter_region(const What& what, grid::BlockGrid& grid, Region region, doub
 }  // namespace
 
 void particles_to_grid(const ShapeFunctions& functions, const Particles& particles, grid::BlockGrid& grid,
-                       Region region, std::span<const Vector3> acceleration) {
+                       Region region, std::span<const Vector3> acceleration,
+                       std::span<const double> mean_stress) {
   with_shape(functions.kind, [&]<class Shape>(Shape) {
     const bool rings = grid.geometry().is_axisymmetric();
-    scatter_region<Shape>(Everything<Planar<Shape>>{{particles}, acceleration, rings}, grid, region,
-                          functions.slope_smoothing);
+    scatter_region<Shape>(Everything<Planar<Shape>>{{particles}, acceleration, mean_stress, rings}, grid,
+                          region, functions.slope_smoothing);
   });
 }
 
-double hoop_force(const Particles& particles, const grid::BlockGrid& grid) {
+double hoop_force(const Particles& particles, const grid::BlockGrid& grid,
+                  std::span<const double> mean_stress) {
   const std::span<const std::uint32_t> inside = grid.particles_by_block();
   return parallel::sum<double>(inside.size(), [&](std::size_t k) {
     const std::size_t p = inside[k];
-    const double mean = -(particles.pressure[p] + particles.artificial_viscosity[p]);
+    const double mean = mean_stress_of(particles, p, mean_stress);
     return particles.volume[p] * (particles.deviatoric_stress[p].zz + mean) / particles.position[p][1];
   });
 }

@@ -6,11 +6,12 @@
 namespace whipple::transfer {
 namespace {
 
-/// Returns memory of this thread for the gradients of a stretch.
-std::span<Matrix3> gradients_of_thread(std::size_t size) {
-  thread_local std::vector<Matrix3> gradients;
-  gradients.resize(std::max(gradients.size(), size));
-  return std::span(gradients).first(size);
+/// Returns memory of this thread for a value of each particle of a stretch.
+template <class Value>
+std::span<Value> memory_of_thread(std::size_t size) {
+  thread_local std::vector<Value> values;
+  values.resize(std::max(values.size(), size));
+  return std::span(values).first(size);
 }
 
 }  // namespace
@@ -43,7 +44,8 @@ Stretch Sweep::stretch(const Range& range) {
   return {.number = range.number,
           .first_slot = range.first_slot,
           .particles = grid_.particles_by_block().subspan(begin, size),
-          .gradients = gradients_of_thread(size),
+          .gradients = memory_of_thread<Matrix3>(size),
+          .volume_rates = memory_of_thread<double>(size),
           .balances = std::span(of_slot_).subspan(range.first_slot, range.slots)};
 }
 

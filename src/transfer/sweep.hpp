@@ -23,7 +23,9 @@ struct Stretch {
   std::size_t number;                        ///< in the order of the slots
   std::size_t first_slot;                    ///< of those that follow one another
   std::span<const std::uint32_t> particles;  ///< as the grid lists them
-  std::span<Matrix3> gradients;         ///< 1/s, L(i, j) = dv_i/dx_j of each particle: memory of the thread
+  std::span<Matrix3> gradients;  ///< 1/s, L(i, j) = dv_i/dx_j of each particle: memory of the thread
+  std::span<double>
+      volume_rates;  ///< 1/s, div (v^n + v^{n+1})/2 of each particle, in the symplectic scheme: likewise
   std::span<TransferBalance> balances;  ///< of each slot
 };
 

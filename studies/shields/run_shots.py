@@ -144,11 +144,11 @@ def named(settings):
     return ", ".join(f"{key} {value or 'not recorded'}" for key, value in settings.items())
 
 
-def append(file, row):
+def append(file, row, columns=COLUMNS):
     """Adds a row, with a heading where the file is new."""
     new = not file.exists()
     with open(file, "a", newline="", encoding="utf-8") as out:
-        writer = csv.DictWriter(out, COLUMNS, lineterminator="\n")
+        writer = csv.DictWriter(out, columns, lineterminator="\n")
         if new:
             writer.writeheader()
         writer.writerow(row)

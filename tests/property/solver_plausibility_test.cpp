@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <vector>
@@ -95,6 +96,20 @@ TEST(Plausibility, OneParticleThatIsFarTooFastEndsTheRun) {
 TEST(Plausibility, SpeedsAreThoseInTheFrameOfTheCentreOfMass) {
   EXPECT_EQ(error_of_step(flying("[9000, 0, 0]"), faster(1.0)), "");
   EXPECT_THAT(error_of_step(flying("[9000, 0, 0]"), faster(1.001)), testing::HasSubstr("is impossible"));
+}
+
+// What a load accelerates may be much faster than the mean of all material.
+TEST(Plausibility, ALoadOnASmallPartIsNoFault) {
+  const std::string corner = "box = { lower = [1.5e-3, 0.5e-3, 0.5e-3], upper = [0.02, 0.01, 0.01] }\n";
+  for (const std::string load : {"force = [\"0 N\", \"10 N\", \"0 N\"]\n", "acceleration = [0, 1e6, 0]\n"}) {
+    const cases::Case setup = flying("[0, 0, 0]", "", "[[load]]\n" + load + corner);
+    solver::Simulation simulation(setup, parallel::world());
+    for (int step = 0; step < 5; ++step) ASSERT_NO_THROW(simulation.advance(setup.time.end)) << load;
+    double fastest = 0.0;
+    for (const Vector3& v : simulation.particles().velocity) fastest = std::max(fastest, v.norm());
+    const double mean = simulation.state().ledger.external_impulse.norm() / simulation.totals().mass;
+    EXPECT_GT(fastest, setup.output.maximum_speed_factor * mean) << load;
+  }
 }
 
 TEST(Plausibility, ATimeStepThatCollapsesEndsTheRun) {

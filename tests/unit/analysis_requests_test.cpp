@@ -173,12 +173,23 @@ TEST_F(Fronts, TheRunDistanceIsWhereAShockBecomesADetonation) {
   EXPECT_TRUE(std::isnan(take("run_distance.front place=10 mm")));
 }
 
+TEST_F(Requests, TheMeanForceByImpulses) {
+  file("history.csv")
+      << "step,time [s],wall_impulse_x [N s]\n0,0,0\n1,1,-2\n2,3,-8\n3";  // a row in the making
+  EXPECT_EQ(take("mean_force.wall_impulse_x time=1 s"), -3.0);
+  EXPECT_EQ(take("mean_force.wall_impulse_x time=2 s"), -3.0);
+  EXPECT_TRUE(std::isnan(take("mean_force.wall_impulse_x time=3 s")));
+  EXPECT_TRUE(std::isnan(take("mean_force.wall_impulse_y time=1 s")));
+}
+
 TEST_F(Fronts, PeakAndArrivalOfAGauge) {
   file("gauges.csv")
       << "time [s],far.pressure [Pa]\n0,\n1,100\n2,110\n3,200\n4,300\n5,150\n6";  // a row in the making
   EXPECT_EQ(take("peak.far.pressure"), 300.0);
   EXPECT_EQ(take_on_request(folder.path(), "peak.far.pressure").unit, "Pa");
   EXPECT_EQ(take("arrival.far.pressure"), 3.0);
+  EXPECT_EQ(take("change.far.pressure"), 50.0);
+  EXPECT_EQ(take_on_request(folder.path(), "change.far.pressure").unit, "Pa");
   EXPECT_TRUE(std::isnan(take("peak.near.pressure")));
   file("gauges.csv") << "time [s],far.pressure [Pa]\n0,high\n1,2\n";
   EXPECT_THAT(refusal("peak.far.pressure"), HasSubstr("gauges.csv:2: error: far.pressure is \"high\""));

@@ -67,6 +67,63 @@ TEST(Driven, GripStretchesABarByHookesLawAndTheBalancesKnowItsWork) {
   EXPECT_LT(std::abs(ledger.momentum_error(simulation.totals())), 1e-12);
 }
 
+/// A driven block that is hit beside its centre of mass, in a plane or in space: its mean rotation (rad).
+double turned_by_a_hit(bool plane, bool driven) {
+  const auto corner = [&](double x, double y) {
+    return plane ? fmt::format("[{}, {}]", x, y) : fmt::format("[{}, {}, {}]", x, y, -1e-3);
+  };
+  const auto opposite = [&](double x, double y) {
+    return plane ? fmt::format("[{}, {}]", x, y) : fmt::format("[{}, {}, {}]", x, y, 1e-3);
+  };
+  const auto body = [&](const char* name, const char* keys, double x0, double y0, double x1, double y1) {
+    return fmt::format(
+        "[[body]]\nname = \"{}\"\nmaterial = \"{}\"\n{}\nshape = {{ box = {{ lower = {}, upper = {} }} }}\n",
+        name, elastic_aluminium(), keys, corner(x0, y0), opposite(x1, y1));
+  };
+  const std::string hit = plane ? "velocity = [-20, 0]" : "velocity = [-20, 0, 0]";
+  const cases::Case setup = cases::read_case_text(
+      std::string("[domain]\n") +
+          (plane ? "dimension = \"plane_strain\"\nlower = [-0.01, -0.01]\nupper = [0.01, 0.01]\n"
+                 : "lower = [-0.01, -0.01, -0.005]\nupper = [0.01, 0.01, 0.005]\n") +
+          "cell_size = 0.5e-3\n[time]\nend = 10e-6\n" +
+          body("block", driven ? "driven = true" : "", -1e-3, -3e-3, 1e-3, 3e-3) +
+          body("hammer", hit.c_str(), 1e-3, 1.5e-3, 5e-3, 3e-3),
+      "hit.toml");
+  solver::Simulation simulation(setup, parallel::world());
+  double angle = 0.0, before = 0.0;
+  run_to(simulation, setup.time.end, [&](const solver::Simulation& s) {
+    const Particles& q = s.particles();
+    double mass = 0.0, moment = 0.0, inertia = 0.0;
+    Vector3 centre = Vector3::Zero(), velocity = Vector3::Zero();
+    for (std::size_t p = 0; p < q.size(); ++p) {
+      if (q.body[p] != 0) continue;
+      mass += q.mass[p];
+      centre += q.mass[p] * q.position[p];
+      velocity += q.mass[p] * q.velocity[p];
+    }
+    centre /= mass, velocity /= mass;
+    for (std::size_t p = 0; p < q.size(); ++p) {
+      if (q.body[p] != 0) continue;
+      const Vector3 r = q.position[p] - centre;
+      moment += q.mass[p] * r.cross(q.velocity[p] - velocity)[2];
+      inertia += q.mass[p] * (r[0] * r[0] + r[1] * r[1]);
+    }
+    angle += moment / inertia * (s.state().time - before);
+    before = s.state().time;
+  });
+  EXPECT_LT(std::abs(simulation.state().ledger.energy_error(simulation.totals())), 1e-12);
+  EXPECT_LT(std::abs(simulation.state().ledger.momentum_error(simulation.totals())), 1e-12);
+  return std::abs(angle);
+}
+
+TEST(Driven, ABodyThatIsHitBesideItsCentreDoesNotTurn) {
+  for (const bool plane : {true, false}) {
+    const double of_free_block = turned_by_a_hit(plane, false);
+    EXPECT_GT(of_free_block, 0.005) << plane;
+    EXPECT_LT(turned_by_a_hit(plane, true), 0.02 * of_free_block) << plane;
+  }
+}
+
 TEST(Driven, AgainstAMirrorPlaneThatItTouchesIsRefused) {
   const std::string text = bar_and_grip("");
   const std::size_t at = text.find("velocity = [\"5 m/s\"");  // the bar, on the plane x = 0

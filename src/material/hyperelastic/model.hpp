@@ -19,10 +19,10 @@
 namespace whipple::material {
 
 /// Hyperelastic solid: free energy of the equation of state plus that of an isochoric deformation,
-/// psi = psi_eos(rho, T) + W(b')/rho0, b' = J^(-2/3) F F^T, of which a fraction may relax (docs/theory/material.md,
-/// section 12).
+/// psi = psi_eos(rho, T) + W(b')/rho0, b' = J^(-2/3) F F^T, of which a fraction may relax; W may also depend on the
+/// density (docs/theory/material.md, section 12).
 /// @tparam Law  constants with name, summary, theory, parameters(), `relaxation`, require_consistent(), shear(), the
-///              modulus of small strains, and respond(b')
+///              modulus of small strains, and respond(b', J) with J = rho0/rho
 template <class Law>
 class HyperelasticModel final : public Constitutive {
  public:
@@ -63,22 +63,24 @@ class HyperelasticModel final : public Constitutive {
     return std::make_shared<const HyperelasticModel>(constants_);
   }
   [[nodiscard]] double sound_speed(const Material&, const eos::State& state) const override {
-    const hyperelastic::Response at_rest = constants_.respond({1.0, 1.0, 1.0, 0.0, 0.0, 0.0});
+    const hyperelastic::Response at_rest = constants_.respond({1.0, 1.0, 1.0, 0.0, 0.0, 0.0}, 1.0);
     return wave_speed(state.sound_speed * state.sound_speed, at_rest, 1.0 / state.density);
   }
   void update(const Step& in, Chunk& out) const override {
     const double least = 0.01 * in.material.reference.sound_speed * in.material.reference.sound_speed;
     const double undeformed = 1.0 / in.material.reference.density;
     std::array<hyperelastic::Response, chunk_size> responses;
-    respond(out, responses);
+    respond(undeformed, out, responses);
+    Lanes pressure;
     SymmetricLanes& s = out.motion.deviator;
     for (std::size_t k = 0; k < out.size; ++k) {
       const double per_volume = undeformed * out.density[k];  // 1/J
       for (std::size_t j = 0; j < 6; ++j) s[j][k] = per_volume * responses[k].stress[j];
       out.elastic_energy[k] = per_volume * responses[k].energy;
+      pressure[k] = per_volume * responses[k].pressure;
     }
     if (!relaxing_.empty()) relax(in, out);
-    solve_energy(in, out);
+    solve_energy(in, pressure, out);
     for (std::size_t k = 0; k < out.size; ++k) {
       const double bulk = std::max(out.bulk_sound_speed[k] * out.bulk_sound_speed[k], least);
       out.sound_speed[k] = wave_speed(bulk, responses[k], undeformed);
@@ -96,7 +98,8 @@ class HyperelasticModel final : public Constitutive {
   }
 
   /// Computes b' of each point and the response of the law.
-  void respond(Chunk& out, std::array<hyperelastic::Response, chunk_size>& responses) const {
+  void respond(double undeformed, Chunk& out,
+               std::array<hyperelastic::Response, chunk_size>& responses) const {
     const std::span<const Lanes, 9> f = out.field<9>(deformation_);
     for (std::size_t k = 0; k < out.size; ++k) {
       const auto product = [&](std::size_t i,
@@ -108,9 +111,10 @@ class HyperelasticModel final : public Constitutive {
                                  f[1][k] * (f[3][k] * f[8][k] - f[5][k] * f[6][k]) +
                                  f[2][k] * (f[3][k] * f[7][k] - f[4][k] * f[6][k]);
       const double isochoric = 1.0 / std::cbrt(determinant * determinant);
-      responses[k] = constants_.respond({isochoric * product(0, 0), isochoric * product(1, 1),
-                                         isochoric * product(2, 2), isochoric * product(0, 1),
-                                         isochoric * product(1, 2), isochoric * product(2, 0)});
+      responses[k] = constants_.respond(
+          {isochoric * product(0, 0), isochoric * product(1, 1), isochoric * product(2, 2),
+           isochoric * product(0, 1), isochoric * product(1, 2), isochoric * product(2, 0)},
+          1.0 / (undeformed * out.density[k]));
     }
   }
 

@@ -28,7 +28,7 @@ struct MooneyRivlin {
   [[nodiscard]] hyperelastic::Potential potential(double i1, double i2) const {
     return {c1 * (i1 - 3.0) + c2 * (i2 - 3.0), c1, c2, 0.0};
   }
-  [[nodiscard]] hyperelastic::Response respond(const hyperelastic::Tensor& b) const {
+  [[nodiscard]] hyperelastic::Response respond(const hyperelastic::Tensor& b, double) const {
     return hyperelastic::response_of(*this, b);
   }
 };

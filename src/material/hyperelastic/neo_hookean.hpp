@@ -27,7 +27,7 @@ struct NeoHookean {
   [[nodiscard]] hyperelastic::Potential potential(double i1, double) const {
     return {0.5 * shear_modulus * (i1 - 3.0), 0.5 * shear_modulus, 0.0, 0.0};
   }
-  [[nodiscard]] hyperelastic::Response respond(const hyperelastic::Tensor& b) const {
+  [[nodiscard]] hyperelastic::Response respond(const hyperelastic::Tensor& b, double) const {
     return hyperelastic::response_of(*this, b);
   }
 };

@@ -44,7 +44,7 @@ struct Ogden {
 
   /// Computes the response along the principal axes: J s_i = t_i less the mean, t_i = sum_a mu_a l_i^alpha_a. The
   /// stiffness is bounded by the row sums of its principal components (eq. 33), which hold for every direction.
-  [[nodiscard]] hyperelastic::Response respond(const hyperelastic::Tensor& b) const {
+  [[nodiscard]] hyperelastic::Response respond(const hyperelastic::Tensor& b, double) const {
     Matrix3 tensor;
     tensor << b[0], b[3], b[5], b[3], b[1], b[4], b[5], b[4], b[2];
     const Eigen::SelfAdjointEigenSolver<Matrix3> axes(tensor);

@@ -16,10 +16,11 @@ namespace whipple::material::hyperelastic {
 
 using Tensor = std::array<double, 6>;
 
-/// Holds what a law gives for b' = J^(-2/3) F F^T, per volume of the undeformed solid, Pa.
+/// Holds what a law gives for b' = J^(-2/3) F F^T and J, per volume of the undeformed solid, Pa.
 struct Response {
-  Tensor stress;  ///< deviator of J times the Cauchy stress
-  double energy;  ///< W
+  Tensor stress;          ///< deviator of J times the Cauchy stress
+  double energy;          ///< W
+  double pressure = 0.0;  ///< J times that of W, which adds to that of the equation of state
   /// Bounds of the wave stiffness without the bulk modulus (eq. 29): of waves that displace along their direction,
   /// across it, and of the coupling of both.
   double longitudinal, transverse, coupling;

@@ -37,7 +37,7 @@ struct Yeoh {
     const double x = i1 - 3.0;
     return {x * (c1 + x * (c2 + x * c3)), c1 + x * (2.0 * c2 + 3.0 * x * c3), 0.0, 2.0 * c2 + 6.0 * x * c3};
   }
-  [[nodiscard]] hyperelastic::Response respond(const hyperelastic::Tensor& b) const {
+  [[nodiscard]] hyperelastic::Response respond(const hyperelastic::Tensor& b, double) const {
     return hyperelastic::response_of(*this, b);
   }
 };

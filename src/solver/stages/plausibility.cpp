@@ -30,7 +30,24 @@ Plausibility::Plausibility(State& state, const Carriers& carriers)
     : state_(state),
       carriers_(carriers),
       has_walls_(std::ranges::any_of(state.setup.geometry.boundary,
-                                     [](grid::Boundary face) { return face != grid::Boundary::outflow; })) {}
+                                     [](grid::Boundary face) { return face != grid::Boundary::outflow; })) {
+  for (const cases::AppliedLoad& load : state.setup.loads) {
+    double factor = 0.0;
+    for (const double of_time : load.table.factors) factor = std::max(factor, std::abs(of_time));
+    const Vector3& largest = load.is_force() ? load.total_force(state.setup) : load.acceleration;
+    largest_load_.push_back(factor * largest.norm());
+  }
+}
+
+/// Returns the speed (m/s) that no material exceeds by loads alone: those of the case act on parts of it.
+double Plausibility::speed_by_loads() const {
+  double acceleration = 0.0;
+  for (std::size_t i = 0; i < largest_load_.size(); ++i) {
+    const double mass = state_.run.loaded_mass[i];
+    acceleration += mass > 0.0 ? largest_load_[i] / mass : largest_load_[i];
+  }
+  return acceleration * state_.run.time;
+}
 
 void Plausibility::begin() {
   const Vector3 of_frame = frame();
@@ -104,8 +121,9 @@ void Plausibility::require_speeds() const {
                                            std::sqrt(2.0 * std::abs(ledger.external_work) / mass)
                                      : 0.0;
   const Vector3 of_frame = frame();
-  const double limit = state_.setup.output.maximum_speed_factor *
-                       (state_.run.reference_speed + external + round_off_of_speed * of_frame.norm());
+  const double limit =
+      state_.setup.output.maximum_speed_factor *
+      (state_.run.reference_speed + external + speed_by_loads() + round_off_of_speed * of_frame.norm());
   if (!std::isfinite(limit) || !(limit > 0.0)) return;
   double fastest = 0.0;
   for (Carrier* carrier : carriers_) fastest = std::max(fastest, carrier->largest_speed(of_frame));

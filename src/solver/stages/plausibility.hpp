@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
 #include "src/solver/carriers/carrier.hpp"
 
 namespace whipple::solver {
@@ -21,10 +23,13 @@ class Plausibility {
   void require_parts() const;
   void require_speeds() const;
   [[nodiscard]] Vector3 frame() const;
+  [[nodiscard]] double speed_by_loads() const;
 
   State& state_;
   const Carriers& carriers_;
   bool has_walls_;
+  /// Largest acceleration (m/s^2) by each load of the case, or force (N).
+  std::vector<double> largest_load_;
 };
 
 }  // namespace whipple::solver

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "src/transfer/particles_to_grid.hpp"
 
@@ -36,8 +37,21 @@ transfer::Relaxation relaxation(const cases::TransferControl& control) {
 
 }  // namespace
 
+/// Returns which bodies are averaged over cells.
+static transfer::AveragedBodies averaged_bodies(const cases::Case& setup) {
+  std::vector<std::uint8_t> is_averaged;
+  for (const cases::Body& body : setup.bodies) {
+    is_averaged.push_back(body.volumetric == cases::Volumetric::cell ? 1 : 0);
+  }
+  return transfer::AveragedBodies(std::move(is_averaged));
+}
+
 Transfers::Transfers(State& state, const Loads& loads, const Activity& activity)
-    : state_(state), loads_(loads), activity_(activity), drive_(state.setup) {
+    : state_(state),
+      loads_(loads),
+      activity_(activity),
+      drive_(state.setup),
+      averaged_(averaged_bodies(state.setup)) {
   const cases::Dissipation& control = state_.setup.dissipation;
   for (std::size_t b = 0; b < state_.setup.bodies.size(); ++b) {
     const cases::ArtificialViscosity& viscosity = state_.setup.viscosity_of(b);
@@ -106,8 +120,19 @@ void Transfers::conduct_heat(const transfer::TouchAtNode& touch) {
   });
 }
 
+void Transfers::average_stress() {
+  if (!averaged_.any()) return;
+  mean_stress_.resize(state_.particles.size());
+  transfer::average_stress(state_.particles, state_.grid, averaged_, mean_stress_);
+}
+
+void Transfers::average_volume_rate(const transfer::Stretch& stretch) {
+  if (averaged_.any()) transfer::average_volume_rate(state_.particles, state_.grid, averaged_, stretch);
+}
+
 void Transfers::to_grid(transfer::Region region) {
-  transfer::particles_to_grid(state_.functions(), state_.particles, state_.grid, region, acceleration_);
+  transfer::particles_to_grid(state_.functions(), state_.particles, state_.grid, region, acceleration_,
+                              mean_stress_);
   if (state_.transition.size() > 0) {
     transfer::nodes_to_grid(state_.shape, state_.transition, state_.grid, region);
   }
@@ -115,7 +140,8 @@ void Transfers::to_grid(transfer::Region region) {
 
 void Transfers::account_for_hoops() {
   if (!state_.setup.geometry.is_axisymmetric()) return;
-  state_.booked.wall_impulse[1] -= state_.run.time_step * transfer::hoop_force(state_.particles, state_.grid);
+  state_.booked.wall_impulse[1] -=
+      state_.run.time_step * transfer::hoop_force(state_.particles, state_.grid, mean_stress_);
 }
 
 void Transfers::clear_momentum() { transfer::clear_momentum(state_.grid); }
@@ -152,6 +178,9 @@ void Transfers::to_particles(const transfer::Stretch& stretch) {
                                .losses = losses_,
                                .acceleration = acceleration_},
                               state_.particles, state_.grid, stretch);
+  if (!averaged_.any()) return;
+  transfer::average_volume_rate_and_work(state_.particles, state_.grid, averaged_, stretch,
+                                         state_.run.time_step);
 }
 
 void Transfers::velocity_to_particles(const transfer::Stretch& stretch, transfer::Gradients gradients) {

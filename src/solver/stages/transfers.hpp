@@ -9,6 +9,7 @@
 #include "src/solver/stages/drive.hpp"
 #include "src/solver/stages/full_mass_matrix.hpp"
 #include "src/solver/state.hpp"
+#include "src/transfer/averages.hpp"
 #include "src/transfer/conduction.hpp"
 #include "src/transfer/grid_to_particles.hpp"
 #include "src/transfer/shock_conduction.hpp"
@@ -35,6 +36,8 @@ class Transfers {
 
   /// Clears the nodes, before `to_grid`.
   void clear_grid() { state_.grid.clear(); }
+  /// Averages the stress of bodies with `volumetric = "cell"`, before `to_grid`.
+  void average_stress();
   /// Adds mass, momentum and forces of the particles and nodes of elements of a region to the grid.
   void to_grid(transfer::Region region);
   /// Accumulates the force of the hoop stress of rings towards the axis, which changes their momentum.
@@ -62,13 +65,15 @@ class Transfers {
   void receive();
 
   /// Updates velocity, affine field, energy and position of the particles of a stretch from the grid; stores their
-  /// velocity gradients in the stretch.
+  /// velocity gradients in the stretch. Averages the volume rate as `average_volume_rate`, with its work.
   void to_particles(const transfer::Stretch& stretch);
   /// Updates velocity and position of the particles of a stretch from the grid; stores the requested gradients in the
   /// stretch.
   void velocity_to_particles(const transfer::Stretch& stretch, transfer::Gradients gradients);
   /// Gathers the velocity gradients of the particles of a stretch.
   void gradient_to_particles(const transfer::Stretch& stretch);
+  /// Averages the volume rate of a stretch in these bodies, after its velocity gradients.
+  void average_volume_rate(const transfer::Stretch& stretch);
   /// Accumulates work and losses of a sweep, and stores the maximum change of a velocity.
   void account_for(const transfer::TransferBalance& balance);
   /// Updates velocity, affine field and position of the nodes of elements from the grid.
@@ -86,6 +91,8 @@ class Transfers {
   transfer::Losses losses_;
   std::vector<transfer::ShockConductivity> shock_conductivity_;  // of each body
   std::vector<Vector3> acceleration_;  // of particles by loads in this step; empty if there are none
+  transfer::AveragedBodies averaged_;
+  std::vector<double> mean_stress_;  // of particles in this step; empty if no body is averaged
 };
 
 }  // namespace whipple::solver

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bodies whose pressure and volume rate act as means over cells (docs/theory/mpm.md, 4.12 to 4.14): exact balances, and the
+// membrane of Cook against finite elements.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/verification/solver_problems.hpp"
+
+namespace whipple::verification {
+namespace {
+
+cases::Case read(const std::string& text) { return cases::read_case_text(text, "averages.toml"); }
+
+/// Two blocks of aluminium that collide obliquely, in a section or in space.
+std::string collision(const Method& method, const std::string& dimension, const std::string& volumetric) {
+  const bool space = dimension == "3d";
+  const auto corner = [&](double x, double y) {
+    return space ? fmt::format("[{}, {}, {}]", x, y, y) : fmt::format("[{}, {}]", x, y);
+  };
+  // The transverse velocity would leave the axis of a section with an axis.
+  const double transverse = dimension == "axisymmetric" ? 0.0 : 50.0;
+  const auto body = [&](const char* name, double velocity, double lower, double upper) {
+    return fmt::format(
+        "[[body]]\nname = \"{}\"\nmaterial = \"{}\"\nvelocity = {}\nvolumetric = \"{}\"\n"
+        "shape = {{ box = {{ lower = {}, upper = {} }} }}\n",
+        name, aluminium("averaged_aluminium", "290 MPa"), corner(velocity, velocity > 0 ? transverse : 0.0),
+        volumetric, corner(lower, 0.0), corner(upper, 4.3e-4));
+  };
+  return method.time_toml(0.08e-6) + method.toml() +
+         "[output]\nmaximum_energy_error = 10.0\n[domain]\nlower = " +
+         (space ? corner(-2e-3, -1e-3) : "[-2e-3, 0]") + "\nupper = " + corner(2e-3, 1.5e-3) +
+         "\ncell_size = 1e-4\n" + (space ? "" : "dimension = \"" + dimension + "\"\n") +
+         body("left", 400.0, -6e-4, 0.0) + body("right", -400.0, 0.0, 6e-4);
+}
+
+TEST(Averages, KeepEnergyAndMomentumExactInEveryDimension) {
+  for (const char* dimension : {"3d", "plane_strain", "axisymmetric"}) {
+    for (const char* function : {"quadratic_bspline", "cubic_bspline"}) {
+      Method method;
+      method.shape_function = function;
+      std::array<double, 2> pressure{};
+      for (const bool averaged : {false, true}) {
+        const cases::Case setup = read(collision(method, dimension, averaged ? "cell" : "point"));
+        solver::Simulation simulation(setup, parallel::world());
+        double energy = 0.0, momentum = 0.0;
+        run_to(simulation, setup.time.end, [&](const solver::Simulation& s) {
+          energy = std::max(energy, std::abs(s.state().ledger.energy_error(s.totals())));
+          momentum = std::max(momentum, s.state().ledger.momentum_error(s.totals()));
+        });
+        EXPECT_LT(energy, 1e-13) << dimension << " " << function;
+        EXPECT_LT(momentum, 1e-13) << dimension << " " << function;
+        for (const double p : simulation.particles().pressure) pressure[averaged ? 1 : 0] += std::abs(p);
+      }
+      EXPECT_NE(pressure[0], pressure[1]) << dimension << " " << function;
+      EXPECT_NEAR(pressure[1] / pressure[0], 1.0, 0.1) << dimension << " " << function;
+    }
+  }
+}
+
+TEST(Averages, SchemesWithoutExactEnergyAreAveragedToo) {
+  for (const char* scheme : {"musl", "usl", "usf"}) {
+    Method method = Method::musl();
+    method.scheme = scheme;
+    std::array<double, 2> pressure{};
+    for (const bool averaged : {false, true}) {
+      const cases::Case setup = read(collision(method, "plane_strain", averaged ? "cell" : "point"));
+      solver::Simulation simulation(setup, parallel::world());
+      run_to(simulation, setup.time.end);
+      EXPECT_LT(simulation.state().ledger.momentum_error(simulation.totals()), 1e-12) << scheme;
+      for (const double p : simulation.particles().pressure) pressure[averaged ? 1 : 0] += std::abs(p);
+    }
+    EXPECT_NE(pressure[0], pressure[1]) << scheme;
+    EXPECT_NEAR(pressure[1] / pressure[0], 1.0, 0.2) << scheme;
+  }
+}
+
+/// Returns the deflection (m) of the upper corner of the membrane of cases/cook_membrane at rest.
+double deflection(const std::string& cell, const std::string& volumetric, bool linear = false) {
+  const std::string file = std::string(WHIPPLE_SOURCE_DIR) + "/cases/cook_membrane/case.toml";
+  std::vector<std::pair<std::string, std::string>> overrides = {{"domain.cell_size", cell},
+                                                                {"time.end", "80 s"},
+                                                                {"body.0.volumetric", volumetric},
+                                                                {"body.1.volumetric", volumetric}};
+  if (linear) {
+    overrides.emplace_back("transfer.shape_function", "linear");
+    overrides.emplace_back("transfer.particle_update", "flip");
+  }
+  const cases::Case setup = cases::read_case(file, overrides);
+  solver::Simulation simulation(setup, parallel::world());
+  const Vector3 corner(48, 60, simulation.particles().position[0][2]);
+  std::size_t tip = 0;
+  const auto distance = [&](std::size_t p) { return (simulation.particles().position[p] - corner).norm(); };
+  for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
+    if (distance(p) < distance(tip)) tip = p;
+  }
+  const std::uint64_t id = simulation.particles().id[tip];
+  const double start = simulation.particles().position[tip][1];
+  run_to(simulation, setup.time.end);
+  const Particles& q = simulation.particles();
+  return q.position[static_cast<std::size_t>(std::ranges::find(q.id, id) - q.id.begin())][1] - start;
+}
+
+// 0.2764 +- 0.0003: own finite elements, quadratic with a projected pressure, 4 to 32 a side, extrapolated.
+TEST(Averages, CooksMembraneLocksLess) {
+  constexpr double exact = 0.2764;
+  EXPECT_NEAR(deflection("4 m", "cell") / exact, 1.0, 0.015);
+  EXPECT_LT(deflection("4 m", "point") / exact, 0.92);
+  EXPECT_NEAR(deflection("4 m", "cell", true) / exact, 1.0, 0.07);
+  EXPECT_LT(deflection("4 m", "point", true) / exact, 0.8);
+}
+
+}  // namespace
+}  // namespace whipple::verification
