@@ -153,8 +153,9 @@ void Body::check(const Case& setup, const Faults& faults) const {
                           "(particles) or a [[body.node_condition]] (elements)");
   }
   if (path && discretization.converts()) {
-    faults.in("path").add("times", "a body on a path keeps its elements: expected method = "
-                                   "\"finite_elements\", not \"adaptive\"");
+    faults.in("path").add("times",
+                          "a body on a path keeps its elements: expected method = "
+                          "\"finite_elements\", not \"adaptive\"");
   }
   if (!discretization.has_elements()) {
     for (std::size_t i = 0; i < node_conditions.size(); ++i) {

@@ -13,7 +13,7 @@ namespace whipple::verification::tool {
 namespace {
 
 constexpr double length = 8e-3, width = 3e-3, end = 40e-6;  // m, s
-constexpr double speed = 2.0, path = 0.5 * speed * end;                  // m/s, m
+constexpr double speed = 2.0, path = 0.5 * speed * end;     // m/s, m
 // Density times the square of the sound speed, plus 4/3 of the shear modulus.
 constexpr double uniaxial = 2785.0 * 5328.0 * 5328.0 + 4.0 / 3.0 * 27.6e9;  // Pa
 
@@ -116,8 +116,9 @@ TEST(Tool, PathsOfNothingAndTablesOutOfOrderAreNamed) {
     }
   };
   refused(block_and_plate(elements, ramp), "a path is that of prescribed velocities");
-  refused(block_and_plate(elements, "[body.path]\ntimes = [\"1 us\", \"0 us\"]\nfactors = [0.0, 1.0]\n" + held),
-          "not in the order of time");
+  refused(
+      block_and_plate(elements, "[body.path]\ntimes = [\"1 us\", \"0 us\"]\nfactors = [0.0, 1.0]\n" + held),
+      "not in the order of time");
   refused(block_and_plate(elements, "[body.path]\ntimes = [\"0 us\", \"1 us\"]\nfactors = [0.0]\n" + held),
           "expected one factor per time");
 }

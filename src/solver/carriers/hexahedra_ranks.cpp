@@ -101,9 +101,9 @@ fem::ConstraintBalance Hexahedra::advance_free_nodes(std::size_t m) {
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (places[i].mesh != m || mesh.nodes.in_transition[places[i].node] != 0) continue;
     const std::array<double, 5>& of_node = shared_[i];
-    balance +=
-        fem::advance_velocity(mesh.nodes, places[i].node,
-                              Vector3(of_node[0], of_node[1], of_node[2]) / of_node[3], dt, motions_[m], path);
+    balance += fem::advance_velocity(mesh.nodes, places[i].node,
+                                     Vector3(of_node[0], of_node[1], of_node[2]) / of_node[3], dt,
+                                     motions_[m], path);
   }
   return balance;
 }

@@ -26,9 +26,9 @@ class Drive {
  private:
   struct Driven {
     std::size_t body;
-    Vector3 velocity;            // V, m/s
-    std::array<bool, 3> guided;  // by a mirror plane normal to this axis
-    std::array<bool, 3> turns;   // about this axis, if nothing held it
+    Vector3 velocity;                 // V, m/s
+    std::array<bool, 3> guided;       // by a mirror plane normal to this axis
+    std::array<bool, 3> turns;        // about this axis, if nothing held it
     std::optional<cases::Path> path;  // factor of V over time
   };
   std::vector<Driven> driven_;
