@@ -253,7 +253,8 @@ double mark_transition(std::vector<fem::Mesh>& meshes, const Particles& particle
     fem::Nodes& nodes = meshes[m].nodes;
     const auto belongs = [&](std::size_t a) {
       return nodes.on_surface[a] != 0 && inside(geometry, nodes.position[a]) && meets(m, nodes.position[a]) &&
-             (nodes.constrained[a] == fem::constraint::none || keeps_to_planes_only(nodes, a, geometry));
+             (nodes.constrained[a] == fem::constraint::none || is_of_tool(meshes[m], a) ||
+              keeps_to_planes_only(nodes, a, geometry));
     };
     std::vector<std::uint32_t> released;
     if (alone) {
@@ -288,17 +289,43 @@ void collect(const std::vector<fem::Mesh>& meshes, transfer::TransitionNodes& no
   nodes.unrelaxed = count;
   for_each_transition_node(meshes, [&](std::size_t m, std::size_t a, std::size_t i) {
     const fem::Nodes& from = meshes[m].nodes;
-    nodes.mass[i] = from.mass[a];
+    const double weight = is_of_tool(meshes[m], a) ? tool_weight : 1.0;
+    nodes.mass[i] = weight * from.mass[a];
     nodes.sound_speed[i] = sound_speed_at(meshes[m], a);
     nodes.position[i] = from.position[a];
     nodes.velocity[i] = from.velocity[a];
     nodes.affine_velocity[i] = from.affine_velocity[a];
-    nodes.force[i] = from.force[a];
+    nodes.force[i] = weight * from.force[a];
   });
 }
 
+namespace {
+
+/// Moves an interface node of a tool along its path instead of as the grid did: equation 2.6 of docs/theory/afemp.md.
+fem::ConstraintBalance keep_to_path(const transfer::TransitionNodes& nodes, std::size_t i, fem::Nodes& to,
+                                    std::size_t a, fem::Motion& motion, double path, const ToolStep& step) {
+  const double mass = to.mass[a], on_grid = nodes.mass[i];
+  const Vector3 before = to.velocity[a], after = path * to.prescribed[a], of_grid = nodes.velocity[i];
+  const Vector3 mean = 0.5 * (before + after);
+  fem::ConstraintBalance balance;
+  balance.impulse = mass * (after - before) - on_grid * (of_grid - before);
+  balance.impulse += step.dt * (nodes.force[i] - to.force[a]);
+  balance.work = 0.5 * mass * (after - before).dot(after + before) -
+                 0.5 * on_grid * (of_grid - before).dot(of_grid + before) -
+                 0.5 * on_grid * step.affine_inertia * nodes.affine_velocity[i].squaredNorm() -
+                 step.dt * (to.force[a].dot(mean) - nodes.force[i].dot(nodes.mean_velocity[i]));
+  to.velocity[a] = motion.end[a] = after;
+  to.affine_velocity[a].setZero();
+  motion.mean[a] = mean;
+  return balance;
+}
+
+}  // namespace
+
 void distribute(const transfer::TransitionNodes& nodes, std::vector<fem::Mesh>& meshes,
-                std::span<fem::Motion> motions, std::span<std::vector<double>> heat) {
+                std::span<fem::Motion> motions, std::span<std::vector<double>> heat, const ToolStep& step,
+                std::span<fem::ConstraintBalance> tools) {
+  std::ranges::fill(tools, fem::ConstraintBalance{});
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     const std::size_t n = meshes[m].nodes.size();
     motions[m].mean.resize(n);
@@ -307,11 +334,15 @@ void distribute(const transfer::TransitionNodes& nodes, std::vector<fem::Mesh>& 
   }
   for_each_transition_node(meshes, [&](std::size_t m, std::size_t a, std::size_t i) {
     fem::Nodes& to = meshes[m].nodes;
+    heat[m][a] = nodes.heat[i] + nodes.contact_heat[i];
+    if (is_of_tool(meshes[m], a)) {
+      tools[m] += keep_to_path(nodes, i, to, a, motions[m], step.path[m], step);
+      return;
+    }
     to.velocity[a] = nodes.velocity[i];
     to.affine_velocity[a] = nodes.affine_velocity[i];
     motions[m].mean[a] = nodes.mean_velocity[i];
     motions[m].end[a] = nodes.new_velocity[i];
-    heat[m][a] = nodes.heat[i] + nodes.contact_heat[i];
     for (int axis = 0; axis < 3; ++axis) {  // on mirror planes, the grid velocity is 0 up to round-off
       if ((to.constrained[a] & fem::constraint::axis(axis)) == 0) continue;
       to.velocity[a][axis] = motions[m].end[a][axis] = to.prescribed[a][axis];

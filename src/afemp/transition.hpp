@@ -28,11 +28,21 @@ void mark_surface(fem::Mesh& mesh, const grid::Geometry& geometry);
 /// Marks the interface nodes (`Nodes::in_transition`), which move with the grid: nodes on the surface of a mesh, inside
 /// of the domain, in or next to a cell that contains a particle or a surface node of another body, on any rank. Nodes
 /// that cease to be interface nodes lose their affine field: its energy becomes heat of their elements. Nodes with a
-/// prescribed velocity are excluded, unless they are only constrained to a mirror plane. Collective.
+/// prescribed velocity are excluded, unless they are only constrained to a mirror plane or are nodes of a tool
+/// (`is_of_tool`). Collective.
 /// @param affine_inertia of the affine field per mass, m^2
 /// @returns that heat on this rank, J
 double mark_transition(std::vector<fem::Mesh>& meshes, const Particles& particles,
                        const grid::Geometry& geometry, double affine_inertia, MPI_Comm communicator);
+
+/// Factor by which the nodes of tools on the grid are heavier than they are: what meets them does not move them, and the
+/// velocity that they have in contact with it is that of their path up to a thousandth of its own change.
+constexpr double tool_weight = 1e3;
+
+/// Returns whether a node belongs to a tool: its body has a path and all components of its velocity are prescribed.
+inline bool is_of_tool(const fem::Mesh& mesh, std::size_t node) {
+  return mesh.has_path && mesh.nodes.constrained[node] == fem::constraint::all;
+}
 
 /// Returns the maximum sound speed of the elements around a node, m/s.
 double sound_speed_at(const fem::Mesh& mesh, std::size_t node);
@@ -41,11 +51,20 @@ double sound_speed_at(const fem::Mesh& mesh, std::size_t node);
 /// `fem::internal_forces`.
 void collect(const std::vector<fem::Mesh>& meshes, transfer::TransitionNodes& nodes);
 
+/// Describes a step of the tools.
+struct ToolStep {
+  double dt = 0.0;               ///< s
+  double affine_inertia = 0.0;   ///< of the affine fields of nodes per mass, m^2
+  std::span<const double> path;  ///< of each mesh: factor of its prescribed velocities
+};
+
 /// Distributes the results of the grid: velocities and affine fields to the meshes, motions and heat of the step to the
-/// entries of the marked nodes.
+/// entries of the marked nodes. Those of tools keep to their path, whatever the grid made of them (2.6).
 /// @param motions, heat one per mesh; resized to its nodes, with zero heat for the others
+/// @param tools  of each mesh, result: impulse and work of what moves its nodes along the path
 void distribute(const transfer::TransitionNodes& nodes, std::vector<fem::Mesh>& meshes,
-                std::span<fem::Motion> motions, std::span<std::vector<double>> heat);
+                std::span<fem::Motion> motions, std::span<std::vector<double>> heat, const ToolStep& step,
+                std::span<fem::ConstraintBalance> tools);
 
 /// Stops off-grid nodes at walls and mirror planes: nodes that would cross a face of the domain are kept on it, a
 /// perfectly inelastic impact whose energy becomes heat at the node (2.5). `motion` and velocities must be those set by

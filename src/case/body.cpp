@@ -58,6 +58,7 @@ std::span<const Section<Body>> Body::sections() {
       section<&Body::element_range>("element_range", ", of bodies with elements",
                                     [](const Body& body) { return body.discretization.has_elements(); }),
       section<&Body::node_conditions>("node_condition", ", of bodies with elements"),
+      section<&Body::path>("path", ", of tools: driven bodies, and bodies with node conditions"),
       section<&Body::bars>("bar", ", of bodies of bars"),
       section<&Body::initial>("initial", ", at most two of",
                               [](const Body& body) { return body.initial.given(); }),
@@ -146,6 +147,16 @@ void Body::check(const Case& setup, const Faults& faults) const {
     }
   }
   failure_grains.check(setup, faults.in("failure_grains"));
+  if (path && !driven && node_conditions.empty()) {
+    faults.in("path").add("times",
+                          "a path is that of prescribed velocities: the body needs 'driven = true' "
+                          "(particles) or a [[body.node_condition]] (elements)");
+  }
+  if (path && discretization.converts()) {
+    faults.in("path").add("times",
+                          "a body on a path keeps its elements: expected method = "
+                          "\"finite_elements\", not \"adaptive\"");
+  }
   if (!discretization.has_elements()) {
     for (std::size_t i = 0; i < node_conditions.size(); ++i) {
       faults.in("node_condition").in(i).add("", "a body of particles has no nodes");

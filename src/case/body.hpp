@@ -15,6 +15,7 @@
 #include "src/case/detonation.hpp"
 #include "src/case/discretization.hpp"
 #include "src/case/failure_grains.hpp"
+#include "src/case/path.hpp"
 #include "src/case/section.hpp"
 #include "src/case/shapes/shape.hpp"
 #include "src/core/base/tensor.hpp"
@@ -57,6 +58,7 @@ struct Body {
   Conversion conversion;
   ElementRange element_range;
   std::vector<NodeCondition> node_conditions;
+  std::optional<Path> path;  ///< of a tool: over time, of its prescribed velocities
   std::vector<BarRow> bars;
   InitialState initial;
   Failure failure;

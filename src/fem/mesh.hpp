@@ -115,6 +115,7 @@ struct GaussPoints : MaterialPoints {
 struct Mesh {
   Quadrature quadrature = Quadrature::one_point;
   std::uint32_t body = 0;  ///< index of the body in the case
+  bool has_path = false;   ///< of its prescribed velocities: it is a tool
   Nodes nodes;
   Elements elements;
   GaussPoints points;

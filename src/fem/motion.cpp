@@ -81,13 +81,15 @@ ConstraintBalance& ConstraintBalance::operator+=(const ConstraintBalance& other)
 namespace {
 
 /// Advances a node from the velocity before the forces to that after the forces.
-void advance_to(Nodes& nodes, std::size_t a, Lanes after, Motion& motion, ConstraintBalance& balance) {
+void advance_to(Nodes& nodes, std::size_t a, Lanes after, double path, Motion& motion,
+                ConstraintBalance& balance) {
   const Lanes before = load_vector(nodes.velocity[a].data());
   if (nodes.constrained[a] != constraint::none) {
     for (int i = 0; i < 3; ++i) {
       if ((nodes.constrained[a] & constraint::axis(i)) == 0) continue;
-      const double impulse = nodes.mass[a] * (nodes.prescribed[a][i] - after[i]);
-      after[i] = nodes.prescribed[a][i];
+      const double prescribed = path * nodes.prescribed[a][i];
+      const double impulse = nodes.mass[a] * (prescribed - after[i]);
+      after[i] = prescribed;
       balance.impulse[i] += impulse;
       balance.work += impulse * 0.5 * (before[i] + after[i]);
     }
@@ -117,7 +119,7 @@ void advance_four(Nodes& nodes, std::size_t first, Lanes per_force, Motion& moti
 }  // namespace
 
 ConstraintBalance advance_velocities(Nodes& nodes, double dt, Motion& motion,
-                                     std::span<const std::uint8_t> elsewhere) {
+                                     std::span<const std::uint8_t> elsewhere, double path) {
   motion.mean.resize(nodes.size());
   motion.end.resize(nodes.size());
   return parallel::sum_of_chunks<ConstraintBalance>(nodes.size(), [&](std::size_t begin, std::size_t end) {
@@ -135,7 +137,7 @@ ConstraintBalance advance_velocities(Nodes& nodes, double dt, Motion& motion,
         if (!elsewhere.empty() && elsewhere[a] != 0) continue;
         const Lanes velocity = load_vector(nodes.velocity[a].data()),
                     force = load_vector(nodes.force[a].data());
-        advance_to(nodes, a, velocity + per_force[k] * force, motion, balance);
+        advance_to(nodes, a, velocity + per_force[k] * force, path, motion, balance);
       }
     }
     return balance;
@@ -143,10 +145,10 @@ ConstraintBalance advance_velocities(Nodes& nodes, double dt, Motion& motion,
 }
 
 ConstraintBalance advance_velocity(Nodes& nodes, std::size_t node, const Vector3& acceleration, double dt,
-                                   Motion& motion) {
+                                   Motion& motion, double path) {
   ConstraintBalance balance;
   const Lanes velocity = load_vector(nodes.velocity[node].data());
-  advance_to(nodes, node, velocity + dt * load_vector(acceleration.data()), motion, balance);
+  advance_to(nodes, node, velocity + dt * load_vector(acceleration.data()), path, motion, balance);
   return balance;
 }
 

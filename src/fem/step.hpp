@@ -65,17 +65,18 @@ struct ConstraintBalance {
 /// velocity, and the new one. Nodes of `elsewhere` (!= 0) and their entries of `motion` are skipped; the caller sets
 /// them.
 /// @param elsewhere  empty, or one entry per node
+/// @param path       factor of the prescribed velocities in this step
 ConstraintBalance advance_velocities(Nodes& nodes, double dt, Motion& motion,
-                                     std::span<const std::uint8_t> elsewhere = {});
+                                     std::span<const std::uint8_t> elsewhere = {}, double path = 1.0);
 
 inline ConstraintBalance advance_velocities(Mesh& mesh, double dt, Motion& motion,
-                                            std::span<const std::uint8_t> elsewhere = {}) {
-  return advance_velocities(mesh.nodes, dt, motion, elsewhere);
+                                            std::span<const std::uint8_t> elsewhere = {}, double path = 1.0) {
+  return advance_velocities(mesh.nodes, dt, motion, elsewhere, path);
 }
 
 /// Advances one node by its acceleration (m/s^2), for a node whose force is summed over ranks.
 ConstraintBalance advance_velocity(Nodes& nodes, std::size_t node, const Vector3& acceleration, double dt,
-                                   Motion& motion);
+                                   Motion& motion, double path = 1.0);
 
 /// Holds velocity gradients (1/s), one per Gauss point, component by component: L_ij in component[3 i + j].
 struct VelocityGradients {

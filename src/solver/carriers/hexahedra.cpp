@@ -20,7 +20,15 @@
 namespace whipple::solver {
 
 Hexahedra::Hexahedra(State& state, const Loads& loads, std::vector<fem::Mesh> meshes)
-    : Carrier(state), loads_(loads), meshes_(std::move(meshes)) {}
+    : Carrier(state), loads_(loads), meshes_(std::move(meshes)) {
+  for (fem::Mesh& mesh : meshes_) mesh.has_path = state_.setup.bodies[mesh.body].path.has_value();
+}
+
+/// Returns the factor of the prescribed velocities of a mesh in the current step.
+double Hexahedra::path_factor(const fem::Mesh& mesh) const {
+  const std::optional<cases::Path>& path = state_.setup.bodies[mesh.body].path;
+  return path ? path->factor(state_.run.time, state_.run.time_step) : 1.0;
+}
 
 const std::vector<std::vector<fem::Facet>>& Hexahedra::free_facets() {
   if (surfaces_changed_) {
@@ -65,7 +73,12 @@ double Hexahedra::critical_time_step() const {
 std::string Hexahedra::advance() {
   motions_.resize(meshes_.size());
   node_heat_.resize(meshes_.size());
-  afemp::distribute(state_.transition, meshes_, motions_, node_heat_);
+  tools_.resize(meshes_.size());
+  std::vector<double> path;
+  for (const fem::Mesh& mesh : meshes_) path.push_back(path_factor(mesh));
+  afemp::distribute(
+      state_.transition, meshes_, motions_, node_heat_,
+      {.dt = state_.run.time_step, .affine_inertia = state_.particle_affine_inertia(), .path = path}, tools_);
   std::string error;
   SqueezedPoints squeezed(state_.setup.materials.size());
   for (std::size_t m = 0; m < meshes_.size(); ++m) {
@@ -84,7 +97,8 @@ std::string Hexahedra::advance_mesh(std::size_t m, SqueezedPoints& squeezed) {
   fem::Mesh& mesh = meshes_[m];
   Ledger& booked = state_.booked;
   const double dt = state_.run.time_step;
-  const fem::ConstraintBalance balance = advance_free_nodes(m);
+  fem::ConstraintBalance balance = advance_free_nodes(m);
+  balance += tools_[m];
   booked.wall_impulse += balance.impulse;
   booked.external_work += balance.work;
   booked.wall_impulse +=

@@ -64,6 +64,7 @@ class Hexahedra : public Carrier {
   void show(View& view) const override { view.meshes = meshes_; }
 
  private:
+  [[nodiscard]] double path_factor(const fem::Mesh& mesh) const;
   [[nodiscard]] fem::ConstraintBalance advance_free_nodes(std::size_t mesh);
   [[nodiscard]] std::string advance_mesh(std::size_t mesh, SqueezedPoints& squeezed);
   [[nodiscard]] std::string deform(std::size_t mesh, bool heated, SqueezedPoints& squeezed);
@@ -90,6 +91,7 @@ class Hexahedra : public Carrier {
   std::vector<Motion> of_mesh_;
   std::vector<fem::Motion> motions_;
   std::vector<std::vector<double>> node_heat_;
+  std::vector<fem::ConstraintBalance> tools_;  // of each mesh, by its interface nodes
 };
 
 }  // namespace whipple::solver

@@ -88,21 +88,22 @@ void Hexahedra::join_shared_nodes() {
 fem::ConstraintBalance Hexahedra::advance_free_nodes(std::size_t m) {
   fem::Mesh& mesh = meshes_[m];
   const double dt = state_.run.time_step;
+  const double path = path_factor(mesh);
   const std::span<const fem::SharedNodes::Place> places = shared_nodes_.places();
   if (places.empty()) {
-    return fem::advance_velocities(mesh, dt, motions_[m], mesh.nodes.in_transition);
+    return fem::advance_velocities(mesh, dt, motions_[m], mesh.nodes.in_transition, path);
   }
   std::vector<std::uint8_t> elsewhere = mesh.nodes.in_transition;
   for (const fem::SharedNodes::Place& place : places) {
     if (place.mesh == m) elsewhere[place.node] = 1;
   }
-  fem::ConstraintBalance balance = fem::advance_velocities(mesh, dt, motions_[m], elsewhere);
+  fem::ConstraintBalance balance = fem::advance_velocities(mesh, dt, motions_[m], elsewhere, path);
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (places[i].mesh != m || mesh.nodes.in_transition[places[i].node] != 0) continue;
     const std::array<double, 5>& of_node = shared_[i];
-    balance +=
-        fem::advance_velocity(mesh.nodes, places[i].node,
-                              Vector3(of_node[0], of_node[1], of_node[2]) / of_node[3], dt, motions_[m]);
+    balance += fem::advance_velocity(mesh.nodes, places[i].node,
+                                     Vector3(of_node[0], of_node[1], of_node[2]) / of_node[3], dt,
+                                     motions_[m], path);
   }
   return balance;
 }

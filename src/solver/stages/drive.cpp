@@ -72,7 +72,8 @@ Drive::Drive(const cases::Case& setup) {
     // A mirror plane keeps a body from turning about the axes in it.
     const std::array<bool, 3> turns = {!guided[1] && !guided[2], !guided[2] && !guided[0],
                                        !guided[0] && !guided[1]};
-    driven_.push_back({.body = b, .velocity = body.velocity, .guided = guided, .turns = turns});
+    driven_.push_back(
+        {.body = b, .velocity = body.velocity, .guided = guided, .turns = turns, .path = body.path});
   }
 }
 
@@ -86,7 +87,8 @@ void Drive::add(State& state, std::vector<Vector3>& acceleration) const {
     const bool turns = std::ranges::any_of(driven.turns, [](bool about) { return about; });
     if (turns) motion.spin = spin_of(state.communicator, members, motion, driven.turns);
     DrivenBody& last = state.run.driven[driven.body];
-    Vector3 added = (driven.velocity - motion.velocity) / dt, turning = -motion.spin / dt;
+    const double factor = driven.path ? driven.path->factor(state.run.time, dt) : 1.0;
+    Vector3 added = (factor * driven.velocity - motion.velocity) / dt, turning = -motion.spin / dt;
     if (last.time_step > 0.0) {
       added -= (motion.velocity - last.velocity) / last.time_step - last.acceleration;
       turning -= (motion.spin - last.spin) / last.time_step - last.spin_acceleration;

@@ -59,7 +59,8 @@ void Plausibility::begin() {
   }
   for (const cases::Body& body : state_.setup.bodies) {
     for (const cases::NodeCondition& condition : body.node_conditions) {
-      fastest = std::max(fastest, (condition.velocity - of_frame).norm());
+      const double factor = body.path ? body.path->largest() : 1.0;
+      fastest = std::max(fastest, (factor * condition.velocity - of_frame).norm());
     }
   }
   std::array<double, 1> sum = {releasable.energy};
