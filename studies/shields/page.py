@@ -226,15 +226,36 @@ def repeat_section(shots, repeats):
     return ["## Tiles repeated", "", REPEATED, "", *lines] if lines else []
 
 
-def page(models, calibrating, repeats=None):
-    """Text of the page, of shots by model; repeats: rows of outcomes of tiles, by what is different."""
+def section_repeats(rows):
+    """Verdicts of sections that were repeated. rows: of repeats.csv"""
+    if not rows:
+        return []
+    counts, changed = [], []
+    for variant in dict.fromkeys(row["variant"] for row in rows):
+        members = [row for row in rows if row["variant"] == variant]
+        decided = [row for row in members if row["outcome"] != "undecided"]
+        other = [row for row in decided if (row["first"] in DEFEATS) != (row["outcome"] in DEFEATS)]
+        words = [row for row in decided if row["first"] != row["outcome"]]
+        same = sum(row["same bytes"] == "yes" for row in members)
+        counts.append([variant, len(members), len(members) - len(decided), scores.percent(len(other), len(decided)), len(words),
+                       f"{same} of {len(members)}" if any(row["same bytes"] for row in members) else "-"])
+        changed += [[row["shot"], variant, row["first"], row["outcome"]] for row in words]
+    return ["## Sections repeated", "",
+            "Shots chosen by their place in the order of names alone (`studies/shields/repeats.py`): the lattice moved by a quarter of a cell along",
+            "the flight, cells 0.8 times as large, two threads. Changed: between defeated (perforated, detached spall) and not, of those decided.", "",
+            *table(["repeated with", "shots", "undecided", "changed", "other word", "same bytes"], counts),
+            *(table(["shot", "repeated with", "outcome", "repeated"], changed) if changed else ["No outcome has another word.", ""])]
+
+
+def page(models, calibrating, repeats=None, of_sections=()):
+    """Text of the page, of shots by model; repeats: rows of outcomes of tiles, by what is different; of_sections: rows of repeats.csv."""
     shots = next(iter(models.values()))
     named = [f"- {name}: {why}" for name, why in calibrating.items()]
     return "\n".join(["# Shields: predictions and shots", "",
                       "Written by `python3 -m studies.shields.page`. Shots and their sources: `studies/shields/shots.csv`; equations:",
                       "[theory](../theory/ballistic_limits.md); outcome of a run: [shields](../manual/shields.md).", "",
                       *equation_section(shots), *(line for model, members in models.items() for line in run_section(model, members, calibrating)),
-                      *model_section(models, calibrating), *repeat_section(models.get("tile", []), repeats or {}),
+                      *model_section(models, calibrating), *repeat_section(models.get("tile", []), repeats or {}), *section_repeats(of_sections),
                       "## Calibrating shots", "", "In no score of runs:", "", *named, ""])
 
 
@@ -247,7 +268,8 @@ def main():
     shots = read_shots(arguments.whipple, HERE / "shots.csv")
     models = by_model(shots, read_csv(arguments.outcomes))
     calibrating = {row["shot"]: row["why"] for row in read_csv(HERE / "calibrating.csv")}
-    text = page(models, calibrating, {title: read_csv(HERE / file) for title, file in REPEATS.items()})
+    text = page(models, calibrating, {title: read_csv(HERE / file) for title, file in REPEATS.items()},
+                read_csv(HERE / "repeats.csv"))
     arguments.output.write_text(text, encoding="utf-8")
     print(text)
 

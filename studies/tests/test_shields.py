@@ -11,7 +11,7 @@ import unittest.mock
 import numpy as np
 
 from studies import commands
-from studies.shields import curve, page, run_shots, scores, tile
+from studies.shields import curve, page, repeats, run_shots, scores, tile
 
 
 def shot(name, failed, run=None, size=1.2, **more):
@@ -241,6 +241,37 @@ class Batch(unittest.TestCase):
     def test_outcomes_that_are_kept_have_the_columns(self):
         for name in ("outcomes.csv", *page.REPEATS.values()):
             self.assertEqual((page.HERE / name).read_text(encoding="utf-8").splitlines()[0], ",".join(run_shots.COLUMNS))
+
+
+class Repeats(unittest.TestCase):
+    def test_shots_are_chosen_by_their_names_alone(self):
+        rows = [{"shot": f"S/{i:03}", "model": "section", "outcome": "bulge", "resolved": "yes"} for i in reversed(range(100))]
+        rows[3]["outcome"] = "undecided"
+        rows[4]["model"] = "tile"
+        names = [row["shot"] for row in repeats.chosen(rows, {"S/000"}, 40)]
+        self.assertEqual(len(set(names)), 40)
+        self.assertEqual(names, sorted(names))
+        self.assertEqual(names[0], "S/001")
+        self.assertFalse({"S/000", "S/096", "S/095"} & set(names))  # calibrating, undecided, of another model
+        other = [row | {"outcome": "perforated" if row["outcome"] == "bulge" else row["outcome"]} for row in rows]
+        self.assertEqual([row["shot"] for row in repeats.chosen(other, {"S/000"}, 40)], names)
+
+    def test_the_domain_moves_along_the_flight(self):
+        text = '[domain]\nlower = ["0 mm", "0 mm", "-30.9575 mm"]\nupper = ["60.9 mm", "60.9 mm", "137.5325 mm"]\ncell_size = "0.5 mm"\n'
+        self.assertEqual(repeats.moved(text), text.replace("-30.9575", "-31.0825").replace("137.5325", "137.4075"))
+        with self.assertRaises(ValueError):
+            repeats.moved(text.replace("upper", "top"))
+
+    def test_changes_are_between_defeated_and_not(self):
+        row = {"shot": "A", "variant": "lattice", "first": "perforated", "outcome": "detached spall", "same bytes": ""}
+        rows = [row, row | {"shot": "B", "outcome": "bulge"}, row | {"shot": "C", "outcome": "undecided"},
+                row | {"shot": "D", "variant": "two threads", "outcome": "perforated", "same bytes": "yes"}]
+        text = "\n".join(page.section_repeats(rows))
+        self.assertIn("| lattice | 3 | 1 | 50.0 %", text)
+        self.assertIn("| two threads | 1 | 0 | 0.0 %", text)
+        self.assertIn("1 of 1 |", text)
+        self.assertIn("| B | lattice | perforated | bulge |", text)
+        self.assertEqual(page.section_repeats([]), [])
 
 
 class Tables(unittest.TestCase):
