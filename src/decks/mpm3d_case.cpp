@@ -48,7 +48,7 @@ class CaseBuilder {
     transfer();
     viscosity();
     contact();
-    gravity();
+    loads();
     for (const CaseBody& body : bodies_) add(body, materials.at(body.material));
     detonation(std::ranges::any_of(bodies_, [&](const CaseBody& body) {
       return !body.shape.empty() && materials.at(body.material).explosive;
@@ -311,38 +311,50 @@ class CaseBuilder {
     remark(Outcome::converted, *contact, "contact of the components; normals by this program's own rule");
   }
 
-  void gravity() {
-    std::map<int, Vector3> given;
-    const Statement* first = nullptr;
-    for (const Statement* load : deck_.all(Keyword::load)) {
-      const std::vector<double>& n = load->numbers;
-      if (load->kind != "grav") continue;
-      const int body = whole(n[0]);
-      if (body < 1 || body > static_cast<int>(bodies_.size()))
-        fault(load->line, fmt::format("there is no body {}", body));
-      given[body] = Vector3(n[1], n[2], n[3]);
-      if (first == nullptr) first = load;
-    }
-    std::map<std::string, std::pair<const Statement*, std::size_t>> forces;
+  void loads() {
+    std::map<std::size_t, std::pair<const Statement*, Vector3>> gravity, force;  // the last of each body
+    const Statement* on_particles = nullptr;
     for (const Statement* load : deck_.all(Keyword::load)) {
       if (load->kind == "node") fault(load->line, "MPM3D-F90 has no loads of nodes");
-      if (load->kind == "grav" || load->kind == "node") continue;
-      auto& [where, count] = forces[load->kind];
-      if (count++ == 0) where = load;
+      if (load->kind == "part" && on_particles == nullptr) on_particles = load;
+      if (load->kind != "grav" && load->kind != "body") continue;
+      const std::vector<double>& n = load->numbers;
+      const auto body = static_cast<std::size_t>(std::max(whole(n[0]), 0));
+      if (body < 1 || body > bodies_.size()) {
+        fault(load->line, fmt::format("there is no body {}", whole(n[0])));
+        continue;
+      }
+      (load->kind == "grav" ? gravity : force)[body - 1] = {load, Vector3(n[1], n[2], n[3])};
     }
-    for (const auto& [kind, entry] : forces)
-      remark(Outcome::missing, *entry.first, fmt::format("{} given forces", entry.second));
-    if (first == nullptr) return;
-    const Vector3 common = given.begin()->second;
+    if (on_particles != nullptr) remark(Outcome::missing, *on_particles, "forces on single particles");
+    for (const auto& [index, entry] : force) {
+      const double particles = bodies_[index].particles;
+      add_load(bodies_[index], *entry.first, "force", entry.second * particles, dimension::force);
+      remark(Outcome::converted, *entry.first,
+             fmt::format("force on each of {} particles: their sum, distributed by mass", number(particles)));
+    }
+    if (gravity.empty()) return;
+    const auto& [first, common] = gravity.begin()->second;
     const bool one_for_all =
-        given.size() >= bodies_.size() &&
-        std::ranges::all_of(given, [&](const auto& each) { return each.second == common; });
+        gravity.size() == bodies_.size() &&
+        std::ranges::all_of(gravity, [&](const auto& each) { return each.second.second == common; });
     if (one_for_all) {
       toml_.table("[gravity]", line_of(*first));
       toml_.entry("acceleration", vector(common, dimension::acceleration));
+      return remark(Outcome::exact, *first, "gravity");
     }
-    remark(one_for_all ? Outcome::exact : Outcome::missing, *first,
-           one_for_all ? "gravity" : "gravity that differs between bodies");
+    for (const auto& [index, entry] : gravity)
+      add_load(bodies_[index], *entry.first, "acceleration", entry.second, dimension::acceleration);
+    remark(Outcome::exact, *first, "gravity of single bodies: loads of these");
+  }
+
+  /// Writes a load of a body that the case has, unless it is zero.
+  void add_load(const CaseBody& body, const Statement& statement, const char* key, const Vector3& value,
+                const Dimension& dimension) {
+    if (body.shape.empty() || value.isZero(0.0)) return;
+    toml_.table("[[load]]", line_of(statement));
+    toml_.text_entry("body", body.name);
+    toml_.entry(key, vector(value, dimension));
   }
 
   void add(const CaseBody& body, const CaseMaterial& material) {
@@ -445,10 +457,9 @@ class CaseBuilder {
           remark(Outcome::dropped, statement, "output of that code");
           break;
         case Keyword::smoothed_stress:
-          remark(Outcome::dropped, statement, "method of that code: smoothed stresses");
-          break;
         case Keyword::volume_by_deformation:
-          remark(Outcome::dropped, statement, "method of that code: volumes by the deformation gradient");
+          remark(Outcome::dropped, statement,
+                 "method of that code: smoothed stresses, volumes by the deformation gradient");
           break;
         case Keyword::total_lagrangian:
           remark(Outcome::missing, statement, "total Lagrangian method");
@@ -457,7 +468,7 @@ class CaseBuilder {
           remark(Outcome::missing, statement, "staggered grid against volumetric locking");
           break;
         case Keyword::quasi_static:
-          remark(Outcome::missing, statement, "loads that grow over a time");
+          remark(Outcome::missing, statement, "gravity that grows with the time");
           break;
         case Keyword::damping:
         case Keyword::dynamic_relaxation:

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "src/core/base/error.hpp"
@@ -215,17 +217,44 @@ class MaterialBuilder {
       begin("viscous_fluid", material_);
       quantity("viscosity", n_[3], dimension::viscosity);
       remark(Outcome::exact, material_, "viscous_fluid");
+    } else if (material_.kind == "dpm") {
+      drucker_prager();
     } else {
       begin("none", material_);
       if (material_.kind == "null") {
         remark(Outcome::exact, material_, "a fluid without viscosity");
-      } else if (material_.kind == "hiex") {
+      } else {
         remark(Outcome::converted, material_,
                "programmed burn over two cells from an unreacted explosive; that code burns each particle at "
                "once");
-      } else {
-        remark(Outcome::missing, material_, "Drucker-Prager plasticity: no strength in the case");
       }
+    }
+  }
+
+  /// Writes the cone tau <= k_phi + q_phi p of a deck as the angle and the cohesion with which the cone of triaxial
+  /// compression, q = sqrt(3) tau <= d + M p, is the same: sin(phi) = 3 M/(6 + M), c = d (3 - sin(phi))/(6 cos(phi)).
+  /// That cone covers every slope which an angle below 90 degrees can have.
+  void drucker_prager() {
+    const double slope = std::numbers::sqrt3 * n_[4], cohesion = std::numbers::sqrt3 * n_[5];
+    constexpr double steepest = 3.0;  // of compression at 90 degrees
+    if (!(slope > 0.0 && slope < steepest)) fail(material_, "q_phi must be > 0 and < sqrt(3)");
+    if (!(cohesion >= 0.0)) fail(material_, "k_phi must be >= 0");
+    if (!(n_[7] >= 0.0)) fail(material_, "the tensile strength must be >= 0");
+    const double sine = 3.0 * slope / (6.0 + slope), angle = std::asin(sine);
+    begin("drucker_prager", material_);
+    elastic_constants();
+    toml_.text_entry("match", "compression");
+    toml_.entry("friction_angle", fmt::format("\"{} deg\"", number(angle * 180.0 / std::numbers::pi)),
+                "the cone of the deck's q_phi and k_phi");
+    quantity("cohesion", cohesion * (3.0 - sine) / (6.0 * std::cos(angle)), dimension::pressure);
+    quantity("tensile_strength", n_[7], dimension::pressure);
+    if (n_[6] == 0.0) {
+      remark(
+          Outcome::converted, material_,
+          "drucker_prager with the same cone; tension opens a gap, and the stress stays on the cone there");
+    } else {
+      remark(Outcome::missing, material_,
+             fmt::format("Drucker-Prager with dilation, q_psi = {}: the law of the case has none", n_[6]));
     }
   }
 

@@ -18,6 +18,7 @@ inline constexpr Dimension time = {.time = 1};
 inline constexpr Dimension rate = {.time = -1};
 inline constexpr Dimension velocity = {.length = 1, .time = -1};
 inline constexpr Dimension acceleration = {.length = 1, .time = -2};
+inline constexpr Dimension force = {.length = 1, .mass = 1, .time = -2};
 inline constexpr Dimension density = {.length = -3, .mass = 1};
 inline constexpr Dimension pressure = {.length = -1, .mass = 1, .time = -2};
 inline constexpr Dimension viscosity = {.length = -1, .mass = 1, .time = -1};

@@ -16,6 +16,7 @@
 #include "src/material/failure/fragment_size.hpp"
 #include "src/material/strength/brittle.hpp"
 #include "src/material/strength/foam.hpp"
+#include "src/material/strength/granular_flow.hpp"
 #include "src/material/strength/none.hpp"
 
 namespace whipple {
@@ -60,9 +61,22 @@ bool is_foam(const Material& material) {
   return dynamic_cast<const strength::Foam*>(material.strength.get()) != nullptr;
 }
 
+/// Requires that soil is less dense than its grains, between which there are pores.
+/// @throws InputError if it is not
+void require_pores_between_grains(const Material& material) {
+  const auto* flow = dynamic_cast<const strength::GranularFlowModel*>(material.strength.get());
+  if (flow == nullptr) return;
+  const double soil = material.eos->reference_density() / material.eos->initial_distension();
+  if (soil < flow->law().grain_density) return;
+  throw InputError(fmt::format(
+      "strength model \"{}\": 'grain_density' {} kg/m^3 must be above the density of the soil, {} kg/m^3",
+      flow->model(), flow->law().grain_density, soil));
+}
+
 /// Requires that the parts of a material are compatible.
 /// @throws InputError if they are not
 void require_parts_agree(const Material& material) {
+  require_pores_between_grains(material);
   std::string with_past, grows_voids;
   if (const strength::Brittle* brittle = material.strength->brittle()) {
     with_past = material.strength->model();

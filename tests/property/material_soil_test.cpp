@@ -180,5 +180,18 @@ TEST(GranularFlow, FrictionThatFallsWithTheRateIsRefused) {
   }
 }
 
+TEST(GranularFlow, GrainsNotDenserThanTheSoilAreRefused) {
+  GranularFlow law = beads();
+  law.grain_density = 2001;
+  EXPECT_NO_THROW((void)soil(law));
+  law.grain_density = 2000;  // that of the soil: no room for pores
+  try {
+    (void)soil(law);
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("'grain_density' 2000 kg/m^3 must be above"));
+  }
+}
+
 }  // namespace soil_test
 }  // namespace whipple
