@@ -468,7 +468,7 @@ class CaseBuilder {
           remark(Outcome::missing, statement, "staggered grid against volumetric locking");
           break;
         case Keyword::quasi_static:
-          remark(Outcome::missing, statement, "gravity that grows with the time");
+          remark(Outcome::missing, statement, "loads that grow over a time");
           break;
         case Keyword::damping:
         case Keyword::dynamic_relaxation:

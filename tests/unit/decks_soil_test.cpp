@@ -57,7 +57,7 @@ TEST_F(SoilDeck, DilationAndForcesOnParticlesAreMissing) {
 TEST_F(SoilDeck, ConesThatNoAngleHasAreRefused) {
   for (const char* slope : {"0", "1.74"}) {
     EXPECT_THAT(message_of<InputError>([&] { (void)with("0.3545", slope); }),
-                testing::HasSubstr("deck.mpm:10:1: mate dpm: q_phi must be > 0 and < sqrt(3)"));
+                testing::HasSubstr("deck.mpm:10:1: error: mate dpm: q_phi must be > 0 and < sqrt(3)"));
   }
 }
 

@@ -48,7 +48,7 @@ def units_are_those_of_the_program():
     """The factors of expected.toml, by which cases are read for their variants too, against `whipple units`."""
     kinds = {"m": "m", "cm": "m", "mm": "m", "um": "m", "s": "s", "ms": "s", "us": "s", "ns": "s", "m/s": "m/s",
              "km/s": "m/s", "kg": "kg", "g": "kg", "mg": "kg", "J": "J", "kJ": "J", "Pa": "Pa", "MPa": "Pa", "GPa": "Pa",
-             "K": "K", "degree": "rad"}
+             "N": "N", "kN": "N", "MN": "N", "K": "K", "degree": "rad"}
     require(set(KIND_OF_UNIT) == set(UNITS), f"units without a kind: {set(UNITS) ^ set(KIND_OF_UNIT)}")
     for one in kinds:
         for other in kinds:
