@@ -23,7 +23,7 @@ namespace whipple::decks::mpm3d {
 namespace {
 
 /// Defines defaults that differ between the two codes.
-constexpr double default_factor = 0.9, usual_courant = 0.5, least_courant = 0.05;
+constexpr double usual_courant = 0.5, least_courant = 0.05;
 constexpr double default_quadratic = 1.5, default_linear = 0.06;
 
 class CaseBuilder {

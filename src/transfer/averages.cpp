@@ -61,8 +61,8 @@ class CellMeans {
     const auto along = [&](std::size_t a) {
       return stencil_.planar && a == 2 ? 0 : first[a] + static_cast<int>(places_[p].from_first(a));
     };
-    const grid::BlockShape block = stencil_.block();
-    return sums_[static_cast<std::size_t>((along(0) * block.edge + along(1)) * block.edge_z + along(2))];
+    const int cell = stencil_.block().node(along(0), along(1), along(2));
+    return sums_[static_cast<std::size_t>(cell)];
   }
 
   std::span<const grid::PlaceInStencil> places_;

@@ -25,16 +25,17 @@ struct Members {
 RigidMotion centre_of(MPI_Comm communicator, const Members& members) {
   const Particles& q = members.particles;
   std::array<double, 7> sums{};
+  Eigen::Map<Vector3> momentum(sums.data() + 1), moment(sums.data() + 4);
   for (std::size_t p = members.first; p < members.end; ++p) {
     sums[0] += q.mass[p];
-    for (int i = 0; i < 3; ++i) sums[static_cast<std::size_t>(1 + i)] += q.mass[p] * q.velocity[p][i];
-    for (int i = 0; i < 3; ++i) sums[static_cast<std::size_t>(4 + i)] += q.mass[p] * q.position[p][i];
+    momentum += q.mass[p] * q.velocity[p];
+    moment += q.mass[p] * q.position[p];
   }
   parallel::sum(communicator, sums);
   RigidMotion motion{.mass = sums[0]};
   if (!(motion.mass > 0.0)) return motion;
-  motion.velocity = Vector3(sums[1], sums[2], sums[3]) / motion.mass;
-  motion.centre = Vector3(sums[4], sums[5], sums[6]) / motion.mass;
+  motion.velocity = momentum / motion.mass;
+  motion.centre = moment / motion.mass;
   return motion;
 }
 
