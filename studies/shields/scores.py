@@ -76,4 +76,4 @@ def percent(right, count):
     if count == 0:
         return "-"
     low, high = wilson(right, count)
-    return f"{100 * right / count:.1f} % ({100 * low:.1f} to {100 * high:.1f})"
+    return f"{100 * right / count:.1f} % ({100 * max(low, 0.0):.1f} to {100 * high:.1f})"
