@@ -289,13 +289,13 @@ void collect(const std::vector<fem::Mesh>& meshes, transfer::TransitionNodes& no
   nodes.unrelaxed = count;
   for_each_transition_node(meshes, [&](std::size_t m, std::size_t a, std::size_t i) {
     const fem::Nodes& from = meshes[m].nodes;
-    const double weight = is_of_tool(meshes[m], a) ? tool_weight : 1.0;
-    nodes.mass[i] = weight * from.mass[a];
+    const bool of_tool = is_of_tool(meshes[m], a);
+    nodes.mass[i] = (of_tool ? tool_weight : 1.0) * from.mass[a];
     nodes.sound_speed[i] = sound_speed_at(meshes[m], a);
     nodes.position[i] = from.position[a];
     nodes.velocity[i] = from.velocity[a];
     nodes.affine_velocity[i] = from.affine_velocity[a];
-    nodes.force[i] = weight * from.force[a];
+    nodes.force[i] = of_tool ? Vector3::Zero() : from.force[a];
   });
 }
 
@@ -308,12 +308,11 @@ fem::ConstraintBalance keep_to_path(const transfer::TransitionNodes& nodes, std:
   const Vector3 before = to.velocity[a], after = path * to.prescribed[a], of_grid = nodes.velocity[i];
   const Vector3 mean = 0.5 * (before + after);
   fem::ConstraintBalance balance;
-  balance.impulse = mass * (after - before) - on_grid * (of_grid - before);
-  balance.impulse += step.dt * (nodes.force[i] - to.force[a]);
+  balance.impulse = mass * (after - before) - on_grid * (of_grid - before) - step.dt * to.force[a];
   balance.work = 0.5 * mass * (after - before).dot(after + before) -
                  0.5 * on_grid * (of_grid - before).dot(of_grid + before) -
                  0.5 * on_grid * step.affine_inertia * nodes.affine_velocity[i].squaredNorm() -
-                 step.dt * (to.force[a].dot(mean) - nodes.force[i].dot(nodes.mean_velocity[i]));
+                 step.dt * to.force[a].dot(mean);
   to.velocity[a] = motion.end[a] = after;
   to.affine_velocity[a].setZero();
   motion.mean[a] = mean;

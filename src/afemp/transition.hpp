@@ -35,8 +35,8 @@ void mark_surface(fem::Mesh& mesh, const grid::Geometry& geometry);
 double mark_transition(std::vector<fem::Mesh>& meshes, const Particles& particles,
                        const grid::Geometry& geometry, double affine_inertia, MPI_Comm communicator);
 
-/// Factor by which the nodes of tools on the grid are heavier than they are: what meets them does not move them, and the
-/// velocity that they have in contact with it is that of their path up to a thousandth of its own change.
+/// Factor by which the nodes of tools on the grid are heavier than they are: what meets them does not move them. Forces
+/// do not act on them there: in contact they have the velocity of the step before.
 constexpr double tool_weight = 1e3;
 
 /// Returns whether a node belongs to a tool: its body has a path and all components of its velocity are prescribed.

@@ -75,10 +75,14 @@ struct Body {
   [[nodiscard]] std::string rest_to_toml() const;
   void check(const Case& setup, const Faults& faults) const;
 
+  /// Returns the initial velocity of its centre: of a driven body that of its path.
+  [[nodiscard]] Vector3 velocity_at_start() const {
+    return driven && path ? path->table.at(0.0) * velocity : velocity;
+  }
   /// Returns the initial velocity at a position.
   /// @param centre  of the bounding box
   [[nodiscard]] Vector3 velocity_at(const Vector3& x, const Vector3& centre) const {
-    return velocity + angular_velocity.cross(x - centre) + expansion_rate.cwiseProduct(x - centre);
+    return velocity_at_start() + angular_velocity.cross(x - centre) + expansion_rate.cwiseProduct(x - centre);
   }
 
   /// Returns the directions in which the body is guided by mirror planes that it touches, or by the section of a plane

@@ -56,6 +56,12 @@ double TimeTable::integral(double from, double to) const {
   return sum + 0.5 * (at_begin + at(to)) * (to - begin);
 }
 
+double TimeTable::magnitude(double time) const {
+  TimeTable positive = *this;
+  for (double& factor : positive.factors) factor = std::abs(factor);
+  return positive.integral(0.0, time);
+}
+
 double TimeTable::next_event(double time) const {
   if (factors.front() != 0.0 && time < times.front()) return time;
   for (std::size_t i = 0; i + 1 < times.size(); ++i) {

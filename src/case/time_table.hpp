@@ -24,6 +24,8 @@ struct TimeTable {
   [[nodiscard]] double at(double time) const;
   /// Returns the exact mean of the factor over the step from `time` (s) of the length `step` (s) > 0.
   [[nodiscard]] double mean(double time, double step) const;
+  /// Returns a bound of the integral of the magnitude of the factor from 0 to a time (s), exact where it keeps its sign.
+  [[nodiscard]] double magnitude(double time) const;
   /// Returns the first time (s), not before the given one, from which the factor is not zero; infinite if there is none.
   [[nodiscard]] double next_event(double time) const;
 

@@ -10,7 +10,8 @@
 #include "src/transfer/sweep.hpp"
 
 /// Averages of pressure and volume rate over the particles of a body in a cell, against locking of material that keeps
-/// its volume (docs/theory/mpm.md, 4.12 to 4.14). A cell has its corners at nodes; its particles are in one slot of the grid.
+/// its volume (docs/theory/mpm.md, 4.12 to 4.14). A cell has its corners at nodes; its particles are in one slot of the grid. On several ranks
+/// those of a cell may be on two, which is refused (`Transfers`).
 namespace whipple::transfer {
 
 /// Holds which bodies of a run are averaged.

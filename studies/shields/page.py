@@ -242,7 +242,9 @@ def section_repeats(rows):
         changed += [[row["shot"], variant, row["first"], row["outcome"]] for row in words]
     return ["## Sections repeated", "",
             "Shots chosen by their place in the order of names alone (`studies/shields/repeats.py`): the lattice moved by a quarter of a cell along",
-            "the flight, cells 0.8 times as large, two threads. Changed: between defeated (perforated, detached spall) and not, of those decided.", "",
+            "the flight, cells 0.8 times as large, two threads. Changed: between defeated (perforated, detached spall) and not, of those decided.",
+            f"Repeated by {', '.join(sorted({row['revision'] for row in rows}))}, outcomes.csv by earlier revisions, whose programs give the same",
+            "digits in the ten cases of `scripts/drift.py`.", "",
             *table(["repeated with", "shots", "undecided", "changed", "other word", "same bytes"], counts),
             *(table(["shot", "repeated with", "outcome", "repeated"], changed) if changed else ["No outcome has another word.", ""])]
 

@@ -263,7 +263,7 @@ class Repeats(unittest.TestCase):
             repeats.moved(text.replace("upper", "top"))
 
     def test_changes_are_between_defeated_and_not(self):
-        row = {"shot": "A", "variant": "lattice", "first": "perforated", "outcome": "detached spall", "same bytes": ""}
+        row = {"shot": "A", "variant": "lattice", "first": "perforated", "outcome": "detached spall", "same bytes": "", "revision": "1"}
         rows = [row, row | {"shot": "B", "outcome": "bulge"}, row | {"shot": "C", "outcome": "undecided"},
                 row | {"shot": "D", "variant": "two threads", "outcome": "perforated", "same bytes": "yes"}]
         text = "\n".join(page.section_repeats(rows))

@@ -112,6 +112,19 @@ TEST(Plausibility, ALoadOnASmallPartIsNoFault) {
   }
 }
 
+// A load that has ended allows no more than it gave.
+TEST(Plausibility, AFastParticleBesideALoadThatHasEndedEndsTheRun) {
+  const std::string load =
+      "[[load]]\nacceleration = [0, 1e6, 0]\ntimes = [\"0 s\", \"1 ns\"]\nfactors = [1, 0]\n";
+  const auto one = [](Particles& q) {
+    q.specific_internal_energy[7] -= 0.5 * (2000.0 * 2000.0 - q.velocity[7].squaredNorm());
+    q.velocity[7] = {2000.0, 0.0, 0.0};
+  };
+  const std::string sections =
+      "boundary = { x_upper = \"separating\" }\n" + load + "[output]\nmaximum_energy_error = 1e9\n";
+  EXPECT_THAT(error_of_step(flying("[100, 0, 0]", "", sections), one), testing::HasSubstr("is impossible"));
+}
+
 TEST(Plausibility, ATimeStepThatCollapsesEndsTheRun) {
   Method slow, tiny;
   slow.courant = 1e-6;

@@ -94,7 +94,8 @@ TEST(Tool, OfParticlesFollowsItsTable) {
   const std::string text =
       block_and_plate("velocity = [\"-2 m/s\", \"0 m/s\", \"0 m/s\"]\ndriven = true\n", ramp);
   solver::Simulation simulation(cases::read_case_text(text, "tool.toml"), parallel::world());
-  run_to(simulation, 0.5 * end);
+  EXPECT_EQ(simulation.particles().velocity.back(), Vector3::Zero());  // the table begins with 0
+  run_to(simulation, 0.25 * end);
   double mass = 0.0, momentum = 0.0;
   const Particles& p = simulation.particles();
   for (std::size_t i = 0; i < p.size(); ++i) {
@@ -102,7 +103,7 @@ TEST(Tool, OfParticlesFollowsItsTable) {
     mass += p.mass[i];
     momentum += p.mass[i] * p.velocity[i][0];
   }
-  EXPECT_NEAR(momentum / mass, -speed, 0.05 * speed);
+  EXPECT_NEAR(momentum / mass, -0.5 * speed, 0.05 * speed);
   EXPECT_LT(std::abs(simulation.state().ledger.energy_error(simulation.totals())), 1e-12);
 }
 

@@ -110,7 +110,7 @@ Seeding seed(const Case& setup, int rank, int ranks) {
       particles.mass[p] = mass_of_site * allotment.fraction(site);
       const Vector3 place = place_of_particle(setup, body, lattice, site);
       particles.position[p] = setup.geometry.is_axisymmetric() ? centre_of_mass(site) : place;
-      particles.velocity[p] = body.velocity + gradient * (place - center);
+      particles.velocity[p] = body.velocity_at_start() + gradient * (place - center);
       particles.affine_velocity[p] = gradient;
       particles.extent[p] = site.extent;
       particles.generation[p] = 0;

@@ -53,8 +53,9 @@ Vector3 spin_of(MPI_Comm communicator, const Members& members, const RigidMotion
     inertia += q.mass[p] * (r.squaredNorm() * Matrix3::Identity() - r * r.transpose());
   }
   parallel::sum(communicator, sums);
+  const double least = 1e-9 * inertia.trace();  // of a rod about its axis: round-off
   for (int axis = 0; axis < 3; ++axis) {
-    if (held[static_cast<std::size_t>(axis)]) continue;
+    if (held[static_cast<std::size_t>(axis)] && inertia(axis, axis) > least) continue;
     angular_momentum[axis] = 0.0;
     inertia.row(axis).setZero();
     inertia.col(axis).setZero();

@@ -32,21 +32,20 @@ Plausibility::Plausibility(State& state, const Carriers& carriers)
       has_walls_(std::ranges::any_of(state.setup.geometry.boundary,
                                      [](grid::Boundary face) { return face != grid::Boundary::outflow; })) {
   for (const cases::AppliedLoad& load : state.setup.loads) {
-    double factor = 0.0;
-    for (const double of_time : load.table.factors) factor = std::max(factor, std::abs(of_time));
-    const Vector3& largest = load.is_force() ? load.total_force(state.setup) : load.acceleration;
-    largest_load_.push_back(factor * largest.norm());
+    const Vector3& of_factor_1 = load.is_force() ? load.total_force(state.setup) : load.acceleration;
+    load_.push_back(of_factor_1.norm());
   }
 }
 
 /// Returns the speed (m/s) that no material exceeds by loads alone: those of the case act on parts of it.
 double Plausibility::speed_by_loads() const {
-  double acceleration = 0.0;
-  for (std::size_t i = 0; i < largest_load_.size(); ++i) {
+  double speed = 0.0;
+  for (std::size_t i = 0; i < load_.size(); ++i) {
     const double mass = state_.run.loaded_mass[i];
-    acceleration += mass > 0.0 ? largest_load_[i] / mass : largest_load_[i];
+    speed +=
+        (mass > 0.0 ? load_[i] / mass : load_[i]) * state_.setup.loads[i].table.magnitude(state_.run.time);
   }
-  return acceleration * state_.run.time;
+  return speed;
 }
 
 void Plausibility::begin() {
@@ -58,6 +57,9 @@ void Plausibility::begin() {
     fastest = std::max(fastest, carrier->largest_speed(of_frame));
   }
   for (const cases::Body& body : state_.setup.bodies) {
+    if (body.driven && body.path) {
+      fastest = std::max(fastest, (body.path->largest() * body.velocity - of_frame).norm());
+    }
     for (const cases::NodeCondition& condition : body.node_conditions) {
       const double factor = body.path ? body.path->largest() : 1.0;
       fastest = std::max(fastest, (factor * condition.velocity - of_frame).norm());

@@ -28,8 +28,8 @@ class Plausibility {
   State& state_;
   const Carriers& carriers_;
   bool has_walls_;
-  /// Largest acceleration (m/s^2) by each load of the case, or force (N).
-  std::vector<double> largest_load_;
+  /// Acceleration (m/s^2) by each load of the case at a factor of 1, or force (N).
+  std::vector<double> load_;
 };
 
 }  // namespace whipple::solver

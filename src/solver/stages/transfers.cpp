@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "src/core/base/error.hpp"
+#include "src/core/parallel/mpi.hpp"
 #include "src/transfer/particles_to_grid.hpp"
 
 namespace whipple::solver {
@@ -52,6 +54,11 @@ Transfers::Transfers(State& state, const Loads& loads, const Activity& activity)
       activity_(activity),
       drive_(state.setup),
       averaged_(averaged_bodies(state.setup)) {
+  if (averaged_.any() && parallel::size(state_.communicator) > 1) {
+    throw InputError(
+        "body.volumetric = \"cell\" works on one rank: particles of a cell may be on two. Run without "
+        "mpirun, with threads");
+  }
   const cases::Dissipation& control = state_.setup.dissipation;
   for (std::size_t b = 0; b < state_.setup.bodies.size(); ++b) {
     const cases::ArtificialViscosity& viscosity = state_.setup.viscosity_of(b);
