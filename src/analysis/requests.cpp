@@ -83,7 +83,7 @@ std::pair<std::string, std::map<std::string, std::string>> parts_of(const std::s
 /// Parameters that are numbers; the other one is the file of a table.
 struct Parameter {
   std::string_view key, unit;
-  double Request::*member;
+  double Request::* member;
 };
 constexpr std::array<Parameter, 5> parameters = {{{"place", "m", &Request::place},
                                                   {"travel", "m", &Request::travel},

@@ -84,9 +84,8 @@ solver::RunState from_checkpoint(const io::CheckpointValues& values) {
   state.particles_at_rest = values.integer("particles_at_rest");
   state.touched = words(values.array("touched"));
   state.loaded_mass = values.array("loaded_mass");
-  for_each_row(values, "outflow_of_body", 5, [&](auto n) {
-    state.outflow_of_body.push_back({n[0], {n[1], n[2], n[3]}, n[4]});
-  });
+  for_each_row(values, "outflow_of_body", 5,
+               [&](auto n) { state.outflow_of_body.push_back({n[0], {n[1], n[2], n[3]}, n[4]}); });
   for_each_row(values, "driven_bodies", 13, [&](auto n) {
     const auto vector = [&](std::size_t at) { return Vector3(n[at], n[at + 1], n[at + 2]); };
     state.driven.push_back({vector(0), vector(3), vector(6), vector(9), n[12]});
