@@ -11,15 +11,15 @@ PAGE = "docs/manual/findings.md"
 UNITS = {"%": 1e-2, "mm": 1e-3, "m/s": 1.0, "km/s": 1e3, "GPa": 1e9, "MPa": 1e6, "us": 1e-6}
 # Case, run, beginning of the quantity's name, value and band as they stand in the page. The unit is that of the text.
 NUMBERS = [
-    ("taylor_bars", "cu_allen_214_axisymmetric", "length", "23.97 +- 0.12 mm"),
+    ("taylor_bars", "cu_allen_214_axisymmetric", "length", "23.98 +- 0.13 mm"),
     ("taylor_bars", "cu_z5_225_axisymmetric", "length", "20.25 +- 0.17 mm"),
     ("plate_impact_spall", "500_m_s", "fall of the free-surface velocity", "159 +- 23 m/s"),
     ("plate_impact_spall", "copper_308", "fall of the free-surface velocity", "71.7 +- 5.5 m/s"),
     ("plate_impact_spall", "titanium_653", "fall of the free-surface velocity", "288 +- 38 m/s"),
     ("plate_impact_spall", "500_m_s", "thickness of the spalled layer", "2.03 +- 0.17 mm"),
     ("plate_impact_spall", "copper_308", "history of the free-surface velocity", "4.0 +- 5.2 % (copper"),
-    ("plate_impact_window", "598_m_s", "history of the stress", "42 +- 18 % at 598 m/s"),
-    ("plate_impact_window", "765_m_s", "history of the stress", "17 +- 21 % at 765 m/s"),
+    ("plate_impact_window", "598_m_s", "history of the stress", "34 +- 13 % at 598 m/s"),
+    ("plate_impact_window", "765_m_s", "history of the stress", "12.8 +- 1.9 % at 765 m/s"),
     ("copper_disk_on_aluminium", "axisymmetric", "speed of the front", "8.30 +- 0.46 km/s"),
     ("copper_disk_on_aluminium", "axisymmetric", "solid fraction of the copper", "0.981 +- 0.049"),
     ("lead_sphere_on_plate_gray", "axisymmetric", "front of the cloud", "179.0 +- 0.7 mm"),
@@ -31,15 +31,15 @@ NUMBERS = [
     ("prater_6061", "von_mises_axisymmetric", "radius of the crater, plateau", "13.1 +- 0.3 mm"),
     ("prater_6061", "von_mises_axisymmetric", "depth of the crater, plateau", "15.0 +- 2.4 mm"),
     ("shock_decay", "5_km_s", "peak pressure near the point of impact (0 to 0.6", "41.6 GPa"),
-    ("shock_decay", "5_km_s_axisymmetric", "peak pressure near the point of impact (0 to 0.6", "43.9 +- 8.8 GPa"),
-    ("shock_decay", "20_km_s_axisymmetric", "peak pressure near the point of impact (0 to 0.6", "496 +- 26 GPa"),
-    ("shock_decay", "20_km_s_axisymmetric", "exponent of the decay", "2.51 +- 0.10"),
+    ("shock_decay", "5_km_s_axisymmetric", "peak pressure near the point of impact (0 to 0.6", "43.7 +- 7.9 GPa"),
+    ("shock_decay", "20_km_s_axisymmetric", "peak pressure near the point of impact (0 to 0.6", "489 +- 25 GPa"),
+    ("shock_decay", "20_km_s_axisymmetric", "exponent of the decay", "2.47 +- 0.51"),
     ("hanchak_concrete", "1058_m_s_axisymmetric", "residual velocity", "704 +- 823 m/s"),
     ("ogive_rod_oblique_plate", "adaptive", "residual velocity", "272 +- 538 m/s"),
     ("ogive_rod_oblique_plate", "adaptive_frictionless", "residual velocity", "436 +- 525 m/s"),
     ("ceramic_penetration", "aluminium_nitride_axisymmetric", "penetration velocity", "1.91 +- 0.19 km/s"),
     ("ceramic_penetration", "boron_carbide_axisymmetric", "penetration velocity", "1.92 +- 0.17 km/s"),
-    ("ceramic_penetration", "silicon_carbide_axisymmetric", "penetration velocity", "1.14 +- 0.45 km/s"),
+    ("ceramic_penetration", "silicon_carbide_axisymmetric", "penetration velocity", "1.14 +- 0.42 km/s"),
     ("two_spheres", "multi_field", "velocity of the target", "98.3 +- 0.7 m/s"),
     ("cylinder_test", "tnt", "speed of the outer wall after 19 mm", "1372 +- 8 m/s"),
     ("cylinder_test", "composition_b", "speed of the outer wall after 19 mm", "1592 +- 2 m/s"),
@@ -98,7 +98,7 @@ class Findings(unittest.TestCase):
 
     def test_another_value_band_or_text_is_found(self):
         case, run, name, _ = NUMBERS[0]
-        for text, count in (("23.98 +- 0.12 mm", 2), ("23.97 +- 0.13 mm", 2), ("23.97 mm", 2), ("3.97 +- 0.12 mm", 2)):
+        for text, count in (("23.99 +- 0.13 mm", 2), ("23.98 +- 0.14 mm", 2), ("23.98 mm", 2), ("3.98 +- 0.13 mm", 2)):
             self.assertEqual(len(list(faults([(case, run, name, text)], self.page))), count, text)
 
 
