@@ -21,11 +21,6 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-bool over_volume(ExperimentKind kind) {
-  return kind == ExperimentKind::isotherm || kind == ExperimentKind::isentrope ||
-         kind == ExperimentKind::shock_pressure;
-}
-
 /// Returns the rms deviation of points from their least-squares quadratic, with n - 3 degrees of freedom.
 double scatter_about_quadratic(const std::vector<double>& x, const std::vector<double>& y) {
   constexpr std::size_t coefficients = 3;
@@ -49,7 +44,7 @@ double scatter_about_quadratic(const std::vector<double>& x, const std::vector<d
 std::vector<double> measurement_errors(const Experiment& experiment, std::span<const double> slope) {
   std::vector<double> errors;
   if (!experiment.states_errors) {
-    if (over_volume(experiment.kind)) return std::vector<double>(experiment.abscissa.size(), nan);
+    if (is_pressure(experiment.kind)) return std::vector<double>(experiment.abscissa.size(), nan);
     errors.assign(experiment.abscissa.size(),
                   scatter_about_quadratic(experiment.abscissa, experiment.ordinate));
     return errors;

@@ -24,6 +24,11 @@ double density_of(VolumeScale scale, double abscissa, double reference) {
 
 }  // namespace
 
+bool is_pressure(ExperimentKind kind) {
+  return kind == ExperimentKind::isotherm || kind == ExperimentKind::isentrope ||
+         kind == ExperimentKind::shock_pressure;
+}
+
 bool belongs_to(const Experiment& experiment, std::string_view material) {
   const auto lower = [](std::string_view text) {
     std::string result(text);
@@ -87,6 +92,14 @@ std::vector<double> curve(const EquationOfState& eos, const State& initial, cons
     });
     return values;
   }
+  if (experiment.kind == ExperimentKind::heat_capacity || experiment.kind == ExperimentKind::expansion) {
+    guarded([&](std::size_t, double temperature) {
+      const State state = eos.state_at_temperature(density_at_pressure(eos, 0.0, temperature), temperature);
+      return experiment.kind == ExperimentKind::expansion ? state.thermal_expansion / 3.0
+                                                          : state.isobaric_heat_capacity;
+    });
+    return values;
+  }
   const Hugoniot principal(eos, initial.density, initial.specific_internal_energy);
   guarded([&](std::size_t i, double x) {
     const double start = points.initial_density[i];
@@ -112,11 +125,7 @@ Comparison compare(const EquationOfState& eos, const State& initial, const Exper
   for (std::size_t i = 0; i < experiment.abscissa.size(); ++i) {
     const double measured = experiment.ordinate[i];
     const double difference = result.model[i] - measured;
-    const bool relative = experiment.kind == ExperimentKind::shock_velocity ||
-                          experiment.kind == ExperimentKind::melting ||
-                          experiment.kind == ExperimentKind::shock_temperature ||
-                          experiment.kind == ExperimentKind::sound_speed;
-    const double deviation = relative ? 100.0 * difference / measured : difference;
+    const double deviation = !is_pressure(experiment.kind) ? 100.0 * difference / measured : difference;
     result.deviation.push_back(deviation);
     if (densities[i] < initial.density) result.porous.push_back(experiment.lines[i]);
     if (is_hugoniot(experiment.kind) &&

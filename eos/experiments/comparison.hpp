@@ -12,7 +12,7 @@ namespace whipple::eos::experiments {
 /// Holds an equation of state evaluated at the points of an experiment.
 struct Comparison {
   std::vector<double> model;  ///< ordinate of the material; NaN outside its range
-  /// In percent of the measured Us, T or c, or in Pa; model minus experiment.
+  /// In percent of the measured ordinate, or in Pa (`is_pressure`); model minus experiment.
   std::vector<double> deviation;
   int points = 0;                 ///< within the range of the material
   std::vector<int> out_of_range;  ///< lines of the points outside it
@@ -20,6 +20,9 @@ struct Comparison {
   std::vector<int> denser;        ///< lines of those above it, evaluated at the density of the material
   double rms = 0.0, mean = 0.0, maximum = 0.0;  ///< `maximum`: largest by magnitude, with its sign
 };
+
+/// Returns whether the ordinate of a kind is a pressure over a volume; the others are compared in percent.
+bool is_pressure(ExperimentKind kind);
 
 /// Returns whether a material name denotes the measured material.
 bool belongs_to(const Experiment& experiment, std::string_view material);

@@ -12,6 +12,7 @@
 #include <fstream>
 #include <numeric>
 #include <string_view>
+#include <utility>
 
 #include "eos/experiments/measured_table.hpp"
 #include "src/core/base/error.hpp"
@@ -192,6 +193,12 @@ std::string_view fault(const Experiment& experiment, double x, double y) {
     case ExperimentKind::sound_speed:
       if (x < 0.0) return "P is negative";
       if (y <= 0.0) return "the sound speed is not positive";
+      break;
+    case ExperimentKind::heat_capacity:
+      if (y <= 0.0) return "the heat capacity is not positive";
+      [[fallthrough]];
+    case ExperimentKind::expansion:
+      if (x <= 0.0) return "T is not positive";
       break;
   }
   return "";
@@ -407,12 +414,20 @@ std::vector<Experiment> read_experiments(const std::filesystem::path& file,
                measured(table, Quantity::shock_velocity));
     return {experiment};
   }
+  for (const auto& [quantity, kind] : {std::pair(Quantity::heat_capacity, ExperimentKind::heat_capacity),
+                                       std::pair(Quantity::linear_expansion, ExperimentKind::expansion)}) {
+    if (!has(quantity) || !has(Quantity::temperature) || has(Quantity::pressure)) continue;
+    experiment.kind = kind;
+    set_points(experiment, table, measured(table, Quantity::temperature), measured(table, quantity));
+    return {experiment};
+  }
   if (!has(Quantity::pressure)) {
-    throw InputError(
-        fmt::format("{}: neither a Hugoniot (columns us_km_s, up_km_s) nor pressures (P_GPa) with volumes, "
-                    "temperatures (T_K) or bulk sound speeds (c_bulk_km_s), nor fits of shock velocities "
-                    "(C_km_s, S); the columns are {}",
-                    file.string(), table.headings()));
+    throw InputError(fmt::format(
+        "{}: neither a Hugoniot (columns us_km_s, up_km_s) nor pressures (P_GPa) with volumes, "
+        "temperatures (T_K) or bulk sound speeds (c_bulk_km_s), nor heat capacities (cp_J_kgK) or "
+        "linear expansions (alpha_lin_1e-6_per_K) with temperatures, nor fits of shock velocities "
+        "(C_km_s, S); the columns are {}",
+        file.string(), table.headings()));
   }
   const Measured pressure = measured(table, Quantity::pressure);
   if (has(Quantity::bulk_sound_speed)) {

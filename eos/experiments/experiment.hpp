@@ -23,6 +23,8 @@ enum class ExperimentKind {
   isentrope,          ///< P over V/V0 along the principal isentrope
   sound_speed,        ///< bulk sound speed over P along the principal Hugoniot
   shock_temperature,  ///< T over P along the principal Hugoniot
+  heat_capacity,      ///< c_p over T at zero pressure
+  expansion,          ///< coefficient of linear thermal expansion over T at zero pressure
 };
 
 /// Specifies the meaning of volumes in a table.
@@ -42,8 +44,8 @@ struct Experiment {
   VolumeScale volume = VolumeScale::ratio;
   double volume_temperature = nan;  ///< K; of V0 (at zero pressure) of an isotherm
   double ambient_volume = 0.0;      ///< m^3 per atom, of V0; 0 if the file gives none
-  std::vector<double> abscissa;     ///< up (m/s), V/V0, density (kg/m^3) or P (Pa), increasing
-  std::vector<double> ordinate;     ///< Us (m/s), P (Pa), T (K) or c (m/s)
+  std::vector<double> abscissa;     ///< up (m/s), V/V0, density (kg/m^3), P (Pa) or T (K), increasing
+  std::vector<double> ordinate;     ///< Us (m/s), P (Pa), T (K), c (m/s), c_p (J/(kg K)) or expansion (1/K)
   // For each point:
   std::vector<int> lines;
   std::vector<double> initial_density;  ///< kg/m^3, NaN: not given
@@ -60,7 +62,8 @@ struct Experiment {
 /// Reads a table (`MeasuredTable`). us and up give a Hugoniot; P and a volume or density give a Hugoniot or isentrope
 /// if the name or the comments indicate it, otherwise isotherms, with temperatures from a column if there is one; P and
 /// a bulk sound speed give sound speeds along the Hugoniot; P and a temperature without a volume give a melting line or
-/// shock temperatures, as indicated first by name, headings or comments; C and S (S2, S3) with a material in each row
+/// shock temperatures, as indicated first by name, headings or comments; T and a heat capacity or a linear expansion give
+/// these at zero pressure; C and S (S2, S3) with a material in each row
 /// give a Hugoniot for each row. A comment "material: copper" specifies the measured material. Densities and specific
 /// volumes of isotherms are absolute; those of Hugoniots and isentropes are absolute if there is neither rho0 nor a row
 /// at rest (|P| up to 2 bar). V0 of the ratios of an isotherm is that at ambient temperature (298 K, or the temperature

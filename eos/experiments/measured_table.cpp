@@ -14,6 +14,7 @@
 
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
+#include "src/core/base/pattern.hpp"
 #include "src/core/base/units.hpp"
 
 namespace whipple::eos::experiments {
@@ -46,6 +47,8 @@ constexpr std::array spellings = {
     Spelling{Quantity::bulk_sound_speed,
              "m/s",
              {"cb", "cbulk", "bulksoundspeed", "bulksoundvelocity", "soundspeed"}},
+    Spelling{Quantity::heat_capacity, "J/(kg K)", {"cp", "heatcapacity", "specificheat"}},
+    Spelling{Quantity::linear_expansion, "1/K", {"alphalin", "linearexpansion", "alphal"}},
 };
 
 /// Returns the entry of a quantity above.
@@ -72,12 +75,19 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(first, text.find_last_not_of(" \t\r") + 1 - first));
 }
 
-/// Normalises a unit: "A3" and "A^3" are cubic angstroms, in atomic volumes, not cubic amperes.
+/// Normalises a unit: "A3" and "A^3" are cubic angstroms, in atomic volumes, not cubic amperes; "1e-6/K", in headings
+/// also "1e-6_per_K", is the usual unit of thermal expansion; "J/kgK" that of heat capacities.
 std::string unit_text(std::string_view text) {
   std::string unit = trimmed(text);
   if (unit == "-") return "";
   for (const char* cube : {"A3", "A^3", "\u00c53", "\u00c5^3"}) {
     if (unit == cube) return "angstrom^3";
+  }
+  for (const char* millionth : {"1e-6/K", "1e-6/per/K", "10^-6/K", "1e-6 1/K", "1e-6 K^-1", "ppm/K"}) {
+    if (unit == millionth) return "1/MK";
+  }
+  for (const char* specific : {"J/kgK", "J/kg/K", "J/(kg*K)"}) {
+    if (unit == specific) return "J/(kg K)";
   }
   return unit;
 }
@@ -157,6 +167,14 @@ std::vector<std::string> split(const std::string& line, char separator) {
   return cells;
 }
 
+/// Reads numbers with a decimal comma, "8,93" and "1,2e-3", in tables whose cells are not separated by commas.
+void take_decimal_commas(std::vector<std::string>& cells) {
+  static const Pattern number("^[-+]?[0-9]*,[0-9]+([eE][-+]?[0-9]+)?$");
+  for (std::string& cell : cells) {
+    if (number.is_in(cell)) cell.replace(cell.find(','), 1, ".");
+  }
+}
+
 /// Joins a separate unit in brackets to the preceding heading: "up [km/s]" in blank-separated text.
 void join_units(std::vector<std::string>& headings) {
   for (std::size_t i = headings.size(); i-- > 1;) {
@@ -202,6 +220,7 @@ MeasuredTable MeasuredTable::read(const std::filesystem::path& file) {
                            ? " (a decimal comma? Numbers are written with a point)"
                            : ""));
     }
+    if (separator != ',') take_decimal_commas(cells);
     if (table.cells_.empty() && table.take_units(cells)) continue;
     table.cells_.push_back(std::move(cells));
     table.lines_.push_back(number);

@@ -27,6 +27,8 @@ enum class Quantity {
   hugoniot_quadratic,  ///< S2
   hugoniot_cubic,      ///< S3
   bulk_sound_speed,    ///< [(dP/drho)_S]^(1/2), m/s
+  heat_capacity,       ///< at constant pressure, J/(kg K)
+  linear_expansion,    ///< coefficient of linear thermal expansion, 1/K
 };
 
 /// Holds a text table of measurements in the formats commonly written by people and programs

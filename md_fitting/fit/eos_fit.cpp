@@ -29,6 +29,7 @@
 #include "src/core/base/log.hpp"
 #include "src/core/base/option_quantity.hpp"
 #include "src/core/base/words.hpp"
+#include "src/core/process/paths.hpp"
 #include "src/core/process/scripts.hpp"
 
 namespace whipple::fit {
@@ -38,6 +39,7 @@ struct Options {
   std::vector<std::filesystem::path> stores;
   std::vector<std::string> outputs;
   std::string model = "gray";
+  std::vector<std::string> measured;
   std::string density;
   std::optional<std::string> electrons;
   std::string defaults;
@@ -63,6 +65,10 @@ struct Options {
   bool quiet = false;
 };
 
+FitModel model_of(std::string_view name) {
+  return std::ranges::find(fit_models, name, &std::pair<std::string_view, FitModel>::first)->second;
+}
+
 FitSettings settings(const Options& options) {
   FitSettings settings;
   settings.reference_temperature =
@@ -87,6 +93,12 @@ FitSettings settings(const Options& options) {
       options.own_range || options.statistical_only ? WindowChoice::single : WindowChoice::averaged;
   if (!options.windows.empty()) settings.windows = value_of<WindowChoice>(options.windows).value();
   if (options.statistical_only) settings.model_errors = ModelErrors::none();
+  for (const std::string& name : options.measured)
+    settings.measured.push_back(process::find_experiment(name));
+  if (!settings.measured.empty() && model_of(options.model) != FitModel::gray)
+    throw InputError("--with: measurements take part in the fit of --model gray only");
+  if (!settings.measured.empty() && options.bootstrap > 0)
+    throw InputError("--with: --bootstrap draws replicates of simulations alone: leave one of both out");
   if (!options.density.empty()) {
     settings.density = option_quantity("--density", options.density, "kg/m^3", range::positive());
     if (!(*settings.density > 0.0))
@@ -208,10 +220,6 @@ std::map<std::string, PotentialSpread> spreads_of(const std::vector<NamedFit>& f
   return spreads;
 }
 
-FitModel model_of(std::string_view name) {
-  return std::ranges::find(fit_models, name, &std::pair<std::string_view, FitModel>::first)->second;
-}
-
 /// Writes the next round of `whipple md --adaptive`: a plan of its points, or no file if the campaign is complete.
 void propose_round(const Options& options) {
   if (options.stores.size() > 1) throw InputError("--propose works on one store");
@@ -321,6 +329,11 @@ int main_program(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("-o,--output", options.outputs, "Material file to write, or a folder (ending with '/')")
       ->allow_extra_args(false);
+  app.add_option(
+         "--with", options.measured,
+         "Tables of measurements of the metal (docs/manual/equations_of_state.md), or names of those that "
+         "come with the program: fitted together with the simulations")
+      ->allow_extra_args(true);
   app.add_option("--density", options.density,
                  "Measured density: replaces the fitted reference volume, e.g. \"8.9445 g/cm^3\"");
   app.add_option(

@@ -12,6 +12,7 @@
 
 #include "md_fitting/fit/constant_list.hpp"
 #include "md_fitting/fit/identifiability.hpp"
+#include "md_fitting/fit/joint/joint_report.hpp"
 #include "md_fitting/fit/published_rows.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/json.hpp"
@@ -61,10 +62,10 @@ const std::vector<Column>& columns(FitModel model) {
 using Row = std::vector<std::string>;
 
 /// Returns the word for the origin of a constant.
-const char* source_word(const Constant& constant) {
+const char* source_word(const Constant& constant, bool joint) {
   switch (constant.origin) {
     case Origin::fitted:
-      return "MD";
+      return joint ? "MD and measured" : "MD";
     case Origin::given:
       return constant.evidence == Evidence::measured ? "measured" : "given";
     case Origin::by_default:
@@ -245,8 +246,8 @@ std::string sources_table(const Fit& fit) {
     } else if (constant.origin == Origin::given) {
       error = "-";
     }
-    rows.push_back(
-        {constant.name, practical_quantity(constant.value, constant.unit, 6), error, source_word(constant)});
+    rows.push_back({constant.name, practical_quantity(constant.value, constant.unit, 6), error,
+                    source_word(constant, fit.joint.has_value())});
   }
   return text_table(rows, "lrrl");
 }
@@ -295,6 +296,7 @@ std::string fit_details(const Fit& fit) {
         *fit.isochoric_melting_temperature, word_of(fit.settings.melting), fit.value("melting_temperature"));
   }
 
+  if (fit.joint) text += joint_text(*fit.joint);
   text += unknown_to_classical_nuclei(fit);
   text += nuclei_text(fit);
   text += "\nnot from the simulations\n";

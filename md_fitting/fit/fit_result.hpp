@@ -13,6 +13,7 @@
 #include "md_fitting/fit/bootstrap.hpp"
 #include "md_fitting/fit/cross_validation.hpp"
 #include "md_fitting/fit/fit_settings.hpp"
+#include "md_fitting/fit/joint/joint_result.hpp"
 #include "md_fitting/fit/observations.hpp"
 
 /// Defines the result of a fit, independent of the model.
@@ -102,6 +103,8 @@ struct Fit {
   std::vector<LeaveOneOut> left_out;
   std::vector<std::string> left_out_names;  ///< names of the constants in `left_out`
   std::optional<BootstrapResult> bootstrap;
+  std::optional<JointResult>
+      joint;  ///< with measurements in the fit; chi^2 and residuals are of the simulations alone
   /// T_m0 for isochoric melting: T_m where the solid at volume V0 coexists with liquid.
   std::optional<double> isochoric_melting_temperature;
   std::vector<Residual> residuals;

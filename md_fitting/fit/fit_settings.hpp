@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "eos/models/gray_constants.hpp"
 #include "src/core/base/words.hpp"
@@ -83,6 +84,7 @@ struct FitSettings {
   std::optional<std::filesystem::path> defaults{};  ///< file of the user with constants of elements
   int bootstrap = 0;                                ///< replicates; 0: none
   std::optional<double> density;  ///< kg/m^3: replaces the fitted reference volume by a measured one
+  std::vector<std::filesystem::path> measured{};  ///< tables of measurements that take part in the fit
 };
 
 /// Returns settings with a single window, the stated model errors and independent errors of the states, for

@@ -11,6 +11,7 @@
 
 #include "md_fitting/elements/element_defaults.hpp"
 #include "md_fitting/fit/constant_list.hpp"
+#include "md_fitting/fit/joint/joint_fit.hpp"
 #include "md_fitting/fit/model_check.hpp"
 #include "md_fitting/fit/solid_fit.hpp"
 #include "md_fitting/fit/structure_limit.hpp"
@@ -162,6 +163,20 @@ BootstrapResult bootstrap_gray(std::span<const md::PointRecord> points, const So
   return bootstrap(points, settings.bootstrap, seed, constants);
 }
 
+/// Moves a fit of simulations to one of simulations and measured curves.
+JointResult add_measurements(SolidFit& fit, const ElementDefaults& table, FitSettings& settings) {
+  const NamedDefault* debye = table.find("debye_temperature");
+  const std::vector<MeasuredCurve> curves =
+      read_curves(settings.measured, table.metal, debye ? std::optional(debye->value) : std::nullopt);
+  if (!settings.density) settings.density = initial_density(curves);
+  if (!settings.density) {
+    throw InputError(
+        "--with: none of the tables states the initial density (rho0_g_cm3); give the measured one with "
+        "--density");
+  }
+  return fit_jointly(fit, curves, *settings.density);
+}
+
 /// Replaces the fitted volume by a measured density.
 void replace_volume(GrayFit& fit, double density, Sources& sources) {
   const double ratio = 1.0 / (density * fit.fitted_reference_volume);
@@ -186,7 +201,7 @@ void replace_volume(GrayFit& fit, double density, Sources& sources) {
   fit.fitted_names.erase(fit.fitted_names.begin());
 }
 
-GrayFit fit_with_join(std::span<const md::PointRecord> points, const FitSettings& settings,
+GrayFit fit_with_join(std::span<const md::PointRecord> points, FitSettings settings,
                       const std::string& store_name, double join_step) {
   Observations data = observe(points, settings, {}, store_name);
   Sources sources;
@@ -195,11 +210,15 @@ GrayFit fit_with_join(std::span<const md::PointRecord> points, const FitSettings
   const SolidModel model = gray_model(data);
   GrayFit fit;
   fit.solid = fit_solid(std::move(data), model, fixed, settings, store_name);
-  const SolidFit& solid = fit.solid;
+  SolidFit& solid = fit.solid;
+  std::optional<JointResult> joint;
+  if (!settings.measured.empty()) joint = add_measurements(solid, table, settings);
   static_cast<Fit&>(fit) = solid.report;
+  fit.joint = std::move(joint);
+  fit.settings.density = settings.density;
   fit.model = FitModel::gray;
   fit.gray = solid.constants.gray;
-  fit.fitted_names = fit.left_out_names;
+  for (const Place place : solid.model.free) fit.fitted_names.emplace_back(name_of(place));
   fit.covariance = solid.covariance;
   fit.statistical_covariance = solid.statistical_covariance;
   add_structure_remark(fit, points, solid.data);

@@ -16,6 +16,7 @@
 #include "md_fitting/fit/constant_list.hpp"
 #include "md_fitting/fit/fit_report.hpp"
 #include "md_fitting/fit/identifiability.hpp"
+#include "md_fitting/fit/joint/joint_report.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
 #include "src/core/base/hash.hpp"
@@ -330,13 +331,18 @@ std::string material_text(const Fit& fit, const StoreOrigin& origin,
   std::string text = comment_lines(sources_table(fit));
   text += fmt::format("\nname = \"{} ({} fitted to molecular dynamics, {})\"\n", metal,
                       gray ? "GRAY" : name_of(fit.model), origin.name);
-  text += fmt::format("source = {}\n", toml_string(fmt::format("whipple fit of {}; interatomic potential {}",
-                                                               origin.name, fit.potential)));
+  std::vector<std::string> tables;
+  for (const std::filesystem::path& table : fit.settings.measured) tables.push_back(table.stem().string());
+  const std::string measured =
+      tables.empty() ? "" : fmt::format(" together with measurements ({})", fmt::join(tables, ", "));
   text +=
-      fmt::format("note = \"solid from molecular dynamics; {}{}\"\n\n",
-                  gray ? "electrons, liquid and vapour from the named defaults as far as not fitted; " : "",
-                  template_file ? "strength and failure as in " + template_file->filename().string()
-                                : "without strength and failure: a fluid");
+      fmt::format("source = {}\n", toml_string(fmt::format("whipple fit of {}{}; interatomic potential {}",
+                                                           origin.name, measured, fit.potential)));
+  text += fmt::format(
+      "note = \"solid from molecular dynamics{}; {}{}\"\n\n", tables.empty() ? "" : " and measurements",
+      gray ? "electrons, liquid and vapour from the named defaults as far as not fitted; " : "",
+      template_file ? "strength and failure as in " + template_file->filename().string()
+                    : "without strength and failure: a fluid");
   text += fmt::format("[eos]\nmodel = \"{}\"\n", name_of(fit.model));
   text +=
       fmt::format("source = {}\n",
@@ -355,6 +361,7 @@ std::string material_text(const Fit& fit, const StoreOrigin& origin,
   const std::string covariance = covariance_table(fit);
   text += fmt::format("\n{}{}\n{}", covariance.empty() ? covariance : covariance + "\n",
                       provenance_table(fit, origin), defaults_table(fit));
+  if (fit.joint && !covariance.empty()) text += coverage_tables(*fit.joint);
   return spread && !covariance.empty() ? text + spread_table(fit, *spread) : text;
 }
 

@@ -342,7 +342,11 @@ void add_results(py::module_& module) {
       .value("sound_speed", ExperimentKind::sound_speed,
              "Bulk sound speed (m/s) over pressure (Pa) behind shocks.")
       .value("shock_temperature", ExperimentKind::shock_temperature,
-             "Temperature (K) over pressure (Pa) behind shocks.");
+             "Temperature (K) over pressure (Pa) behind shocks.")
+      .value("heat_capacity", ExperimentKind::heat_capacity,
+             "c_p (J/(kg K)) over temperature (K) at zero pressure.")
+      .value("expansion", ExperimentKind::expansion,
+             "Coefficient of linear thermal expansion (1/K) over temperature (K) at zero pressure.");
   py::class_<Experiment>(module, "Measurements", "Measured points of a text table, in SI units.")
       .def_readonly("name", &Experiment::name, "Name of the data set.")
       .def_readonly("source", &Experiment::source, "Source of the data set.")

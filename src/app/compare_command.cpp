@@ -28,6 +28,7 @@
 #include "src/core/base/files.hpp"
 #include "src/core/base/json.hpp"
 #include "src/core/base/text_table.hpp"
+#include "src/core/process/paths.hpp"
 #include "src/core/process/scripts.hpp"
 #include "src/material/material_file.hpp"
 
@@ -83,6 +84,12 @@ Style style(const Experiment& experiment) {
     case ExperimentKind::sound_speed:
       return {"sound speed", "% of c", 1.0, pressure,
               quantity_column("c", "km/s", "m/s", "bulk sound speed")};
+    case ExperimentKind::heat_capacity:
+      return {"heat capacity", "% of c_p", 1.0, temperature,
+              quantity_column("c_p", "J/(kg K)", "J/(kg K)", "heat capacity")};
+    case ExperimentKind::expansion:
+      return {"linear expansion", "% of alpha", 1.0, temperature,
+              quantity_column("alpha_lin", "1/MK", "1/K", "linear thermal expansion")};
   }
   throw InternalError("unknown kind of experiment");
 }
@@ -297,7 +304,7 @@ void run(const CompareOptions& options) {
   }
   std::vector<Experiment> experiments;
   for (const std::string& name : options.experiments) {
-    std::ranges::move(eos::experiments::read_experiments(find_experiment(name), temperature),
+    std::ranges::move(eos::experiments::read_experiments(process::find_experiment(name), temperature),
                       std::back_inserter(experiments));
   }
   std::vector<Row> rows;

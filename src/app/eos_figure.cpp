@@ -68,27 +68,9 @@ std::string axis_label(const Column& column) {
 
 }  // namespace
 
-std::filesystem::path find_experiment(const std::string& name) {
-  std::filesystem::path path(name);
-  if (std::filesystem::exists(path)) return path;
-  if (!path.has_parent_path()) {
-    std::filesystem::path file = path;
-    if (!file.has_extension()) file += ".csv";
-    try {
-      return process::find_data(std::filesystem::path("eos/data") / file);
-    } catch (const InputError&) {
-      // Reported below, with the folders as the user wrote them.
-    }
-  }
-  throw InputError(
-      fmt::format("no experiment '{}': neither a file nor one of the data that come with the program "
-                  "(eos/data)",
-                  name));
-}
-
 void add_measurements(Figure& figure, const std::vector<std::string>& experiments) {
   for (const std::string& name : experiments) {
-    const std::filesystem::path file = find_experiment(name);
+    const std::filesystem::path file = process::find_experiment(name);
     FigureCurve curve;
     curve.label = file.stem().string();
     curve.x = eos::experiments::measured_quantity(file, figure.x.name);

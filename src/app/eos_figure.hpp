@@ -10,12 +10,8 @@
 /// Implements the figures of `whipple eos`, drawn by scripts/plot_curves.py (PNG, PDF or SVG, by file extension).
 namespace whipple::app {
 
-/// Finds a table of measurements: a path, or a bare file name of those that come with the program (eos/data).
-/// @throws InputError if there is no such file
-std::filesystem::path find_experiment(const std::string& name);
-
 /// Adds measurements of the two quantities of the axes as points.
-/// @param experiments  paths or names as for `find_experiment`
+/// @param experiments  paths or names as for `process::find_experiment`
 /// @throws InputError if a file lacks the columns
 void add_measurements(eos::curves::Figure& figure, const std::vector<std::string>& experiments);
 

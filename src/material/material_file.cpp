@@ -78,8 +78,9 @@ std::map<std::string, fs::path> library_files() {
 }
 
 /// Keys that a material does not inherit, since they describe its base.
-constexpr std::array<std::string_view, 8> not_inherited = {
-    "name", "source", "note", "provenance", "covariance", "defaults", "default_errors", "potential_spread"};
+constexpr std::array<std::string_view, 9> not_inherited = {"name",           "source",           "note",
+                                                           "provenance",     "covariance",       "defaults",
+                                                           "default_errors", "potential_spread", "coverage"};
 /// Keys that describe the constants of a table.
 constexpr std::array<std::string_view, 2> of_constants = {"source", "note"};
 constexpr int most_bases = 8;

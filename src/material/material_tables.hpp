@@ -12,8 +12,8 @@
 namespace whipple::material_tables {
 
 /// Tables and keys of a file that programs write and the material reader ignores.
-inline constexpr std::array<const char*, 5> free_keys = {"provenance", "covariance", "defaults",
-                                                         "default_errors", "potential_spread"};
+inline constexpr std::array<const char*, 6> free_keys = {"provenance",     "covariance",       "defaults",
+                                                         "default_errors", "potential_spread", "coverage"};
 
 /// Holds the free texts that every table with a model may contain.
 struct Remarks {

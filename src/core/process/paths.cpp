@@ -28,4 +28,22 @@ std::filesystem::path find_data(const std::filesystem::path& relative) {
                                installed.string(), in_source.string()));
 }
 
+std::filesystem::path find_experiment(const std::string& name) {
+  std::filesystem::path path(name);
+  if (std::filesystem::exists(path)) return path;
+  if (!path.has_parent_path()) {
+    std::filesystem::path file = path;
+    if (!file.has_extension()) file += ".csv";
+    try {
+      return find_data(std::filesystem::path("eos/data") / file);
+    } catch (const InputError&) {
+      // Reported below, with the folders as the user wrote them.
+    }
+  }
+  throw InputError(
+      fmt::format("no experiment '{}': neither a file nor one of the data that come with the program "
+                  "(eos/data)",
+                  name));
+}
+
 }  // namespace whipple::process

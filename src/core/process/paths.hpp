@@ -20,4 +20,8 @@ std::filesystem::path find_executable(const std::string& name);
 /// @throws InputError naming both locations if it is in neither
 std::filesystem::path find_data(const std::filesystem::path& relative);
 
+/// Finds a table of measurements: a path, or a bare file name of those that come with the program (eos/data).
+/// @throws InputError if there is no such file
+std::filesystem::path find_experiment(const std::string& name);
+
 }  // namespace whipple::process

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "md_fitting/fit/joint/joint_problem.hpp"
+
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "md_fitting/fit/discrepancy.hpp"
+#include "md_fitting/fit/joint/potential_errors.hpp"
+
+namespace whipple::fit {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using eos::experiments::Experiment;
+using eos::experiments::ExperimentKind;
+
+constexpr double widest = 10.0;      // standard deviation of a parameter that no datum determines
+constexpr double form_spread = 0.7;  // of ln f: a factor of two either way
+
+/// Sets the size and the place of the deviation of the form at the points of a curve.
+void set_form(LinearCurve& linear, double bulk_modulus) {
+  const Experiment& experiment = linear.curve->experiment;
+  const CurveForm form = form_of(experiment.kind);
+  linear.size.resize(static_cast<Index>(linear.used.size()));
+  for (const std::size_t i : linear.used) {
+    linear.size[static_cast<Index>(linear.place.size())] =
+        std::hypot(form.relative * experiment.ordinate[i], form.of_bulk_modulus * bulk_modulus);
+    double place = experiment.abscissa[i];
+    if (experiment.kind == ExperimentKind::melting || experiment.kind == ExperimentKind::sound_speed ||
+        experiment.kind == ExperimentKind::shock_temperature) {
+      place /= bulk_modulus;
+    } else if (experiment.volume == eos::experiments::VolumeScale::density) {
+      place = experiment.abscissa.front() / place;  // near V/V0
+    }
+    linear.place.push_back(place);
+  }
+}
+
+/// Appends the deviation of the form from all curves of one kind, which is one function.
+/// @param begin  first row of each curve; none: it takes no part
+void add_form(const std::vector<LinearCurve>& curves, const std::vector<std::optional<Index>>& begin,
+              ExperimentKind kind, LinearSystem& system) {
+  VarianceComponent form{kind_name(kind), {}, {}, form_spread};
+  std::vector<double> size, place;
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    if (!begin[c] || curves[c].curve->experiment.kind != kind) continue;
+    for (Index row = 0; row < curves[c].size.size(); ++row) {
+      form.rows.push_back(*begin[c] + row);
+      size.push_back(curves[c].size[row]);
+      place.push_back(curves[c].place[static_cast<std::size_t>(row)]);
+    }
+  }
+  if (form.rows.empty()) return;
+  const auto count = static_cast<Index>(size.size());
+  form.covariance.resize(count, count);
+  for (Index i = 0; i < count; ++i) {
+    for (Index k = 0; k < count; ++k) {
+      const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(k);
+      form.covariance(i, k) = size[a] * size[b] * matern(place[a] - place[b], form_of(kind).length);
+    }
+  }
+  system.components.push_back(std::move(form));
+}
+
+/// Returns the central differences of the simulated rows.
+MatrixXd simulated_jacobian(const SolidProblem& problem, Index parameters) {
+  constexpr double step = 1e-4;
+  MatrixXd jacobian(problem.size(), parameters);
+  VectorXd p = VectorXd::Zero(parameters);
+  for (Index k = 0; k < parameters; ++k) {
+    p[k] = step;
+    const VectorXd above = problem.residuals(p);
+    p[k] = -step;
+    jacobian.col(k) = (above - problem.residuals(p)) / (2.0 * step);
+    p[k] = 0.0;
+  }
+  return jacobian;
+}
+
+}  // namespace
+
+eos::GrayConstants material_constants(const SolidConstants& constants, double density) {
+  eos::GrayConstants gray = constants.gray;
+  gray.reference_specific_volume = 1.0 / density;
+  return gray;
+}
+
+JointProblem::JointProblem(const SolidFit& fit, const SolidConstants& constants,
+                           const std::vector<MeasuredCurve>& curves, double density)
+    : simulated_(fit.data, fit.report.settings, fit.model, constants, fit.scale),
+      weights_(simulated_.least_squares()),
+      residuals_(simulated_.residuals(weights_.start)),
+      jacobian_(simulated_jacobian(simulated_, weights_.start.size())),
+      potential_(potential_deviations(simulated_, fit.data, constants)) {
+  constexpr double step = 1e-3;
+  const auto values = [&](const SolidConstants& at_constants) {
+    const CurveModel model(material_constants(at_constants, density));
+    std::vector<std::vector<double>> all;
+    for (const MeasuredCurve& curve : curves) all.push_back(model.values(curve.experiment));
+    return all;
+  };
+  std::vector<std::vector<std::vector<double>>> above, below;
+  const std::vector<std::vector<double>> here = values(constants);
+  VectorXd p = VectorXd::Zero(simulated_.constants());
+  for (Index k = 0; k < simulated_.constants(); ++k) {
+    if (fit.model.free[static_cast<std::size_t>(k)] == Place::volume) {  // that of the metal is measured
+      above.push_back(here);
+      below.push_back(here);
+      continue;
+    }
+    p[k] = step;
+    above.push_back(values(simulated_.constants_at(p)));
+    p[k] = -step;
+    below.push_back(values(simulated_.constants_at(p)));
+    p[k] = 0.0;
+  }
+  const double bulk_modulus = density * std::pow(constants.gray.hugoniot_intercept, 2);
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    LinearCurve linear;
+    linear.curve = &curves[c];
+    for (std::size_t i = 0; i < curves[c].points(); ++i) {
+      bool finite = std::isfinite(here[c][i]);
+      for (std::size_t k = 0; k < above.size(); ++k)
+        finite = finite && std::isfinite(above[k][c][i]) && std::isfinite(below[k][c][i]);
+      if (finite) linear.used.push_back(i);
+    }
+    const auto count = static_cast<Index>(linear.used.size());
+    linear.residuals.resize(count);
+    linear.jacobian.resize(count, simulated_.constants());
+    for (Index row = 0; row < count; ++row) {
+      const std::size_t i = linear.used[static_cast<std::size_t>(row)];
+      linear.residuals[row] = curves[c].experiment.ordinate[i] - here[c][i];
+      for (std::size_t k = 0; k < above.size(); ++k)
+        linear.jacobian(row, static_cast<Index>(k)) = -(above[k][c][i] - below[k][c][i]) / (2.0 * step);
+    }
+    set_form(linear, bulk_modulus);
+    curves_.push_back(std::move(linear));
+  }
+}
+
+LinearSystem JointProblem::system(const std::vector<bool>& takes_part) const {
+  const Index simulated = simulated_.size();
+  Index rows = simulated + constants();
+  for (std::size_t c = 0; c < curves_.size(); ++c)
+    rows += takes_part[c] ? static_cast<Index>(curves_[c].used.size()) : 0;
+  LinearSystem system;
+  system.residuals = VectorXd::Zero(rows);
+  system.jacobian = MatrixXd::Zero(rows, weights_.start.size());
+  system.noise = MatrixXd::Zero(rows, rows);
+  system.fixed = MatrixXd::Zero(rows, rows);
+  system.residuals.head(simulated) = residuals_;
+  system.jacobian.topRows(simulated) = jacobian_;
+  system.noise.topLeftCorner(simulated, simulated) = weights_.statistical;
+  system.fixed.topLeftCorner(simulated, simulated) = weights_.statistical + weights_.model;
+  system.components = potential_;
+  Index row = simulated;
+  std::vector<std::optional<Index>> begin(curves_.size());
+  std::set<ExperimentKind> kinds;
+  for (std::size_t c = 0; c < curves_.size(); ++c) {
+    if (!takes_part[c] || curves_[c].used.empty()) continue;
+    const LinearCurve& curve = curves_[c];
+    const auto count = static_cast<Index>(curve.used.size());
+    system.residuals.segment(row, count) = curve.residuals;
+    system.jacobian.block(row, 0, count, constants()) = curve.jacobian;
+    for (Index i = 0; i < count; ++i) {
+      const double error = curve.curve->error[curve.used[static_cast<std::size_t>(i)]];
+      system.noise(row + i, row + i) = system.fixed(row + i, row + i) = error * error;
+    }
+    begin[c] = row;
+    kinds.insert(curve.curve->experiment.kind);
+    row += count;
+  }
+  for (const ExperimentKind kind : kinds) add_form(curves_, begin, kind, system);
+  for (Index k = 0; k < constants(); ++k) {
+    system.jacobian(row + k, k) = 1.0;
+    system.fixed(row + k, row + k) = widest * widest;
+  }
+  return system;
+}
+
+}  // namespace whipple::fit

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "md_fitting/fit/joint/potential_errors.hpp"
+
+#include "md_fitting/fit/discrepancy.hpp"
+#include "md_fitting/fit/laws.hpp"
+
+namespace whipple::fit {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+/// Collects the rows of one deviation with its size and place at each of them.
+struct Along {
+  std::vector<Index> rows;
+  std::vector<double> size, place;
+
+  void add(Index row, double deviation, double where) {
+    rows.push_back(row);
+    size.push_back(deviation);
+    place.push_back(where);
+  }
+  /// Appends the component, unless it has no rows.
+  void finish(const char* name, double length, double spread,
+              std::vector<VarianceComponent>& components) const {
+    if (rows.empty()) return;
+    const auto count = static_cast<Index>(rows.size());
+    MatrixXd covariance(count, count);
+    for (Index i = 0; i < count; ++i) {
+      for (Index k = 0; k < count; ++k) {
+        const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(k);
+        covariance(i, k) = size[a] * size[b] * matern(place[a] - place[b], length);
+      }
+    }
+    components.push_back({name, rows, std::move(covariance), spread});
+  }
+};
+
+}  // namespace
+
+std::vector<VarianceComponent> potential_deviations(const SolidProblem& problem, const Observations& data,
+                                                    const SolidConstants& constants,
+                                                    const PotentialErrors& errors) {
+  const eos::GrayConstants& gray = constants.gray;
+  const double v0 = gray.reference_specific_volume;
+  Along shock, gruneisen, anharmonic, melting, fusion;
+  std::size_t window = 0, isochore = 0, state = 0, melt = 0, latent = 0;
+  for (const Datum& datum : problem.data()) {
+    switch (datum.kind) {
+      case DataKind::volume:
+      case DataKind::isotherm:
+        break;  // V0 is measured; the isotherm is no datum of GRAY
+      case DataKind::shock: {
+        const auto [us, up] = SolidProblem::velocities(problem.window()[window++], v0);
+        shock.add(datum.begin, errors.shock_velocity * us, up);
+        break;
+      }
+      case DataKind::isochore: {
+        const Isochore& curve = data.isochores[isochore];
+        const ThermalState& cold = curve.states.front();
+        const ThermalState& hot = curve.states[state];
+        const double ratio = curve.volume / v0;
+        gruneisen.add(datum.begin,
+                      errors.gruneisen * gamma(gray, curve.volume) / curve.volume *
+                          (hot.energy.value - cold.energy.value),
+                      ratio);
+        anharmonic.add(datum.begin + 1,
+                       errors.anharmonic *
+                           (hot.temperature * hot.temperature - cold.temperature * cold.temperature) /
+                           (2.0 * data.molar_mass),
+                       ratio);
+        if (++state == curve.states.size()) {
+          ++isochore;
+          state = 0;
+        }
+        break;
+      }
+      case DataKind::melting: {
+        const MeltingPoint& point = data.melting[melt++];
+        melting.add(datum.begin, errors.melting * point.temperature.value, point.solid_volume.value / v0);
+        break;
+      }
+      case DataKind::fusion: {
+        while (!data.melting[latent].latent_heat) ++latent;
+        const MeltingPoint& point = data.melting[latent++];
+        fusion.add(datum.begin, errors.fusion * point.latent_heat->value, point.solid_volume.value / v0);
+        break;
+      }
+    }
+  }
+  std::vector<VarianceComponent> components;
+  shock.finish("shock velocity", errors.particle_velocity, errors.spread, components);
+  gruneisen.finish("Grueneisen parameter", errors.volume_ratio, errors.spread, components);
+  anharmonic.finish("anharmonic heat", errors.volume_ratio, errors.spread, components);
+  melting.finish("melting temperature", errors.volume_ratio, errors.spread, components);
+  fusion.finish("heat of fusion", errors.volume_ratio, errors.spread, components);
+  return components;
+}
+
+}  // namespace whipple::fit
