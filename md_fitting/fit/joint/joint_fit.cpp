@@ -40,8 +40,25 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+/// Holds the factors of the deviations of one kind of curve.
+struct Factors {
+  double form = 1.0, table = 1.0;
+};
+
+/// Returns the factors found for the kind of a curve; as stated if no curve of the kind took part.
+Factors factors_for(const LinearCurve& linear, const LinearSystem& system, const Solution& solution) {
+  const std::string kind = kind_name(linear.curve->experiment.kind);
+  Factors factors;
+  for (std::size_t i = 0; i < system.components.size(); ++i) {
+    const double factor = std::exp(solution.log_factors[static_cast<Index>(i)]);
+    if (system.components[i].name == "form, " + kind) factors.form = factor;
+    if (system.components[i].name == "tables, " + kind) factors.table = factor;
+  }
+  return factors;
+}
+
 /// Compares the material with a measured curve.
-CurveResult curve_result(const LinearCurve& linear, double factor) {
+CurveResult curve_result(const LinearCurve& linear, const Factors& factors) {
   const MeasuredCurve& curve = *linear.curve;
   CurveResult result{curve.experiment.name, kind_name(curve.experiment.kind)};
   result.points = static_cast<int>(linear.used.size());
@@ -50,7 +67,7 @@ CurveResult curve_result(const LinearCurve& linear, double factor) {
     const std::size_t i = linear.used[static_cast<std::size_t>(row)];
     const double deviation = -linear.residuals[row] / curve.experiment.ordinate[i];
     const double variance =
-        curve.error[i] * curve.error[i] + factor * factor * linear.size[row] * linear.size[row];
+        curve.error[i] * curve.error[i] + linear.deviation_variance(row, factors.form, factors.table);
     result.rms += deviation * deviation;
     result.mean += deviation;
     result.rms_of_errors += linear.residuals[row] * linear.residuals[row] / variance;
@@ -64,9 +81,8 @@ CurveResult curve_result(const LinearCurve& linear, double factor) {
 
 /// Predicts a curve by constants fitted without it.
 /// @param covariance  of the parameters of the constants
-/// @param factor      of the deviation of the form
 CurveCoverage predict(const LinearCurve& linear, const CurveModel& model, const MatrixXd& covariance,
-                      double factor) {
+                      const Factors& factors) {
   const MeasuredCurve& curve = *linear.curve;
   CurveCoverage result{curve.experiment.name, kind_name(curve.experiment.kind)};
   const std::vector<double> values = model.values(curve.experiment);
@@ -77,9 +93,10 @@ CurveCoverage predict(const LinearCurve& linear, const CurveModel& model, const 
     const double measured = curve.experiment.ordinate[i];
     const double band =
         (linear.jacobian.row(row) * covariance * linear.jacobian.row(row).transpose()).value();
-    const double form = std::pow(factor * linear.size[row], 2);
+    const double form = linear.deviation_variance(row, factors.form, 0.0);
+    const double table = linear.deviation_variance(row, 0.0, factors.table);
     const double pull =
-        std::abs(values[i] - measured) / std::sqrt(band + form + curve.error[i] * curve.error[i]);
+        std::abs(values[i] - measured) / std::sqrt(band + form + table + curve.error[i] * curve.error[i]);
     const double level = std::erf(pull / std::numbers::sqrt2);
     constexpr double half_width_95 = 1.959964;
     ++result.points;
@@ -155,21 +172,13 @@ JointResult fit_jointly(SolidFit& fit, const std::vector<MeasuredCurve>& curves,
   result.degrees_of_freedom = static_cast<int>(system.residuals.size() - count -
                                                system.jacobian.cols());  // less the rows of the constants
   for (std::size_t i = 0; i < system.components.size(); ++i) {
-    result.sizes.push_back({system.components[i].name, std::exp(solution.log_factors[static_cast<Index>(i)]),
-                            i < problem->potential_components()});
+    result.sizes.push_back(
+        {system.components[i].name, std::exp(solution.log_factors[static_cast<Index>(i)])});
   }
-  const std::size_t of_potential = problem->potential_components();
-  const auto factor_of = [&](const LinearCurve& linear, const LinearSystem& of, const Solution& at) {
-    const std::string kind = kind_name(linear.curve->experiment.kind);
-    for (std::size_t i = of_potential; i < of.components.size(); ++i) {
-      if (of.components[i].name == kind) return std::exp(at.log_factors[static_cast<Index>(i)]);
-    }
-    return 1.0;  // no other curve of the kind: as stated
-  };
   for (const LinearCurve& linear : problem->curves())
-    result.curves.push_back(curve_result(linear, factor_of(linear, system, solution)));
+    result.curves.push_back(curve_result(linear, factors_for(linear, system, solution)));
 
-  const VectorXd potential = solution.log_factors.head(static_cast<Index>(of_potential));
+  const VectorXd potential = solution.log_factors.head(static_cast<Index>(problem->potential_components()));
   for (std::size_t c = 0; c < curves.size() && curves.size() > 1; ++c) {
     std::vector<bool> others = all;
     others[c] = false;
@@ -179,7 +188,7 @@ JointResult fit_jointly(SolidFit& fit, const std::vector<MeasuredCurve>& curves,
     const LinearCurve& left_out = problem->curves()[c];
     result.coverage.push_back(predict(left_out, model,
                                       partial.estimate.covariance.topLeftCorner(count, count),
-                                      factor_of(left_out, rest, partial)));
+                                      factors_for(left_out, rest, partial)));
   }
   const auto add_without = [&](const std::string& kind, const std::vector<bool>& takes_part) {
     const Solution partial = solve(problem->system(takes_part), potential);

@@ -2,11 +2,14 @@
 #include "md_fitting/fit/joint/joint_problem.hpp"
 
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <set>
+#include <string_view>
 
 #include "md_fitting/fit/discrepancy.hpp"
 #include "md_fitting/fit/joint/potential_errors.hpp"
+#include "src/core/base/linear_algebra.hpp"
 
 namespace whipple::fit {
 namespace {
@@ -17,6 +20,7 @@ using Eigen::VectorXd;
 using eos::experiments::Experiment;
 using eos::experiments::ExperimentKind;
 
+constexpr std::string_view form_word = "form, ";
 constexpr double widest = 10.0;      // standard deviation of a parameter that no datum determines
 constexpr double form_spread = 0.7;  // of ln f: a factor of two either way
 
@@ -43,7 +47,7 @@ void set_form(LinearCurve& linear, double bulk_modulus) {
 /// @param begin  first row of each curve; none: it takes no part
 void add_form(const std::vector<LinearCurve>& curves, const std::vector<std::optional<Index>>& begin,
               ExperimentKind kind, LinearSystem& system) {
-  VarianceComponent form{kind_name(kind), {}, {}, form_spread};
+  VarianceComponent form{std::string(form_word) + kind_name(kind), {}, {}, form_spread};
   std::vector<double> size, place;
   for (std::size_t c = 0; c < curves.size(); ++c) {
     if (!begin[c] || curves[c].curve->experiment.kind != kind) continue;
@@ -65,6 +69,59 @@ void add_form(const std::vector<LinearCurve>& curves, const std::vector<std::opt
   system.components.push_back(std::move(form));
 }
 
+/// Appends the common errors of the tables of one kind: one size for all, independent values.
+void add_scales(const std::vector<LinearCurve>& curves, const std::vector<std::optional<Index>>& begin,
+                ExperimentKind kind, LinearSystem& system) {
+  VarianceComponent scale{"tables, " + kind_name(kind), {}, {}, form_spread};
+  VectorXd all;
+  std::vector<Index> ends;
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    if (!begin[c] || curves[c].curve->experiment.kind != kind) continue;
+    for (Index row = 0; row < curves[c].size.size(); ++row) scale.rows.push_back(*begin[c] + row);
+    const Index before = all.size();
+    all.conservativeResize(before + curves[c].size.size());
+    for (Index row = 0; row < curves[c].size.size(); ++row)
+      all[before + row] = form_of(kind).of_table * curves[c].ordinate(row);
+    ends.push_back(all.size());
+  }
+  scale.covariance = MatrixXd::Zero(all.size(), all.size());
+  Index from = 0;
+  for (const Index end : ends) {
+    const VectorXd part = all.segment(from, end - from);
+    scale.covariance.block(from, from, end - from, end - from) = part * part.transpose();
+    from = end;
+  }
+  if (!scale.rows.empty()) system.components.push_back(std::move(scale));
+}
+
+/// Makes the deviations of the forms orthogonal to the constants: those of the metal are by definition the ones that
+/// follow its measured curves best, each kind with the same weight in units of its stated size. Otherwise a deviation
+/// could take up what constants can, and simulations of another material would pull them (Plumlee, J. Am. Stat. Assoc.
+/// 112 (2017) 1274). Constants that the curves do not determine within `known` are left free.
+/// @param first  first row of the curves; `size` the stated size of the deviation of each row, `points` of its kind
+void make_orthogonal(Index first, const VectorXd& size, const VectorXd& points, Index constants,
+                     LinearSystem& system) {
+  constexpr double known = 0.2;  // of the logarithm of a constant
+  const Index count = size.size();
+  const MatrixXd jacobian = system.jacobian.block(first, 0, count, constants);
+  const VectorXd weight = (points.array() * size.array().square()).inverse();
+  const MatrixXd normal = jacobian.transpose() * weight.asDiagonal() * jacobian +
+                          MatrixXd::Identity(constants, constants) / (known * known);
+  const MatrixXd rest =
+      MatrixXd::Identity(count, count) -
+      jacobian * solve_symmetric(normal, MatrixXd(jacobian.transpose() * weight.asDiagonal()));
+  std::vector<Index> rows(static_cast<std::size_t>(count));
+  std::iota(rows.begin(), rows.end(), first);
+  for (VarianceComponent& component : system.components) {
+    if (!component.name.starts_with(form_word)) continue;
+    MatrixXd columns(count, static_cast<Index>(component.rows.size()));
+    for (std::size_t k = 0; k < component.rows.size(); ++k)
+      columns.col(static_cast<Index>(k)) = rest.col(component.rows[k] - first);
+    component.covariance = MatrixXd(columns * component.covariance * columns.transpose());
+    component.rows = rows;
+  }
+}
+
 /// Returns the central differences of the simulated rows.
 MatrixXd simulated_jacobian(const SolidProblem& problem, Index parameters) {
   constexpr double step = 1e-4;
@@ -81,6 +138,11 @@ MatrixXd simulated_jacobian(const SolidProblem& problem, Index parameters) {
 }
 
 }  // namespace
+
+double LinearCurve::deviation_variance(Index row, double form, double table) const {
+  const double scale = table * form_of(curve->experiment.kind).of_table * ordinate(row);
+  return form * form * size[row] * size[row] + scale * scale;
+}
 
 eos::GrayConstants material_constants(const SolidConstants& constants, double density) {
   eos::GrayConstants gray = constants.gray;
@@ -173,7 +235,23 @@ LinearSystem JointProblem::system(const std::vector<bool>& takes_part) const {
     kinds.insert(curve.curve->experiment.kind);
     row += count;
   }
-  for (const ExperimentKind kind : kinds) add_form(curves_, begin, kind, system);
+  for (const ExperimentKind kind : kinds) {
+    add_form(curves_, begin, kind, system);
+    add_scales(curves_, begin, kind, system);
+  }
+  VectorXd size(row - simulated), points(row - simulated);
+  for (std::size_t c = 0; c < curves_.size(); ++c) {
+    if (!begin[c]) continue;
+    const ExperimentKind kind = curves_[c].curve->experiment.kind;
+    double of_kind = 0.0;
+    for (std::size_t other = 0; other < curves_.size(); ++other) {
+      if (begin[other] && curves_[other].curve->experiment.kind == kind)
+        of_kind += static_cast<double>(curves_[other].used.size());
+    }
+    size.segment(*begin[c] - simulated, curves_[c].size.size()) = curves_[c].size;
+    points.segment(*begin[c] - simulated, curves_[c].size.size()).setConstant(of_kind);
+  }
+  if (size.size() > 0) make_orthogonal(simulated, size, points, constants(), system);
   for (Index k = 0; k < constants(); ++k) {
     system.jacobian(row + k, k) = 1.0;
     system.fixed(row + k, row + k) = widest * widest;

@@ -20,6 +20,13 @@ struct LinearCurve {
   // The deviation of GRAY's form from the curve:
   Eigen::VectorXd size;       ///< one standard deviation as stated
   std::vector<double> place;  ///< along the curve, in the unit of its length
+
+  /// Returns the measured value of a row.
+  [[nodiscard]] double ordinate(Eigen::Index row) const {
+    return curve->experiment.ordinate[used[static_cast<std::size_t>(row)]];
+  }
+  /// Returns the variance of a row beside that of its measurement: form and table for factors of their sizes.
+  [[nodiscard]] double deviation_variance(Eigen::Index row, double form, double table) const;
 };
 
 /// Linearises simulations and measurements about one set of constants and assembles the rows of all, or of some.

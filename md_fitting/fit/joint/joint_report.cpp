@@ -47,6 +47,11 @@ std::string joint_text(const JointResult& joint) {
         "error\n";
     rows = {{"  curve", "points", "68 %", "95 %", "half-width", "with form", "rms"}};
     for (const CurveCoverage& curve : joint.coverage) {
+      if (!curve.determined()) {
+        rows.push_back(
+            {"  " + curve.name, fmt::format("{}", curve.points), "not", "determined", "by the rest"});
+        continue;
+      }
       rows.push_back({"  " + curve.name, fmt::format("{}", curve.points), percent(curve.inside_68, 0),
                       percent(curve.inside_95, 0), percent(curve.half_width), percent(curve.form_width),
                       percent(curve.rms)});
@@ -54,10 +59,7 @@ std::string joint_text(const JointResult& joint) {
     text += text_table(rows, "lr");
   }
   text += "sizes of the deviations found, in units of the stated ones\n";
-  for (const DeviationSize& size : joint.sizes) {
-    text +=
-        fmt::format("  {} {}: {:.2f}\n", size.of_potential ? "potential," : "form,", size.name, size.factor);
-  }
+  for (const DeviationSize& size : joint.sizes) text += fmt::format("  {}: {:.2f}\n", size.name, size.factor);
   text += "constants without one kind of data: value +- error (- where nothing else determines it)\n";
   rows = {{"  without"}};
   for (const std::string& name : joint.names) rows.front().push_back(name);
@@ -78,6 +80,7 @@ std::string joint_text(const JointResult& joint) {
 std::string coverage_tables(const JointResult& joint) {
   std::string text;
   for (const CurveCoverage& curve : joint.coverage) {
+    if (!curve.determined()) continue;
     text += fmt::format(
         "\n[[coverage]]  # predicted by a fit without this curve (docs/theory/fit.md, section 9)\n"
         "curve = {}\nkind = {}\npoints = {}\ninside_68 = {:.3f}\ninside_95 = {:.3f}\nhalf_width = {:.5f}  # "

@@ -25,13 +25,15 @@ struct CurveCoverage {
   double half_width = 0.0;                  ///< median half-width of the 95 % band of the model, relative
   double form_width = 0.0;                  ///< the same with the deviation of the form
   double rms = 0.0;                         ///< (prediction - measured)/measured
+
+  /// Returns whether the other data predict the curve at all: a half-width below a half.
+  [[nodiscard]] bool determined() const { return points > 0 && half_width < 0.5; }
 };
 
 /// Holds the estimated size of one deviation.
 struct DeviationSize {
-  std::string name;
+  std::string name;     ///< "potential, shock velocity", "form, isotherm", "tables, isotherm"
   double factor = 1.0;  ///< of the stated size
-  bool of_potential = false;
 };
 
 /// Holds the constants of a fit without one kind of data.

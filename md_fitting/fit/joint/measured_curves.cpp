@@ -19,6 +19,7 @@ using eos::experiments::Experiment;
 using eos::experiments::ExperimentKind;
 
 constexpr std::size_t most_points = 1500;  // the cost of the fit grows as their third power
+constexpr std::size_t least_points = 4;    // of a scatter
 /// Least error of an ordinate without a stated one, relative: tables of a smooth formula have no scatter.
 constexpr double least_scatter = 1e-4;
 
@@ -35,33 +36,50 @@ std::vector<double> slopes(const Experiment& experiment) {
   return slope;
 }
 
-/// Sets the errors of a curve: those that the file states, else the scatter along it; rows without a stated error
-/// receive the median of the others.
+/// Returns the errors of points of which a table states none: the scatter along them, and at least that of rounding.
+std::vector<double> unstated_errors(const std::vector<double>& x, const std::vector<double>& y,
+                                    bool relative) {
+  std::vector<double> error = scatter_along(x, y, relative);
+  for (std::size_t i = 0; i < x.size(); ++i) error[i] = std::hypot(error[i], least_scatter * y[i]);
+  return error;
+}
+
+/// Sets the errors of a curve: those that the file states; where it states none, the scatter along these points, or
+/// with fewer than four of them the median of the others, relative.
 void set_errors(MeasuredCurve& curve) {
   const Experiment& experiment = curve.experiment;
+  const std::vector<double>& x = experiment.abscissa;
+  const std::vector<double>& y = experiment.ordinate;
+  const bool relative = eos::experiments::is_pressure(experiment.kind);
   curve.stated = experiment.states_errors;
   if (!curve.stated) {
-    curve.error = scatter_along(experiment.abscissa, experiment.ordinate,
-                                eos::experiments::is_pressure(experiment.kind));
-    for (std::size_t i = 0; i < curve.points(); ++i)
-      curve.error[i] = std::hypot(curve.error[i], least_scatter * experiment.ordinate[i]);
+    curve.error = unstated_errors(x, y, relative);
     return;
   }
   const std::vector<double> slope = slopes(experiment);
-  std::vector<double> known;
+  std::vector<double> shares, other_x, other_y;
+  std::vector<std::size_t> others;
   for (std::size_t i = 0; i < curve.points(); ++i) {
     const double error = std::hypot(experiment.ordinate_error[i], slope[i] * experiment.abscissa_error[i]);
     curve.error.push_back(error);
-    if (std::isfinite(error) && error > 0.0) known.push_back(error);
+    if (std::isfinite(error) && error > 0.0) {
+      shares.push_back(error / std::abs(y[i]));
+    } else {
+      others.push_back(i);
+      other_x.push_back(x[i]);
+      other_y.push_back(y[i]);
+    }
   }
-  if (known.empty()) {
-    throw InputError(
-        fmt::format("{}: none of the stated errors is a positive number", experiment.file.string()));
-  }
-  std::ranges::nth_element(known, known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2));
-  const double typical = known[known.size() / 2];
-  for (double& error : curve.error) {
-    if (!(error > 0.0) || !std::isfinite(error)) error = typical;
+  if (others.size() >= least_points) {
+    const std::vector<double> error = unstated_errors(other_x, other_y, relative);
+    for (std::size_t k = 0; k < others.size(); ++k) curve.error[others[k]] = error[k];
+  } else if (!others.empty()) {
+    if (shares.empty()) {
+      throw InputError(
+          fmt::format("{}: none of the stated errors is a positive number", experiment.file.string()));
+    }
+    std::ranges::nth_element(shares, shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2));
+    for (const std::size_t i : others) curve.error[i] = shares[shares.size() / 2] * std::abs(y[i]);
   }
 }
 
@@ -124,20 +142,20 @@ std::string kind_name(ExperimentKind kind) {
 CurveForm form_of(ExperimentKind kind) {
   switch (kind) {
     case ExperimentKind::shock_velocity:
-      return {0.003, 0.0, 1000.0};
+      return {0.003, 0.0, 1000.0, 0.003};
     case ExperimentKind::shock_pressure:
     case ExperimentKind::isotherm:
     case ExperimentKind::isentrope:
-      return {0.01, 5e-4, 0.1};
+      return {0.01, 5e-4, 0.1, 0.01};
     case ExperimentKind::melting:
-      return {0.02, 0.0, 0.3};
+      return {0.02, 0.0, 0.3, 0.01};
     case ExperimentKind::sound_speed:
-      return {0.01, 0.0, 0.5};
+      return {0.01, 0.0, 0.5, 0.01};
     case ExperimentKind::shock_temperature:
-      return {0.05, 0.0, 0.5};
+      return {0.05, 0.0, 0.5, 0.03};
     case ExperimentKind::heat_capacity:
     case ExperimentKind::expansion:
-      return {0.02, 0.0, 500.0};
+      return {0.02, 0.0, 500.0, 0.01};
   }
   throw InternalError("unknown kind of a measured curve");
 }
@@ -178,7 +196,6 @@ std::vector<MeasuredCurve> read_curves(std::span<const std::filesystem::path> ta
 }
 
 std::vector<double> scatter_along(std::span<const double> x, std::span<const double> y, bool relative) {
-  constexpr std::size_t least_points = 4;
   if (x.size() < least_points) {
     throw InputError(fmt::format(
         "{} points are too few to tell their scatter: four, or a column of errors, are needed", x.size()));

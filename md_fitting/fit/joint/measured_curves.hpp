@@ -26,6 +26,7 @@ struct CurveForm {
   double relative = 0.0;
   double of_bulk_modulus = 0.0;  ///< for pressures: as a change of volume, times rho0 C^2
   double length = 0.0;           ///< in the unit of the abscissa; for pressures in units of rho0 C^2
+  double of_table = 0.0;         ///< common relative error of all points of one table: its scale
 };
 CurveForm form_of(eos::experiments::ExperimentKind kind);
 
