@@ -39,7 +39,7 @@ struct Options {
   std::vector<std::filesystem::path> stores;
   std::vector<std::string> outputs;
   std::string model = "gray";
-  std::vector<std::string> measured;
+  std::vector<std::string> measured, checked;
   std::string density;
   std::optional<std::string> electrons;
   std::string defaults;
@@ -95,6 +95,11 @@ FitSettings settings(const Options& options) {
   if (options.statistical_only) settings.model_errors = ModelErrors::none();
   for (const std::string& name : options.measured)
     settings.measured.push_back(process::find_experiment(name));
+  for (const std::string& name : options.checked) settings.checked.push_back(process::find_experiment(name));
+  if (settings.measured.empty() && !settings.checked.empty())
+    throw InputError(
+        "--check: predicted by a fit --with other measurements; whipple compare --samples checks "
+        "a fit of simulations");
   if (!settings.measured.empty() && model_of(options.model) != FitModel::gray)
     throw InputError("--with: measurements take part in the fit of --model gray only");
   if (!settings.measured.empty() && options.bootstrap > 0)
@@ -333,6 +338,9 @@ int main_program(int argc, char** argv) {
          "--with", options.measured,
          "Tables of measurements of the metal (docs/manual/equations_of_state.md), or names of those that "
          "come with the program: fitted together with the simulations")
+      ->allow_extra_args(true);
+  app.add_option("--check", options.checked,
+                 "With --with: tables that take no part in the fit and are predicted by it")
       ->allow_extra_args(true);
   app.add_option("--density", options.density,
                  "Measured density: replaces the fitted reference volume, e.g. \"8.9445 g/cm^3\"");

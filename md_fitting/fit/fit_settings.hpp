@@ -85,6 +85,7 @@ struct FitSettings {
   int bootstrap = 0;                                ///< replicates; 0: none
   std::optional<double> density;  ///< kg/m^3: replaces the fitted reference volume by a measured one
   std::vector<std::filesystem::path> measured{};  ///< tables of measurements that take part in the fit
+  std::vector<std::filesystem::path> checked{};   ///< tables that the fit with `measured` predicts
 };
 
 /// Returns settings with a single window, the stated model errors and independent errors of the states, for

@@ -166,13 +166,19 @@ BootstrapResult bootstrap_gray(std::span<const md::PointRecord> points, const So
 /// Moves a fit of simulations to one of simulations and measured curves.
 JointResult add_measurements(SolidFit& fit, const ElementDefaults& table, FitSettings& settings) {
   const NamedDefault* debye = table.find("debye_temperature");
-  const std::vector<MeasuredCurve> curves =
-      read_curves(settings.measured, table.metal, debye ? std::optional(debye->value) : std::nullopt);
+  const auto read = [&](const std::vector<std::filesystem::path>& files) {
+    return read_curves(files, table.metal, debye ? std::optional(debye->value) : std::nullopt);
+  };
+  std::vector<MeasuredCurve> curves = read(settings.measured);
   if (!settings.density) settings.density = initial_density(curves);
   if (!settings.density) {
     throw InputError(
         "--with: none of the tables states the initial density (rho0_g_cm3); give the measured one with "
         "--density");
+  }
+  for (MeasuredCurve& curve : read(settings.checked)) {
+    curve.fitted = false;
+    curves.push_back(std::move(curve));
   }
   return fit_jointly(fit, curves, *settings.density);
 }

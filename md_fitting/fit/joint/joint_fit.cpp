@@ -40,19 +40,19 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// Holds the factors of the deviations of one kind of curve.
+/// Holds the factors of the deviations of one curve.
 struct Factors {
   double form = 1.0, table = 1.0;
 };
 
-/// Returns the factors found for the kind of a curve; as stated if no curve of the kind took part.
+/// Returns the factors found for the kind of a curve and its table; as stated if they took no part.
 Factors factors_for(const LinearCurve& linear, const LinearSystem& system, const Solution& solution) {
   const std::string kind = kind_name(linear.curve->experiment.kind);
   Factors factors;
   for (std::size_t i = 0; i < system.components.size(); ++i) {
     const double factor = std::exp(solution.log_factors[static_cast<Index>(i)]);
     if (system.components[i].name == "form, " + kind) factors.form = factor;
-    if (system.components[i].name == "tables, " + kind) factors.table = factor;
+    if (system.components[i].name == "table, " + linear.curve->experiment.name) factors.table = factor;
   }
   return factors;
 }
@@ -128,13 +128,14 @@ JointResult fit_jointly(SolidFit& fit, const std::vector<MeasuredCurve>& curves,
   constexpr int most_passes = 25;
   constexpr double settled = 0.01;      // of the error of a constant
   constexpr double longest_step = 0.2;  // of the logarithm of a constant
-  if (curves.empty()) throw InternalError("a joint fit needs a measured curve");
   const bool melts = std::ranges::any_of(curves, [](const MeasuredCurve& curve) {
-    return curve.experiment.kind == eos::experiments::ExperimentKind::melting;
+    return curve.fitted && curve.experiment.kind == eos::experiments::ExperimentKind::melting;
   });
   if (melts && !fit.model.fits(Place::melting)) fit.model.free.push_back(Place::melting);
 
-  const std::vector<bool> all(curves.size(), true);
+  std::vector<bool> all;
+  for (const MeasuredCurve& curve : curves) all.push_back(curve.fitted);
+  const auto fitted = std::ranges::count(all, true);
   SolidConstants constants = fit.constants;
   Solution solution;
   std::optional<JointProblem> problem;
@@ -175,20 +176,28 @@ JointResult fit_jointly(SolidFit& fit, const std::vector<MeasuredCurve>& curves,
     result.sizes.push_back(
         {system.components[i].name, std::exp(solution.log_factors[static_cast<Index>(i)])});
   }
-  for (const LinearCurve& linear : problem->curves())
-    result.curves.push_back(curve_result(linear, factors_for(linear, system, solution)));
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    const LinearCurve& linear = problem->curves()[c];
+    if (all[c]) result.curves.push_back(curve_result(linear, factors_for(linear, system, solution)));
+  }
 
   const VectorXd potential = solution.log_factors.head(static_cast<Index>(problem->potential_components()));
-  for (std::size_t c = 0; c < curves.size() && curves.size() > 1; ++c) {
-    std::vector<bool> others = all;
-    others[c] = false;
-    const LinearSystem rest = problem->system(others);
-    const Solution partial = solve(rest, potential);
+  const auto add_prediction = [&](std::size_t c, const LinearSystem& rest, const Solution& partial) {
     const CurveModel model(material_constants(problem->constants_at(partial.estimate.parameters), density));
-    const LinearCurve& left_out = problem->curves()[c];
-    result.coverage.push_back(predict(left_out, model,
-                                      partial.estimate.covariance.topLeftCorner(count, count),
-                                      factors_for(left_out, rest, partial)));
+    const LinearCurve& linear = problem->curves()[c];
+    result.coverage.push_back(predict(linear, model, partial.estimate.covariance.topLeftCorner(count, count),
+                                      factors_for(linear, rest, partial)));
+    result.coverage.back().left_out = all[c];
+  };
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    if (!all[c]) {
+      add_prediction(c, system, solution);
+    } else if (fitted > 1) {
+      std::vector<bool> others = all;
+      others[c] = false;
+      const LinearSystem rest = problem->system(others);
+      add_prediction(c, rest, solve(rest, potential));
+    }
   }
   const auto add_without = [&](const std::string& kind, const std::vector<bool>& takes_part) {
     const Solution partial = solve(problem->system(takes_part), potential);
@@ -198,11 +207,13 @@ JointResult fit_jointly(SolidFit& fit, const std::vector<MeasuredCurve>& curves,
                               slope.cwiseProduct(errors)});
   };
   std::set<eos::experiments::ExperimentKind> kinds;
-  for (const MeasuredCurve& curve : curves) kinds.insert(curve.experiment.kind);
+  for (const MeasuredCurve& curve : curves) {
+    if (curve.fitted) kinds.insert(curve.experiment.kind);
+  }
   for (const auto kind : kinds) {
     if (kinds.size() == 1) break;  // the row of all measurements
     std::vector<bool> others;
-    for (const MeasuredCurve& curve : curves) others.push_back(curve.experiment.kind != kind);
+    for (const MeasuredCurve& curve : curves) others.push_back(curve.fitted && curve.experiment.kind != kind);
     add_without(kind_name(kind), others);
   }
   add_without("all measurements", std::vector<bool>(curves.size(), false));

@@ -69,29 +69,16 @@ void add_form(const std::vector<LinearCurve>& curves, const std::vector<std::opt
   system.components.push_back(std::move(form));
 }
 
-/// Appends the common errors of the tables of one kind: one size for all, independent values.
-void add_scales(const std::vector<LinearCurve>& curves, const std::vector<std::optional<Index>>& begin,
-                ExperimentKind kind, LinearSystem& system) {
-  VarianceComponent scale{"tables, " + kind_name(kind), {}, {}, form_spread};
-  VectorXd all;
-  std::vector<Index> ends;
-  for (std::size_t c = 0; c < curves.size(); ++c) {
-    if (!begin[c] || curves[c].curve->experiment.kind != kind) continue;
-    for (Index row = 0; row < curves[c].size.size(); ++row) scale.rows.push_back(*begin[c] + row);
-    const Index before = all.size();
-    all.conservativeResize(before + curves[c].size.size());
-    for (Index row = 0; row < curves[c].size.size(); ++row)
-      all[before + row] = form_of(kind).of_table * curves[c].ordinate(row);
-    ends.push_back(all.size());
+/// Appends the common error of all points of a table: its scale.
+void add_scale(const LinearCurve& curve, Index begin, LinearSystem& system) {
+  VectorXd size(curve.size.size());
+  VarianceComponent scale{"table, " + curve.curve->experiment.name, {}, {}, form_spread};
+  for (Index row = 0; row < size.size(); ++row) {
+    scale.rows.push_back(begin + row);
+    size[row] = form_of(curve.curve->experiment.kind).of_table * curve.ordinate(row);
   }
-  scale.covariance = MatrixXd::Zero(all.size(), all.size());
-  Index from = 0;
-  for (const Index end : ends) {
-    const VectorXd part = all.segment(from, end - from);
-    scale.covariance.block(from, from, end - from, end - from) = part * part.transpose();
-    from = end;
-  }
-  if (!scale.rows.empty()) system.components.push_back(std::move(scale));
+  scale.covariance = size * size.transpose();
+  system.components.push_back(std::move(scale));
 }
 
 /// Makes the deviations of the forms orthogonal to the constants: those of the metal are by definition the ones that
@@ -235,9 +222,9 @@ LinearSystem JointProblem::system(const std::vector<bool>& takes_part) const {
     kinds.insert(curve.curve->experiment.kind);
     row += count;
   }
-  for (const ExperimentKind kind : kinds) {
-    add_form(curves_, begin, kind, system);
-    add_scales(curves_, begin, kind, system);
+  for (const ExperimentKind kind : kinds) add_form(curves_, begin, kind, system);
+  for (std::size_t c = 0; c < curves_.size(); ++c) {
+    if (begin[c]) add_scale(curves_[c], *begin[c], system);
   }
   VectorXd size(row - simulated), points(row - simulated);
   for (std::size_t c = 0; c < curves_.size(); ++c) {

@@ -41,7 +41,8 @@ std::string joint_text(const JointResult& joint) {
     text += "one curve alone is not predicted by others: name two or more to have the coverage\n";
   } else {
     text +=
-        "each curve left out and predicted from the rest: fraction of its points within 68 and 95 % "
+        "each curve left out and predicted from the rest, and curves that took no part: fraction of its "
+        "points within 68 and 95 % "
         "(constants, "
         "form and measurement), half-width of the 95 % band of the constants, the same with the form's "
         "error\n";
@@ -52,9 +53,9 @@ std::string joint_text(const JointResult& joint) {
             {"  " + curve.name, fmt::format("{}", curve.points), "not", "determined", "by the rest"});
         continue;
       }
-      rows.push_back({"  " + curve.name, fmt::format("{}", curve.points), percent(curve.inside_68, 0),
-                      percent(curve.inside_95, 0), percent(curve.half_width), percent(curve.form_width),
-                      percent(curve.rms)});
+      rows.push_back({"  " + curve.name + (curve.left_out ? "" : " (check)"), fmt::format("{}", curve.points),
+                      percent(curve.inside_68, 0), percent(curve.inside_95, 0), percent(curve.half_width),
+                      percent(curve.form_width), percent(curve.rms)});
     }
     text += text_table(rows, "lr");
   }

@@ -20,6 +20,7 @@ struct CurveResult {
 /// Holds the prediction of one curve by a fit without it.
 struct CurveCoverage {
   std::string name, kind;
+  bool left_out = true;  ///< of the fit for this prediction; otherwise never part of it
   int points = 0;
   double inside_68 = 0.0, inside_95 = 0.0;  ///< fraction within both errors of model and measurement
   double half_width = 0.0;                  ///< median half-width of the 95 % band of the model, relative
@@ -32,7 +33,7 @@ struct CurveCoverage {
 
 /// Holds the estimated size of one deviation.
 struct DeviationSize {
-  std::string name;     ///< "potential, shock velocity", "form, isotherm", "tables, isotherm"
+  std::string name;     ///< "potential, shock velocity", "form, isotherm", "table, cu_hugoniot_marsh1980"
   double factor = 1.0;  ///< of the stated size
 };
 

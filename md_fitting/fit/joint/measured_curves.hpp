@@ -35,6 +35,7 @@ struct MeasuredCurve {
   eos::experiments::Experiment experiment;
   std::vector<double> error;  ///< one standard deviation of the ordinate, SI
   bool stated = false;        ///< the file states the errors; otherwise they are the scatter along the curve
+  bool fitted = true;         ///< takes part in the fit; otherwise it is predicted only
 
   [[nodiscard]] std::size_t points() const { return experiment.abscissa.size(); }
 };
