@@ -18,6 +18,8 @@ auto& member(Constants& c, Place place) {
       return c.gray.hugoniot_intercept;
     case Place::slope:
       return c.gray.hugoniot_slope;
+    case Place::quadratic:
+      return c.gray.hugoniot_quadratic;
     case Place::gruneisen:
       return c.gray.gruneisen;
     case Place::gruneisen_slope:
@@ -45,6 +47,7 @@ double at(const SolidConstants& constants, Place place) { return member(constant
 
 Bounds bounds_of(Place place, const SolidConstants& start) {
   switch (place) {
+    case Place::quadratic:
     case Place::gruneisen_slope:
     case Place::anharmonic:
       return {};          // either sign
@@ -57,7 +60,16 @@ Bounds bounds_of(Place place, const SolidConstants& start) {
   }
 }
 
-double scale_of(Place place) { return place == Place::anharmonic ? 1e-4 : 1.0; }
+double scale_of(Place place) {
+  switch (place) {
+    case Place::anharmonic:
+      return 1e-4;
+    case Place::quadratic:
+      return 0.1;
+    default:
+      return 1.0;
+  }
+}
 
 std::string_view name_of(Place place) {
   switch (place) {
@@ -67,6 +79,8 @@ std::string_view name_of(Place place) {
       return "hugoniot_intercept";
     case Place::slope:
       return "hugoniot_slope";
+    case Place::quadratic:
+      return "hugoniot_quadratic";
     case Place::gruneisen:
       return "gruneisen";
     case Place::gruneisen_slope:

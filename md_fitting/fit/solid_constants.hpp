@@ -22,6 +22,7 @@ enum class Place {
   volume,
   intercept,
   slope,
+  quadratic,
   gruneisen,
   gruneisen_slope,
   anharmonic,

@@ -142,7 +142,8 @@ VectorXd SolidProblem::residuals(const VectorXd& p) const {
   r[row++] = observations_.reference_volume.value - gray.reference_specific_volume;
   for (const HugoniotState& state : window_) {
     const auto [us, up] = velocities(state, gray.reference_specific_volume);
-    r[row++] = us - gray.hugoniot_intercept - gray.hugoniot_slope * up;
+    r[row++] =
+        us - gray.hugoniot_intercept - gray.hugoniot_slope * up - gray.hugoniot_quadratic * up * up / us;
   }
   if (model_.isotherm) {
     for (const IsothermState& state : observations_.isotherm) {

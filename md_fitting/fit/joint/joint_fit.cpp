@@ -132,6 +132,7 @@ JointResult fit_jointly(SolidFit& fit, const std::vector<MeasuredCurve>& curves,
     return curve.fitted && curve.experiment.kind == eos::experiments::ExperimentKind::melting;
   });
   if (melts && !fit.model.fits(Place::melting)) fit.model.free.push_back(Place::melting);
+  fit.model.free.push_back(Place::quadratic);
 
   std::vector<bool> all;
   for (const MeasuredCurve& curve : curves) all.push_back(curve.fitted);

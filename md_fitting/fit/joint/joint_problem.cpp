@@ -21,8 +21,9 @@ using eos::experiments::Experiment;
 using eos::experiments::ExperimentKind;
 
 constexpr std::string_view form_word = "form, ";
-constexpr double widest = 10.0;      // standard deviation of a parameter that no datum determines
-constexpr double form_spread = 0.7;  // of ln f: a factor of two either way
+constexpr double quadratic_width = 3.0;  // of S2: 0.3, as wide as the values of metals scatter
+constexpr double widest = 10.0;          // standard deviation of a parameter that no datum determines
+constexpr double form_spread = 0.7;      // of ln f: a factor of two either way
 
 /// Sets the size and the place of the deviation of the form at the points of a curve.
 void set_form(LinearCurve& linear, double bulk_modulus) {
@@ -139,11 +140,15 @@ eos::GrayConstants material_constants(const SolidConstants& constants, double de
 
 JointProblem::JointProblem(const SolidFit& fit, const SolidConstants& constants,
                            const std::vector<MeasuredCurve>& curves, double density)
-    : simulated_(fit.data, fit.report.settings, fit.model, constants, fit.scale),
+    : free_(fit.model.free),
+      simulated_(fit.data, fit.report.settings, fit.model, constants, fit.scale),
       weights_(simulated_.least_squares()),
       residuals_(simulated_.residuals(weights_.start)),
       jacobian_(simulated_jacobian(simulated_, weights_.start.size())),
       potential_(potential_deviations(simulated_, fit.data, constants)) {
+  for (const Place place : free_) {
+    before_.push_back(place == Place::quadratic ? at(constants, place) / scale_of(place) : 0.0);
+  }
   constexpr double step = 1e-3;
   const auto values = [&](const SolidConstants& at_constants) {
     const CurveModel model(material_constants(at_constants, density));
@@ -241,7 +246,9 @@ LinearSystem JointProblem::system(const std::vector<bool>& takes_part) const {
   if (size.size() > 0) make_orthogonal(simulated, size, points, constants(), system);
   for (Index k = 0; k < constants(); ++k) {
     system.jacobian(row + k, k) = 1.0;
-    system.fixed(row + k, row + k) = widest * widest;
+    system.residuals[row + k] = before_[static_cast<std::size_t>(k)];
+    const double width = free_[static_cast<std::size_t>(k)] == Place::quadratic ? quadratic_width : widest;
+    system.fixed(row + k, row + k) = width * width;
   }
   return system;
 }

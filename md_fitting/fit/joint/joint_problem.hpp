@@ -30,8 +30,8 @@ struct LinearCurve {
 };
 
 /// Linearises simulations and measurements about one set of constants and assembles the rows of all, or of some.
-/// Rows: those of SolidProblem; the points of the curves; one for each constant that keeps what no datum determines
-/// within a factor of exp(10).
+/// Rows: those of SolidProblem; the points of the curves; one for each constant, which says what is expected of it
+/// before the data: S2 is 0 +- 0.3, all others are as simulated within a factor of exp(10).
 class JointProblem {
  public:
   /// @param density  of the metal, kg/m^3
@@ -54,6 +54,8 @@ class JointProblem {
   [[nodiscard]] Eigen::Index constants() const { return simulated_.constants(); }
 
  private:
+  std::vector<Place> free_;
+  std::vector<double> before_;  ///< parameters of the constants less those expected before the data
   SolidProblem simulated_;
   LeastSquaresProblem weights_;
   Eigen::VectorXd residuals_;  ///< of the simulated rows
