@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -200,6 +201,33 @@ TEST(EosExperiments, ErrorColumnsBelongToTheColumnThatIsTaken) {
   const Experiment absent = experiment_of("us_km_s,up_km_s,rho_err [%]\n6,1,3\n");
   EXPECT_FALSE(absent.states_errors);
   ASSERT_EQ(absent.remarks.size(), 1U);
+}
+
+// Values at zero pressure: those of the model itself have no deviation, with a decimal comma as well.
+TEST(EosExperiments, HeatCapacitiesAndExpansionsAreThoseAtZeroPressure) {
+  const test::MieGruneisenEos eos(test::aluminium_2024());
+  const State initial = eos.state(eos.reference_density(), eos.reference_energy());
+  std::string heat = "T_K;cp [J/kgK]\n", expansion = "T_K;alpha_lin_1e-6_per_K\n";
+  for (const double temperature : {320.0, 500.0}) {
+    const State state = eos.state_at_temperature(density_at_pressure(eos, 0.0, temperature), temperature);
+    heat += fmt::format("{};{:.12g}\n", temperature, state.isobaric_heat_capacity);
+    expansion += fmt::format("{};{:.12g}\n", temperature, 1e6 * state.thermal_expansion / 3.0);
+  }
+  for (std::string* text : {&heat, &expansion}) {
+    for (const bool comma : {false, true}) {
+      if (comma) std::ranges::replace(*text, '.', ',');
+      const Experiment experiment = experiment_of(*text);
+      EXPECT_EQ(experiment.kind, text == &heat ? ExperimentKind::heat_capacity : ExperimentKind::expansion);
+      const Comparison comparison = compare(eos, initial, experiment);
+      EXPECT_EQ(comparison.points, 2);
+      EXPECT_NEAR(comparison.maximum, 0.0, 1e-6);  // % of the measured value
+    }
+  }
+}
+
+TEST(EosExperiments, NumbersWithTwoMeaningsAreRefused) {
+  EXPECT_THROW(experiment_of("us_km_s;up_km_s\n1,234.5;0.3\n"), InputError);
+  EXPECT_THROW(experiment_of("us_km_s,up_km_s\n5,3,0,3\n"), InputError);
 }
 
 }  // namespace

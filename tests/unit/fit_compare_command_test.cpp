@@ -92,7 +92,9 @@ TEST_F(CompareCommand, RefusesWithReasons) {
   EXPECT_EQ(run("copper"), 2);
   EXPECT_EQ(run("copper --with cu_hugoniot_marsh1980 --samples 4"), 2);
   EXPECT_THAT(output(), HasSubstr("no table [covariance]"));
-  EXPECT_EQ(run("copper --with cu_thermal_expansion_nist_hahn1"), 2);  // of no kind that is compared
+  std::ofstream(folder.path() / "strange.csv") << "pressure in what,volume\n1,2\n";
+  EXPECT_EQ(run("copper --with strange.csv"), 2);  // of no kind that is compared
+  EXPECT_THAT(output(), HasSubstr("the columns are"));
 }
 
 }  // namespace
