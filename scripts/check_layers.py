@@ -66,7 +66,7 @@ MAY_USE = {
     "md_fitting/lammps": ["src/core/base", "md_fitting/data_set"],
     "md_fitting/protocols": ["src/core/base", "eos", "md_fitting/data_set", "md_fitting/plan", "md_fitting/lammps"],
     # Copies strength and failure from materials of the library.
-    "md_fitting/fit": ["src/core/base", "src/core/input", "src/core/process", "eos", "src/material", "md_fitting/data_set",
+    "md_fitting/fit": ["src/core/base", "src/core/input", "src/core/process", "eos", "eos/experiments", "src/material", "md_fitting/data_set",
                        "md_fitting/elements", "md_fitting/plan"],
     # The program whipple-md.
     "md_fitting": ["src/core/base", "md_fitting/elements", "md_fitting/data_set", "md_fitting/plan", "md_fitting/lammps", "md_fitting/protocols"],

@@ -44,7 +44,7 @@ LinearSystem line_with_deviation(double deviation, double noise, std::uint64_t s
       NormalSamples(VectorXd::Zero(n), MatrixXd(deviation * deviation * kernel + system.fixed), seed).draw();
   std::vector<Index> rows(n);
   for (Index i = 0; i < n; ++i) rows[static_cast<std::size_t>(i)] = i;
-  system.components.push_back({"deviation", rows, kernel, 3.0});
+  system.components.push_back({"deviation", Deviation::form, 0, rows, kernel, 3.0});
   return system;
 }
 
@@ -67,7 +67,7 @@ TEST(VarianceComponents, StayWhereTheyAreExpectedWithoutData) {
   system.residuals = VectorXd::Constant(1, 2.0);
   system.jacobian = MatrixXd::Constant(1, 1, -1.0);
   system.noise = system.fixed = MatrixXd::Constant(1, 1, 1e-4);
-  system.components.push_back({"unknown", {0}, MatrixXd::Identity(1, 1), 1.0});
+  system.components.push_back({"unknown", Deviation::form, 0, {0}, MatrixXd::Identity(1, 1), 1.0});
   const VectorXd factors = most_probable_factors(system, VectorXd::Constant(1, 0.7));
   EXPECT_NEAR(factors[0], 0.0, 1e-3);
   const LinearEstimate found = estimate(system, factors);

@@ -46,13 +46,16 @@ struct Factors {
 };
 
 /// Returns the factors found for the kind of a curve and its table; as stated if they took no part.
-Factors factors_for(const LinearCurve& linear, const LinearSystem& system, const Solution& solution) {
-  const std::string kind = kind_name(linear.curve->experiment.kind);
+/// @param number  of the curve
+Factors factors_for(const LinearCurve& linear, std::size_t number, const LinearSystem& system,
+                    const Solution& solution) {
+  const auto kind = static_cast<std::size_t>(linear.curve->experiment.kind);
   Factors factors;
   for (std::size_t i = 0; i < system.components.size(); ++i) {
+    const VarianceComponent& component = system.components[i];
     const double factor = std::exp(solution.log_factors[static_cast<Index>(i)]);
-    if (system.components[i].name == "form, " + kind) factors.form = factor;
-    if (system.components[i].name == "table, " + linear.curve->experiment.name) factors.table = factor;
+    if (component.deviation == Deviation::form && component.of == kind) factors.form = factor;
+    if (component.deviation == Deviation::table && component.of == number) factors.table = factor;
   }
   return factors;
 }
@@ -179,7 +182,7 @@ JointResult fit_jointly(SolidFit& fit, const std::vector<MeasuredCurve>& curves,
   }
   for (std::size_t c = 0; c < curves.size(); ++c) {
     const LinearCurve& linear = problem->curves()[c];
-    if (all[c]) result.curves.push_back(curve_result(linear, factors_for(linear, system, solution)));
+    if (all[c]) result.curves.push_back(curve_result(linear, factors_for(linear, c, system, solution)));
   }
 
   const VectorXd potential = solution.log_factors.head(static_cast<Index>(problem->potential_components()));
@@ -187,7 +190,7 @@ JointResult fit_jointly(SolidFit& fit, const std::vector<MeasuredCurve>& curves,
     const CurveModel model(material_constants(problem->constants_at(partial.estimate.parameters), density));
     const LinearCurve& linear = problem->curves()[c];
     result.coverage.push_back(predict(linear, model, partial.estimate.covariance.topLeftCorner(count, count),
-                                      factors_for(linear, rest, partial)));
+                                      factors_for(linear, c, rest, partial)));
     result.coverage.back().left_out = all[c];
   };
   for (std::size_t c = 0; c < curves.size(); ++c) {

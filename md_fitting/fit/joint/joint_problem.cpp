@@ -5,7 +5,6 @@
 #include <numeric>
 #include <optional>
 #include <set>
-#include <string_view>
 
 #include "md_fitting/fit/discrepancy.hpp"
 #include "md_fitting/fit/joint/potential_errors.hpp"
@@ -20,7 +19,6 @@ using Eigen::VectorXd;
 using eos::experiments::Experiment;
 using eos::experiments::ExperimentKind;
 
-constexpr std::string_view form_word = "form, ";
 constexpr double quadratic_width = 3.0;  // of S2: 0.3, as wide as the values of metals scatter
 constexpr double widest = 10.0;          // standard deviation of a parameter that no datum determines
 constexpr double form_spread = 0.7;      // of ln f: a factor of two either way
@@ -48,7 +46,8 @@ void set_form(LinearCurve& linear, double bulk_modulus) {
 /// @param begin  first row of each curve; none: it takes no part
 void add_form(const std::vector<LinearCurve>& curves, const std::vector<std::optional<Index>>& begin,
               ExperimentKind kind, LinearSystem& system) {
-  VarianceComponent form{std::string(form_word) + kind_name(kind), {}, {}, form_spread};
+  VarianceComponent form{
+      "form, " + kind_name(kind), Deviation::form, static_cast<std::size_t>(kind), {}, {}, form_spread};
   std::vector<double> size, place;
   for (std::size_t c = 0; c < curves.size(); ++c) {
     if (!begin[c] || curves[c].curve->experiment.kind != kind) continue;
@@ -71,9 +70,10 @@ void add_form(const std::vector<LinearCurve>& curves, const std::vector<std::opt
 }
 
 /// Appends the common error of all points of a table: its scale.
-void add_scale(const LinearCurve& curve, Index begin, LinearSystem& system) {
+void add_scale(const LinearCurve& curve, std::size_t number, Index begin, LinearSystem& system) {
   VectorXd size(curve.size.size());
-  VarianceComponent scale{"table, " + curve.curve->experiment.name, {}, {}, form_spread};
+  VarianceComponent scale{
+      "table, " + curve.curve->experiment.name, Deviation::table, number, {}, {}, form_spread};
   for (Index row = 0; row < size.size(); ++row) {
     scale.rows.push_back(begin + row);
     size[row] = form_of(curve.curve->experiment.kind).of_table * curve.ordinate(row);
@@ -101,7 +101,7 @@ void make_orthogonal(Index first, const VectorXd& size, const VectorXd& points, 
   std::vector<Index> rows(static_cast<std::size_t>(count));
   std::iota(rows.begin(), rows.end(), first);
   for (VarianceComponent& component : system.components) {
-    if (!component.name.starts_with(form_word)) continue;
+    if (component.deviation != Deviation::form) continue;
     MatrixXd columns(count, static_cast<Index>(component.rows.size()));
     for (std::size_t k = 0; k < component.rows.size(); ++k)
       columns.col(static_cast<Index>(k)) = rest.col(component.rows[k] - first);
@@ -229,7 +229,7 @@ LinearSystem JointProblem::system(const std::vector<bool>& takes_part) const {
   }
   for (const ExperimentKind kind : kinds) add_form(curves_, begin, kind, system);
   for (std::size_t c = 0; c < curves_.size(); ++c) {
-    if (begin[c]) add_scale(curves_[c], *begin[c], system);
+    if (begin[c]) add_scale(curves_[c], c, *begin[c], system);
   }
   VectorXd size(row - simulated), points(row - simulated);
   for (std::size_t c = 0; c < curves_.size(); ++c) {

@@ -32,7 +32,8 @@ struct Along {
         covariance(i, k) = size[a] * size[b] * matern(place[a] - place[b], length);
       }
     }
-    components.push_back({std::string("potential, ") + name, rows, std::move(covariance), spread});
+    components.push_back(
+        {std::string("potential, ") + name, Deviation::potential, 0, rows, std::move(covariance), spread});
   }
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -9,9 +10,18 @@
 /// section 9).
 namespace whipple::fit {
 
+/// Names what deviates.
+enum class Deviation {
+  potential,  ///< the simulations from the metal
+  form,       ///< the metal from the form of the model, along all curves of a kind
+  table       ///< the scale of one table
+};
+
 /// Describes a random deviation with mean zero of some rows: f^2 times a stated covariance, f being estimated.
 struct VarianceComponent {
   std::string name;
+  Deviation deviation = Deviation::potential;
+  std::size_t of = 0;              ///< a form: the number of its kind of curve; a table: that of its curve
   std::vector<Eigen::Index> rows;  ///< of the system
   Eigen::MatrixXd covariance;      ///< of these rows at f = 1
   /// Standard deviation of ln f before the data are known; f = 1 is the most probable.
