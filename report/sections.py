@@ -15,7 +15,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from report import analysis as measures
-from report import curves, expected, explosives, gauges, pictures, planar, sensitivity, style, units
+from report import curves, expected, explosives, fits, gauges, pictures, planar, sensitivity, style, units
 from report.analysis import AXES
 from report.case_text import describe_discretization, describe_shape, describe_value
 from report.files import encoded, write_whole
@@ -57,6 +57,7 @@ class Report:
         self._summary()
         self.metrics["expected"] = expected.add_to(self.page, self.run, self._add_figure)
         self._input()
+        fits.add_to(self.page, self.run)
         self._given_figures(figures)
         self._cloud()
         self._view(view)

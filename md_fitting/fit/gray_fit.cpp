@@ -163,8 +163,12 @@ BootstrapResult bootstrap_gray(std::span<const md::PointRecord> points, const So
   return bootstrap(points, settings.bootstrap, seed, constants);
 }
 
-/// Moves a fit of simulations to one of simulations and measured curves.
-JointResult add_measurements(SolidFit& fit, const ElementDefaults& table, FitSettings& settings) {
+/// Reads the measured curves of a fit, and takes the density of the metal from them if the settings give none.
+std::vector<MeasuredCurve> measured_curves(std::span<const md::PointRecord> points, FitSettings& settings,
+                                           const std::string& store_name) {
+  if (settings.measured.empty()) return {};
+  const ElementDefaults table =
+      elements::element_defaults(observe(points, settings, {}, store_name).element, settings.defaults);
   const NamedDefault* debye = table.find("debye_temperature");
   const auto read = [&](const std::vector<std::filesystem::path>& files) {
     return read_curves(files, table.metal, debye ? std::optional(debye->value) : std::nullopt);
@@ -180,7 +184,7 @@ JointResult add_measurements(SolidFit& fit, const ElementDefaults& table, FitSet
     curve.fitted = false;
     curves.push_back(std::move(curve));
   }
-  return fit_jointly(fit, curves, *settings.density);
+  return curves;
 }
 
 /// Replaces the fitted volume by a measured density.
@@ -207,8 +211,9 @@ void replace_volume(GrayFit& fit, double density, Sources& sources) {
   fit.fitted_names.erase(fit.fitted_names.begin());
 }
 
-GrayFit fit_with_join(std::span<const md::PointRecord> points, FitSettings settings,
-                      const std::string& store_name, double join_step) {
+GrayFit fit_with_join(std::span<const md::PointRecord> points, const FitSettings& settings,
+                      const std::vector<MeasuredCurve>& curves, const std::string& store_name,
+                      double join_step) {
   Observations data = observe(points, settings, {}, store_name);
   Sources sources;
   const ElementDefaults table = elements::element_defaults(data.element, settings.defaults);
@@ -218,10 +223,9 @@ GrayFit fit_with_join(std::span<const md::PointRecord> points, FitSettings setti
   fit.solid = fit_solid(std::move(data), model, fixed, settings, store_name);
   SolidFit& solid = fit.solid;
   std::optional<JointResult> joint;
-  if (!settings.measured.empty()) joint = add_measurements(solid, table, settings);
+  if (!curves.empty()) joint = fit_jointly(solid, curves, settings.density.value());
   static_cast<Fit&>(fit) = solid.report;
   fit.joint = std::move(joint);
-  fit.settings.density = settings.density;
   fit.model = FitModel::gray;
   fit.gray = solid.constants.gray;
   for (const Place place : solid.model.free) fit.fitted_names.emplace_back(name_of(place));
@@ -251,11 +255,13 @@ GrayFit fit_with_join(std::span<const md::PointRecord> points, FitSettings setti
 
 GrayFit fit_gray(std::span<const md::PointRecord> points, const FitSettings& settings,
                  const std::string& store_name) {
+  FitSettings complete = settings;
+  const std::vector<MeasuredCurve> curves = measured_curves(points, complete, store_name);
   std::exception_ptr first;
   std::string reason;
   for (const double step : join_steps) {
     try {
-      GrayFit fit = fit_with_join(points, settings, store_name, step);
+      GrayFit fit = fit_with_join(points, complete, curves, store_name, step);
       if (step != 0.0) {
         fit.remarks.push_back(fmt::format("V_J/V0 {} by {:.2f} from the element's default, with which: {}",
                                           step > 0.0 ? "raised" : "lowered", std::abs(step), reason));

@@ -30,6 +30,7 @@
 #include "src/core/base/text_table.hpp"
 #include "src/core/process/paths.hpp"
 #include "src/core/process/scripts.hpp"
+#include "src/material/material_coverage.hpp"
 #include "src/material/material_file.hpp"
 
 namespace whipple::app {
@@ -161,6 +162,21 @@ void print_table(const std::vector<Row>& rows) {
                                row.label, 100 * same_density));
     note(c.out_of_range, fmt::format("not counted: outside of the range of {}", row.label));
   }
+}
+
+/// Prints how well the fit of each material predicted the curves that it did not see.
+void print_coverage(const std::vector<Material>& materials) {
+  std::vector<std::vector<std::string>> cells = {{"material", "curve that its fit did not see", "points",
+                                                  "within 68 %", "95 %", "half-width of 95 %", "rms"}};
+  for (const Material& material : materials) {
+    for (const Coverage& row : coverage_of(material)) {
+      cells.push_back(
+          {material.file.stem().string(), row.curve, fmt::format("{}", row.points),
+           fmt::format("{:.0f} %", 100 * row.inside_68), fmt::format("{:.0f} %", 100 * row.inside_95),
+           fmt::format("{:.2f} %", 100 * row.half_width_with_form), fmt::format("{:.2f} %", 100 * row.rms)});
+    }
+  }
+  if (cells.size() > 1) fmt::print("\n{}", text_table(cells, "llr"));
 }
 
 std::string csv_text(const std::vector<Row>& rows) {
@@ -322,7 +338,10 @@ void run(const CompareOptions& options) {
   }
   if (rows.empty()) throw InputError("none of the data is of one of the materials");
   const bool csv_alone = is_standard_output(options.csv);
-  if (!csv_alone) print_table(rows);
+  if (!csv_alone) {
+    print_table(rows);
+    print_coverage(materials);
+  }
   write_output(options.csv, csv_text(rows));
   DrawnMaterials drawn;
   if (options.calibration.samples > 0) {
