@@ -35,6 +35,7 @@ WHIPPLE_KERNEL void hold_below_greatest_density(const Step& step, Chunk& chunk) 
     chunk.volume_change[k] += least - chunk.volume[k];
     chunk.volume[k] = least;
     ++chunk.report.squeezed;
+    chunk.report.squeezed_mass += chunk.mass[k];
     chunk.report.first_squeezed = std::min(chunk.report.first_squeezed, chunk.index[k]);
   }
 }
@@ -56,6 +57,7 @@ WHIPPLE_KERNEL void advance_volume(const Step& step, Chunk& chunk) {
     chunk.volume[k] = chunk.old_volume[k] * limited[k];
   }
   chunk.report.points += chunk.size;
+  for (std::size_t k = 0; k < chunk.size; ++k) chunk.report.mass += chunk.mass[k];
   chunk.report.limited_volume_changes += beyond;
   chunk.report.limited_densities += thinnest;
   if (chunk.any_void) {

@@ -64,7 +64,9 @@ void MaterialReport::merge(const MaterialReport& other) {
   limited_volume_changes += other.limited_volume_changes;
   limited_densities += other.limited_densities;
   points += other.points;
+  mass += other.mass;
   squeezed += other.squeezed;
+  squeezed_mass += other.squeezed_mass;
   first_squeezed = std::min(first_squeezed, other.first_squeezed);
   limited_void_steps += other.limited_void_steps;
   limited_bulking += other.limited_bulking;

@@ -57,7 +57,9 @@ struct MaterialReport {
   std::size_t limited_volume_changes = 0;
   std::size_t limited_densities = 0;  ///< steps that would have expanded material below its minimum density
   std::size_t points = 0;             ///< points updated
+  double mass = 0.0;                  ///< of the points updated, kg
   std::size_t squeezed = 0;           ///< points limited to the maximum density of the equation of state
+  double squeezed_mass = 0.0;         ///< their mass, kg
   std::size_t first_squeezed = none;  ///< index of the first one
   /// Steps in which material next to a void changed by the maximum allowed.
   std::size_t limited_void_steps = 0;
@@ -70,15 +72,15 @@ struct MaterialReport {
   std::array<std::size_t, failure::code_count> failed{};  ///< points that failed in this step, by code
 
   /// Returns whether the material of a body, not only single points of it, is denser than its equation of state allows,
-  /// from the points on all ranks. Below one point in a thousand, single points are compressed by nodes that hardly any
-  /// other point reaches: at the edge of a contact, or in rings that converge on the axis.
-  static constexpr bool is_too_dense(std::size_t squeezed, std::size_t points) {
-    return squeezed > points / 1000;
+  /// from the masses on all ranks. Below a thousandth of the mass, single points are compressed by nodes that hardly any
+  /// other point reaches: at the edge of a contact, in rings that converge on the axis, grains of a spray.
+  static constexpr bool is_too_dense(double squeezed_mass, double mass) {
+    return squeezed_mass > 1e-3 * mass;
   }
   /// Returns whether no event ends a run: `undefined` and `equation_of_state.out_of_range` are 0, and the material is
   /// not too dense if these points are all points of the body.
   [[nodiscard]] bool valid() const {
-    return undefined == 0 && equation_of_state.out_of_range == 0 && !is_too_dense(squeezed, points);
+    return undefined == 0 && equation_of_state.out_of_range == 0 && !is_too_dense(squeezed_mass, mass);
   }
   void merge(const MaterialReport& other);
 };

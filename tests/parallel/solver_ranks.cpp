@@ -449,14 +449,16 @@ TEST_F(SolverRanks, AnErrorNamesTheFastestParticleOfAllRanks) {
   }
 }
 
-// Whether points at the end of their equation of state are single ones is decided by the number on all ranks: 600 of a
-// body on each of two ranks are more than a thousand.
+// Whether points at the end of their equation of state are single ones is decided by the mass on all ranks: 600 points
+// of a body on each of two ranks are more than a thousand.
 TEST_F(SolverRanks, CountPointsAtTheEndOfTheEquationOfStateTogether) {
   const cases::Case setup = read();
   const auto fault_of = [&](std::size_t on_root, std::size_t elsewhere) {
     MaterialReport report;
     report.points = 600;
+    report.mass = 600.0;
     report.squeezed = is_root() ? on_root : elsewhere;
+    report.squeezed_mass = static_cast<double>(report.squeezed);
     report.first_squeezed = 7;
     SqueezedPoints squeezed(setup.bodies.size());
     squeezed.add(1, report, [](std::size_t p, const std::string& why) { return std::to_string(p) + why; });

@@ -73,8 +73,10 @@ std::string book(State& state, const MaterialReport& report, const Material& mat
 }
 
 void SqueezedPoints::add(std::size_t body, const MaterialReport& report, const DescribePoint& describe) {
-  counts_[2 * body] += static_cast<double>(report.squeezed);
-  counts_[2 * body + 1] += static_cast<double>(report.points);
+  counts_[4 * body] += static_cast<double>(report.squeezed);
+  counts_[4 * body + 1] += static_cast<double>(report.points);
+  counts_[4 * body + 2] += report.squeezed_mass;
+  counts_[4 * body + 3] += report.mass;
   if (report.squeezed == 0 || first_[body]) return;
   first_[body] = [describe, point = report.first_squeezed](const std::string& reason) {
     return describe(point, reason);
@@ -85,11 +87,8 @@ std::string SqueezedPoints::fault(MPI_Comm communicator,
                                   std::span<const std::shared_ptr<const Material>> materials) {
   parallel::sum(communicator, counts_);
   for (std::size_t b = 0; b < first_.size(); ++b) {
-    const double squeezed = counts_[2 * b], points = counts_[2 * b + 1];
-    if (!first_[b] ||
-        !MaterialReport::is_too_dense(static_cast<std::size_t>(squeezed), static_cast<std::size_t>(points))) {
-      continue;
-    }
+    const double squeezed = counts_[4 * b], points = counts_[4 * b + 1];
+    if (!first_[b] || !MaterialReport::is_too_dense(counts_[4 * b + 2], counts_[4 * b + 3])) continue;
     const Material& material = *materials[b];
     const std::string products =
         material.burns()

@@ -38,14 +38,14 @@ std::string book(State& state, const MaterialReport& report, const Material& mat
 /// substantial part of the material is decided over all ranks, so that a run does not depend on their number.
 class SqueezedPoints {
  public:
-  explicit SqueezedPoints(std::size_t bodies) : counts_(2 * bodies), first_(bodies) {}
+  explicit SqueezedPoints(std::size_t bodies) : counts_(4 * bodies), first_(bodies) {}
   void add(std::size_t body, const MaterialReport& report, const DescribePoint& describe);
   /// Returns an error that ends the run, about a point of this rank, or nothing. Collective.
   [[nodiscard]] std::string fault(MPI_Comm communicator,
                                   std::span<const std::shared_ptr<const Material>> materials);
 
  private:
-  std::vector<double> counts_;  // of each body: number of such points, and of all points
+  std::vector<double> counts_;  // of each body: number and mass of such points, and of all points
   // Describe the first such point of each body
   std::vector<std::function<std::string(const std::string& reason)>> first_;
 };
