@@ -101,6 +101,11 @@ if(WHIPPLE_PYTHON AND NOT WHIPPLE_SANITIZE)
 PYTHONPATH=${PROJECT_BINARY_DIR}/python;WHIPPLE_PROGRAM=$<TARGET_FILE:whipple>"
       ENVIRONMENT_MODIFICATION "PATH=path_list_prepend:${PROJECT_BINARY_DIR}/bin")
   endforeach()
+  # It builds a copy of the sources.
+  add_test(NAME tutorial_own_law COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/tutorial.py
+           ${PROJECT_SOURCE_DIR}/docs/tutorials/own_law.md ${CMAKE_CURRENT_BINARY_DIR}/tutorials/own_law --within 3000)
+  set_tests_properties(tutorial_own_law PROPERTIES LABELS long TIMEOUT 3600 ENVIRONMENT "${mpi_environment};\
+SOURCES=${PROJECT_SOURCE_DIR}")
   add_test(NAME tutorial_pages COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/tutorial_pages.py
            ${CMAKE_CURRENT_BINARY_DIR}/tutorial_pages)
   set_tests_properties(tutorial_pages PROPERTIES LABELS fast TIMEOUT 120)

@@ -172,7 +172,7 @@ TEST(JointFit, ErrorsAreThoseOfItsConstants) {
   // below 1 (the forms of the curves are exact here, and the stated sizes of their deviations are not zero).
   const eos::GrayConstants metal = true_constants();
   double sum = 0.0, squares = 0.0;
-  constexpr unsigned realisations = 4;
+  constexpr unsigned realisations = 3;
   for (unsigned seed = 0; seed < realisations; ++seed) {
     SolidFit fit = simulated_fit(metal, 10 + seed, false);
     const std::vector<MeasuredCurve> curves = {measured(metal, ExperimentKind::shock_velocity, "shocks",

@@ -125,90 +125,81 @@ VectorXd values_of(const SolidModel& model, const SolidConstants& constants) {
   return values;
 }
 
-}  // namespace
+/// Holds a fit at its constants: the linearised problem, the system of the curves that take part, its solution.
+struct Settled {
+  SolidConstants constants;
+  std::optional<JointProblem> problem;
+  LinearSystem system;
+  Solution solution;
 
-JointResult fit_jointly(SolidFit& fit, const std::vector<MeasuredCurve>& curves, double density) {
+  /// Returns ln f of the deviations of the potential, where fits of fewer curves begin.
+  [[nodiscard]] VectorXd potential() const {
+    return solution.log_factors.head(static_cast<Index>(problem->potential_components()));
+  }
+};
+
+/// Linearises and solves until the constants change by a small part of their errors.
+/// @throws StateError if they do not settle
+Settled settle(const SolidFit& fit, const std::vector<MeasuredCurve>& curves, double density,
+               const std::vector<bool>& takes_part) {
   constexpr int most_passes = 25;
   constexpr double settled = 0.01;      // of the error of a constant
   constexpr double longest_step = 0.2;  // of the logarithm of a constant
-  const bool melts = std::ranges::any_of(curves, [](const MeasuredCurve& curve) {
-    return curve.fitted && curve.experiment.kind == eos::experiments::ExperimentKind::melting;
-  });
-  if (melts && !fit.model.fits(Place::melting)) fit.model.free.push_back(Place::melting);
-  fit.model.free.push_back(Place::quadratic);
-
-  std::vector<bool> all;
-  for (const MeasuredCurve& curve : curves) all.push_back(curve.fitted);
-  const auto fitted = std::ranges::count(all, true);
-  SolidConstants constants = fit.constants;
-  Solution solution;
-  std::optional<JointProblem> problem;
-  LinearSystem system;
-  bool done = false;
-  for (int pass = 0; pass < most_passes && !done; ++pass) {
-    problem.emplace(fit, constants, curves, density);
-    system = problem->system(all);
-    solution = solve(system, solution.log_factors);
-    VectorXd step = solution.estimate.parameters;
-    const VectorXd of_constants = step.head(problem->constants());
-    const VectorXd errors = solution.estimate.covariance.diagonal().head(problem->constants()).cwiseSqrt();
-    done = of_constants.cwiseQuotient(errors).lpNorm<Eigen::Infinity>() < settled;
-    if (done) break;
-    step *= std::min(1.0, longest_step / of_constants.lpNorm<Eigen::Infinity>());
-    constants = problem->constants_at(step);
+  Settled at{fit.constants, {}, {}, {}};
+  for (int pass = 0; pass < most_passes; ++pass) {
+    at.problem.emplace(fit, at.constants, curves, density);
+    at.system = at.problem->system(takes_part);
+    at.solution = solve(at.system, at.solution.log_factors);
+    const Index count = at.problem->constants();
+    VectorXd step = at.solution.estimate.parameters;
+    const VectorXd errors = at.solution.estimate.covariance.diagonal().head(count).cwiseSqrt();
+    if (step.head(count).cwiseQuotient(errors).lpNorm<Eigen::Infinity>() < settled) return at;
+    step *= std::min(1.0, longest_step / step.head(count).lpNorm<Eigen::Infinity>());
+    at.constants = at.problem->constants_at(step);
   }
-  if (!done) throw StateError("the joint fit does not settle");
+  throw StateError("the joint fit does not settle");
+}
 
-  const auto count = problem->constants();
-  const VectorXd at_rest = VectorXd::Zero(system.jacobian.cols());
-  const VectorXd scale = problem->scale(at_rest);
-  const auto in_units = [&](const MatrixXd& covariance) {
-    return MatrixXd(scale.asDiagonal() * covariance.topLeftCorner(count, count) * scale.asDiagonal());
-  };
-  fit.constants = constants;
-  fit.covariance = in_units(solution.estimate.covariance);
-  fit.statistical_covariance = in_units(solution.estimate.statistical_covariance);
-
-  JointResult result;
-  for (const Place place : fit.model.free) result.names.emplace_back(name_of(place));
-  result.values = values_of(fit.model, constants);
-  result.errors = fit.covariance.diagonal().cwiseSqrt();
-  result.chi_squared = solution.estimate.chi_squared;
-  result.degrees_of_freedom = static_cast<int>(system.residuals.size() - count -
-                                               system.jacobian.cols());  // less the rows of the constants
-  for (std::size_t i = 0; i < system.components.size(); ++i) {
-    result.sizes.push_back(
-        {system.components[i].name, std::exp(solution.log_factors[static_cast<Index>(i)])});
-  }
-  for (std::size_t c = 0; c < curves.size(); ++c) {
-    const LinearCurve& linear = problem->curves()[c];
-    if (all[c]) result.curves.push_back(curve_result(linear, factors_for(linear, c, system, solution)));
-  }
-
-  const VectorXd potential = solution.log_factors.head(static_cast<Index>(problem->potential_components()));
-  const auto add_prediction = [&](std::size_t c, const LinearSystem& rest, const Solution& partial) {
-    const CurveModel model(material_constants(problem->constants_at(partial.estimate.parameters), density));
-    const LinearCurve& linear = problem->curves()[c];
-    result.coverage.push_back(predict(linear, model, partial.estimate.covariance.topLeftCorner(count, count),
-                                      factors_for(linear, c, rest, partial)));
-    result.coverage.back().left_out = all[c];
-  };
-  for (std::size_t c = 0; c < curves.size(); ++c) {
-    if (!all[c]) {
-      add_prediction(c, system, solution);
-    } else if (fitted > 1) {
-      std::vector<bool> others = all;
-      others[c] = false;
-      const LinearSystem rest = problem->system(others);
-      add_prediction(c, rest, solve(rest, potential));
+/// Predicts each fitted curve by a fit without it, and the others by the fit itself.
+void add_predictions(const Settled& at, const std::vector<bool>& fitted, double density,
+                     JointResult& result) {
+  const Index count = at.problem->constants();
+  const auto prediction = [&](std::size_t c, const LinearSystem& system, const Solution& solution) {
+    const LinearCurve& linear = at.problem->curves()[c];
+    const MatrixXd covariance = solution.estimate.covariance.topLeftCorner(count, count);
+    try {
+      const CurveModel model(
+          material_constants(at.problem->constants_at(solution.estimate.parameters), density));
+      return predict(linear, model, covariance, factors_for(linear, c, system, solution));
+    } catch (const InputError&) {  // the rest of the data leaves constants that make no material
+      return CurveCoverage{.name = linear.curve->experiment.name,
+                           .kind = kind_name(linear.curve->experiment.kind)};
     }
+  };
+  const auto number = std::ranges::count(fitted, true);
+  for (std::size_t c = 0; c < fitted.size(); ++c) {
+    if (fitted[c] && number == 1) continue;
+    if (fitted[c]) {
+      std::vector<bool> others = fitted;
+      others[c] = false;
+      const LinearSystem rest = at.problem->system(others);
+      result.coverage.push_back(prediction(c, rest, solve(rest, at.potential())));
+    } else {
+      result.coverage.push_back(prediction(c, at.system, at.solution));
+    }
+    result.coverage.back().left_out = fitted[c];
   }
-  const auto add_without = [&](const std::string& kind, const std::vector<bool>& takes_part) {
-    const Solution partial = solve(problem->system(takes_part), potential);
-    const VectorXd slope = problem->scale(partial.estimate.parameters);
-    const VectorXd errors = partial.estimate.covariance.diagonal().head(count).cwiseSqrt();
-    result.without.push_back({kind, values_of(fit.model, problem->constants_at(partial.estimate.parameters)),
-                              slope.cwiseProduct(errors)});
+}
+
+/// Lists the constants without each kind of curve, and without any.
+void add_without(const Settled& at, const std::vector<MeasuredCurve>& curves, const SolidModel& model,
+                 JointResult& result) {
+  const auto add = [&](const std::string& kind, const std::vector<bool>& takes_part) {
+    const Solution partial = solve(at.problem->system(takes_part), at.potential());
+    const VectorXd& parameters = partial.estimate.parameters;
+    const VectorXd errors = partial.estimate.covariance.diagonal().head(at.problem->constants()).cwiseSqrt();
+    result.without.push_back({kind, values_of(model, at.problem->constants_at(parameters)),
+                              at.problem->scale(parameters).cwiseProduct(errors)});
   };
   std::set<eos::experiments::ExperimentKind> kinds;
   for (const MeasuredCurve& curve : curves) {
@@ -218,9 +209,50 @@ JointResult fit_jointly(SolidFit& fit, const std::vector<MeasuredCurve>& curves,
     if (kinds.size() == 1) break;  // the row of all measurements
     std::vector<bool> others;
     for (const MeasuredCurve& curve : curves) others.push_back(curve.fitted && curve.experiment.kind != kind);
-    add_without(kind_name(kind), others);
+    add(kind_name(kind), others);
   }
-  add_without("all measurements", std::vector<bool>(curves.size(), false));
+  add("all measurements", std::vector<bool>(curves.size(), false));
+}
+
+}  // namespace
+
+JointResult fit_jointly(SolidFit& fit, const std::vector<MeasuredCurve>& curves, double density) {
+  const bool melts = std::ranges::any_of(curves, [](const MeasuredCurve& curve) {
+    return curve.fitted && curve.experiment.kind == eos::experiments::ExperimentKind::melting;
+  });
+  if (melts && !fit.model.fits(Place::melting)) fit.model.free.push_back(Place::melting);
+  fit.model.free.push_back(Place::quadratic);
+  std::vector<bool> fitted;
+  for (const MeasuredCurve& curve : curves) fitted.push_back(curve.fitted);
+
+  const Settled at = settle(fit, curves, density, fitted);
+  const Index count = at.problem->constants();
+  const VectorXd scale = at.problem->scale(VectorXd::Zero(at.system.jacobian.cols()));
+  const auto in_units = [&](const MatrixXd& covariance) {
+    return MatrixXd(scale.asDiagonal() * covariance.topLeftCorner(count, count) * scale.asDiagonal());
+  };
+  fit.constants = at.constants;
+  fit.covariance = in_units(at.solution.estimate.covariance);
+  fit.statistical_covariance = in_units(at.solution.estimate.statistical_covariance);
+
+  JointResult result;
+  for (const Place place : fit.model.free) result.names.emplace_back(name_of(place));
+  result.values = values_of(fit.model, at.constants);
+  result.errors = fit.covariance.diagonal().cwiseSqrt();
+  result.chi_squared = at.solution.estimate.chi_squared;
+  const Index data = at.system.residuals.size() - count;  // less the rows of the constants
+  result.degrees_of_freedom = static_cast<int>(data - at.system.jacobian.cols());
+  for (std::size_t i = 0; i < at.system.components.size(); ++i) {
+    result.sizes.push_back(
+        {at.system.components[i].name, std::exp(at.solution.log_factors[static_cast<Index>(i)])});
+  }
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    const LinearCurve& linear = at.problem->curves()[c];
+    if (fitted[c])
+      result.curves.push_back(curve_result(linear, factors_for(linear, c, at.system, at.solution)));
+  }
+  add_predictions(at, fitted, density, result);
+  add_without(at, curves, fit.model, result);
   return result;
 }
 
