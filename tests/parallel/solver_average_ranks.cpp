@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using verification::Method;
 
-constexpr double end = 0.15e-6;  // s
+constexpr double end = 0.1e-6;  // s
 
 /// Returns two blocks that collide while they fly across the blocks of the ranks.
 cases::Case collision(const Method& method, const char* dimension) {
