@@ -39,7 +39,7 @@ whipple_test(test_solids SOURCES unit/case_surface_test.cpp unit/case_solids_tes
 
 # Distributed: against one rank, restart on another number of ranks, errors and killed ranks.
 add_executable(test_solver_ranks parallel/solver_ranks.cpp parallel/solver_wall_ranks.cpp parallel/sweep_ranks.cpp parallel/solver_element_ranks.cpp
-               parallel/solver_burn_ranks.cpp)
+               parallel/solver_burn_ranks.cpp parallel/solver_average_ranks.cpp)
 target_link_libraries(test_solver_ranks PRIVATE whipple_run whipple_analysis GTest::gtest)
 whipple_test_flags(test_solver_ranks)
 target_compile_definitions(test_solver_ranks PRIVATE WHIPPLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")

@@ -93,20 +93,38 @@ void move_particles(Stages& s) {
   });
 }
 
+/// Calls gather(stretch), then strain(stretch), for all stretches of a sweep. Where volume rates are averaged over
+/// particles of several ranks, (4.13), the border is gathered as a whole before its material is strained.
+template <class Gather, class Strain>
+void gather_and_strain(Stages& s, Sweep& sweep, Gather&& gather, Strain&& strain) {
+  const auto both = [&](const Stretch& stretch) {
+    gather(stretch);
+    strain(stretch);
+  };
+  sweep.for_each_stretch(Region::interior, both);
+  s.transfers.receive();
+  if (!s.transfers.averages_over_ranks()) return sweep.for_each_stretch(Region::border, both);
+  sweep.keep_border();
+  sweep.for_each_stretch(Region::border, gather);
+  s.transfers.sum_volume_rates(sweep);
+  sweep.for_each_stretch(Region::border, strain);
+}
+
 /// Strains the material by the gradients of v on the nodes, (5.4), (5.6).
 void strain_particles(Stages& s) {
   constexpr std::string_view stage = "velocity gradient";
   s.state.profile.time(stage, [&] {
-    Sweep sweep(s.state.grid);
+    Sweep sweep = s.transfers.sweep();
     s.material.begin(Energy::by_constitutive_model, sweep.stretches());
-    for (const Region region : {Region::interior, Region::border}) {
-      if (region == Region::border) s.transfers.receive();
-      sweep.for_each_stretch(region, [&](const Stretch& stretch) {
-        s.transfers.gradient_to_particles(stretch);  // grad v
-        s.transfers.average_volume_rate(stretch);
-        s.material.update(stretch);  // stress, p, T, phase, e from grad v
-      });
-    }
+    gather_and_strain(
+        s, sweep,
+        [&](const Stretch& stretch) {
+          s.transfers.gradient_to_particles(stretch);  // grad v
+        },
+        [&](const Stretch& stretch) {
+          s.transfers.average_volume_rate(stretch);  // (4.13)
+          s.material.update(stretch);                // stress, p, T, phase, e from grad v
+        });
     s.material.end(stage);
   });
 }
@@ -144,15 +162,17 @@ void step_symplectic(Stages& s, double until) {
   advance_grid(s);  // (3.4)-(3.12) v^{n+1}
   constexpr std::string_view stage = "grid to particles";
   s.state.profile.time(stage, [&] {
-    Sweep sweep(s.state.grid);
+    Sweep sweep = s.transfers.sweep();
     s.material.begin(Energy::by_work_identity, sweep.stretches());
-    for (const Region region : {Region::interior, Region::border}) {
-      if (region == Region::border) s.transfers.receive();
-      sweep.for_each_stretch(region, [&](const Stretch& stretch) {
-        s.transfers.to_particles(stretch);  // (4.2)-(4.8) v, C, x, e at n+1, grad v^{n+1}
-        s.material.update(stretch);         // stress, p, T, phase from it
-      });
-    }
+    gather_and_strain(
+        s, sweep,
+        [&](const Stretch& stretch) {
+          s.transfers.to_particles(stretch);  // (4.2)-(4.8) v, C, x, e at n+1, grad v^{n+1}
+        },
+        [&](const Stretch& stretch) {
+          s.transfers.average_volume_rate_and_work(stretch);  // (4.13), (4.14)
+          s.material.update(stretch);                         // stress, p, T, phase from it
+        });
     s.transfers.account_for(sweep.balance());
     s.transfers.to_nodes();  // the same for nodes of elements
     s.transfers.fly();       // x of particles in free flight
@@ -189,16 +209,17 @@ void step_usl(Stages& s, double until) {
   advance_grid(s);  // (3.4), (5.9)
   constexpr std::string_view stage = "grid to particles";
   s.state.profile.time(stage, [&] {
-    Sweep sweep(s.state.grid);
+    Sweep sweep = s.transfers.sweep();
     s.material.begin(Energy::by_constitutive_model, sweep.stretches());
-    for (const Region region : {Region::interior, Region::border}) {
-      if (region == Region::border) s.transfers.receive();
-      sweep.for_each_stretch(region, [&](const Stretch& stretch) {
-        s.transfers.velocity_to_particles(stretch, Gradients::of_grid_velocity);  // (5.1)-(5.2) v, x at n+1
-        s.transfers.average_volume_rate(stretch);
-        s.material.update(stretch);  // (5.7) stress, e from grad v^{n+1}
-      });
-    }
+    gather_and_strain(
+        s, sweep,
+        [&](const Stretch& stretch) {
+          s.transfers.velocity_to_particles(stretch, Gradients::of_grid_velocity);  // (5.1)-(5.2) v, x at n+1
+        },
+        [&](const Stretch& stretch) {
+          s.transfers.average_volume_rate(stretch);  // (4.13)
+          s.material.update(stretch);                // (5.7) stress, e from grad v^{n+1}
+        });
     s.transfers.account_for(sweep.balance());
     s.transfers.fly();
     s.material.end(stage);
@@ -229,6 +250,7 @@ void bin_particles(Stages& s) {
     s.partition.bin_particles();
     s.activity.find();
     s.contact.separate_fields();
+    s.transfers.find_shared_cells();
     s.transfers.evaluate_loads();
   });
   s.fill.look();

@@ -52,6 +52,7 @@ struct TwoBodies {
   Particles particles = random_particles(3000, Vector3(-1.2, -0.3, 4), Vector3(8, 6.5, 11.8), 3);
   grid::BlockGrid grid{geometry(), parallel::world()};
   AveragedBodies averaged{{0, 1}};
+  SharedCells alone;  // no other rank
   std::vector<Matrix3> gradient;
   std::vector<double> rate;
 };
@@ -86,8 +87,9 @@ TEST(Averages, AreMeansByVolumeOverTheParticlesOfABodyInACell) {
     trace.push_back(two.gradient[p].trace());
   }
   const std::vector<Matrix3> before = two.gradient;
-  average_stress(q, two.grid, two.averaged, stress);
-  two.sweep([&](const Stretch& stretch) { average_volume_rate(q, two.grid, two.averaged, stretch); });
+  average_stress(q, two.grid, two.averaged, two.alone, stress);
+  two.sweep(
+      [&](const Stretch& stretch) { average_volume_rate(q, two.grid, two.averaged, two.alone, stretch); });
   const std::vector<double> exact_stress = means_by_cell(q, own), exact_trace = means_by_cell(q, trace);
   for (std::size_t p = 0; p < q.size(); ++p) {
     if (p < 1500) {
@@ -107,7 +109,7 @@ TEST(Averages, TheWorkOfOwnPressureOnMeanRatesIsThatOfMeanPressureOnOwnRates) {
   Particles& q = two.particles;
   constexpr double dt = 0.125;
   std::vector<double> stress(q.size());
-  average_stress(q, two.grid, two.averaged, stress);
+  average_stress(q, two.grid, two.averaged, two.alone, stress);
   double by_forces = 0.0, by_own = 0.0, energy = 0.0, scale = 0.0;
   const std::vector<double> before = q.specific_internal_energy;
   for (std::size_t p = 0; p < q.size(); ++p) {
@@ -116,8 +118,9 @@ TEST(Averages, TheWorkOfOwnPressureOnMeanRatesIsThatOfMeanPressureOnOwnRates) {
     by_own += own;
     scale += std::abs(own);
   }
-  const TransferBalance balance = two.sweep(
-      [&](const Stretch& stretch) { average_volume_rate_and_work(q, two.grid, two.averaged, stretch, dt); });
+  const TransferBalance balance = two.sweep([&](const Stretch& stretch) {
+    average_volume_rate_and_work(q, two.grid, two.averaged, two.alone, stretch, dt);
+  });
   for (std::size_t p = 0; p < q.size(); ++p)
     energy += q.mass[p] * (q.specific_internal_energy[p] - before[p]);
   EXPECT_GT(std::abs(by_forces - by_own), 1e-3 * scale);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bodies whose pressure and volume rate act as means over cells (docs/theory/mpm.md, 4.12 to 4.14): exact balances, and the
 // membrane of Cook against finite elements.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,34 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "tests/verification/solver_problems.hpp"
+#include "tests/verification/averaged_collision.hpp"
 
 namespace whipple::verification {
 namespace {
-
-cases::Case read(const std::string& text) { return cases::read_case_text(text, "averages.toml"); }
-
-/// Two blocks of aluminium that collide obliquely, in a section or in space.
-std::string collision(const Method& method, const std::string& dimension, const std::string& volumetric) {
-  const bool space = dimension == "3d";
-  const auto corner = [&](double x, double y) {
-    return space ? fmt::format("[{}, {}, {}]", x, y, y) : fmt::format("[{}, {}]", x, y);
-  };
-  // The transverse velocity would leave the axis of a section with an axis.
-  const double transverse = dimension == "axisymmetric" ? 0.0 : 50.0;
-  const auto body = [&](const char* name, double velocity, double lower, double upper) {
-    return fmt::format(
-        "[[body]]\nname = \"{}\"\nmaterial = \"{}\"\nvelocity = {}\nvolumetric = \"{}\"\n"
-        "shape = {{ box = {{ lower = {}, upper = {} }} }}\n",
-        name, aluminium("averaged_aluminium", "290 MPa"), corner(velocity, velocity > 0 ? transverse : 0.0),
-        volumetric, corner(lower, 0.0), corner(upper, 4.3e-4));
-  };
-  return method.time_toml(0.08e-6) + method.toml() +
-         "[output]\nmaximum_energy_error = 10.0\n[domain]\nlower = " +
-         (space ? corner(-2e-3, -1e-3) : "[-2e-3, 0]") + "\nupper = " + corner(2e-3, 1.5e-3) +
-         "\ncell_size = 1e-4\n" + (space ? "" : "dimension = \"" + dimension + "\"\n") +
-         body("left", 400.0, -6e-4, 0.0) + body("right", -400.0, 0.0, 6e-4);
-}
 
 TEST(Averages, KeepEnergyAndMomentumExactInEveryDimension) {
   for (const char* dimension : {"3d", "plane_strain", "axisymmetric"}) {
@@ -46,7 +21,7 @@ TEST(Averages, KeepEnergyAndMomentumExactInEveryDimension) {
       method.shape_function = function;
       std::array<double, 2> pressure{};
       for (const bool averaged : {false, true}) {
-        const cases::Case setup = read(collision(method, dimension, averaged ? "cell" : "point"));
+        const cases::Case setup = averaged_collision(method, dimension, averaged ? "cell" : "point");
         solver::Simulation simulation(setup, parallel::world());
         double energy = 0.0, momentum = 0.0;
         run_to(simulation, setup.time.end, [&](const solver::Simulation& s) {
@@ -69,7 +44,7 @@ TEST(Averages, SchemesWithoutExactEnergyAreAveragedToo) {
     method.scheme = scheme;
     std::array<double, 2> pressure{};
     for (const bool averaged : {false, true}) {
-      const cases::Case setup = read(collision(method, "plane_strain", averaged ? "cell" : "point"));
+      const cases::Case setup = averaged_collision(method, "plane_strain", averaged ? "cell" : "point");
       solver::Simulation simulation(setup, parallel::world());
       run_to(simulation, setup.time.end);
       EXPECT_LT(simulation.state().ledger.momentum_error(simulation.totals()), 1e-12) << scheme;

@@ -3,10 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
-#include "src/core/base/error.hpp"
-#include "src/core/parallel/mpi.hpp"
 #include "src/transfer/particles_to_grid.hpp"
 
 namespace whipple::solver {
@@ -45,7 +42,7 @@ static transfer::AveragedBodies averaged_bodies(const cases::Case& setup) {
   for (const cases::Body& body : setup.bodies) {
     is_averaged.push_back(body.volumetric == cases::Volumetric::cell ? 1 : 0);
   }
-  return transfer::AveragedBodies(std::move(is_averaged));
+  return transfer::AveragedBodies(is_averaged);
 }
 
 Transfers::Transfers(State& state, const Loads& loads, const Activity& activity)
@@ -54,11 +51,6 @@ Transfers::Transfers(State& state, const Loads& loads, const Activity& activity)
       activity_(activity),
       drive_(state.setup),
       averaged_(averaged_bodies(state.setup)) {
-  if (averaged_.any() && parallel::size(state_.communicator) > 1) {
-    throw InputError(
-        "body.volumetric = \"cell\" works on one rank: particles of a cell may be on two. Run without "
-        "mpirun, with threads");
-  }
   const cases::Dissipation& control = state_.setup.dissipation;
   for (std::size_t b = 0; b < state_.setup.bodies.size(); ++b) {
     const cases::ArtificialViscosity& viscosity = state_.setup.viscosity_of(b);
@@ -127,14 +119,31 @@ void Transfers::conduct_heat(const transfer::TouchAtNode& touch) {
   });
 }
 
+void Transfers::find_shared_cells() { shared_cells_.find(state_.particles, state_.grid, averaged_); }
+
 void Transfers::average_stress() {
   if (!averaged_.any()) return;
   mean_stress_.resize(state_.particles.size());
-  transfer::average_stress(state_.particles, state_.grid, averaged_, mean_stress_);
+  transfer::average_stress(state_.particles, state_.grid, averaged_, shared_cells_, mean_stress_);
+}
+
+void Transfers::sum_volume_rates(transfer::Sweep& sweep) {
+  shared_cells_.clear();
+  sweep.for_each_stretch(transfer::Region::border, [&](const transfer::Stretch& stretch) {
+    transfer::sum_volume_rate(state_.particles, state_.grid, averaged_, shared_cells_, stretch);
+  });
+  shared_cells_.add_ranks(state_.grid);
 }
 
 void Transfers::average_volume_rate(const transfer::Stretch& stretch) {
-  if (averaged_.any()) transfer::average_volume_rate(state_.particles, state_.grid, averaged_, stretch);
+  if (!averaged_.any()) return;
+  transfer::average_volume_rate(state_.particles, state_.grid, averaged_, shared_cells_, stretch);
+}
+
+void Transfers::average_volume_rate_and_work(const transfer::Stretch& stretch) {
+  if (!averaged_.any()) return;
+  transfer::average_volume_rate_and_work(state_.particles, state_.grid, averaged_, shared_cells_, stretch,
+                                         state_.run.time_step);
 }
 
 void Transfers::to_grid(transfer::Region region) {
@@ -185,9 +194,6 @@ void Transfers::to_particles(const transfer::Stretch& stretch) {
                                .losses = losses_,
                                .acceleration = acceleration_},
                               state_.particles, state_.grid, stretch);
-  if (!averaged_.any()) return;
-  transfer::average_volume_rate_and_work(state_.particles, state_.grid, averaged_, stretch,
-                                         state_.run.time_step);
 }
 
 void Transfers::velocity_to_particles(const transfer::Stretch& stretch, transfer::Gradients gradients) {

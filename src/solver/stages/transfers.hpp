@@ -12,6 +12,7 @@
 #include "src/transfer/averages.hpp"
 #include "src/transfer/conduction.hpp"
 #include "src/transfer/grid_to_particles.hpp"
+#include "src/transfer/shared_cells.hpp"
 #include "src/transfer/shock_conduction.hpp"
 #include "src/transfer/sweep.hpp"
 
@@ -36,7 +37,10 @@ class Transfers {
 
   /// Clears the nodes, before `to_grid`.
   void clear_grid() { state_.grid.clear(); }
-  /// Averages the stress of bodies with `volumetric = "cell"`, before `to_grid`.
+  /// Finds the cells whose particles several ranks have, of bodies with `volumetric = "cell"`. Call after binning.
+  /// Collective.
+  void find_shared_cells();
+  /// Averages the stress of these bodies, before `to_grid`. Collective.
   void average_stress();
   /// Adds mass, momentum and forces of the particles and nodes of elements of a region to the grid.
   void to_grid(transfer::Region region);
@@ -65,15 +69,24 @@ class Transfers {
   void receive();
 
   /// Updates velocity, affine field, energy and position of the particles of a stretch from the grid; stores their
-  /// velocity gradients in the stretch. Averages the volume rate as `average_volume_rate`, with its work.
+  /// velocity gradients in the stretch.
   void to_particles(const transfer::Stretch& stretch);
   /// Updates velocity and position of the particles of a stretch from the grid; stores the requested gradients in the
   /// stretch.
   void velocity_to_particles(const transfer::Stretch& stretch, transfer::Gradients gradients);
   /// Gathers the velocity gradients of the particles of a stretch.
   void gradient_to_particles(const transfer::Stretch& stretch);
-  /// Averages the volume rate of a stretch in these bodies, after its velocity gradients.
+  /// Returns all particles on the grid in stretches; those that the sums of `sum_volume_rates` await are of the border.
+  [[nodiscard]] transfer::Sweep sweep() { return transfer::Sweep(state_.grid, shared_cells_); }
+  /// Returns whether volume rates are averaged over particles of several ranks.
+  [[nodiscard]] bool averages_over_ranks() const { return averaged_.any() && state_.grid.is_shared(); }
+  /// Sums the volume rates of the border in the cells that ranks share, after its velocity gradients, which the sweep
+  /// must keep. Collective.
+  void sum_volume_rates(transfer::Sweep& sweep);
+  /// Averages the volume rate of a stretch in bodies with `volumetric = "cell"`, after its velocity gradients.
   void average_volume_rate(const transfer::Stretch& stretch);
+  /// Does the same after `to_particles`, with its work.
+  void average_volume_rate_and_work(const transfer::Stretch& stretch);
   /// Accumulates work and losses of a sweep, and stores the maximum change of a velocity.
   void account_for(const transfer::TransferBalance& balance);
   /// Updates velocity, affine field and position of the nodes of elements from the grid.
@@ -92,6 +105,7 @@ class Transfers {
   std::vector<transfer::ShockConductivity> shock_conductivity_;  // of each body
   std::vector<Vector3> acceleration_;  // of particles by loads in this step; empty if there are none
   transfer::AveragedBodies averaged_;
+  transfer::SharedCells shared_cells_;
   std::vector<double> mean_stress_;  // of particles in this step; empty if no body is averaged
 };
 
