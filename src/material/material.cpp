@@ -86,7 +86,7 @@ void require_parts_agree(const Material& material) {
     }
     if (brittle->dilates() && (material.eos->has_phases() || material.eos->initial_distension() > 1.0)) {
       throw InputError(
-          fmt::format("strength model \"{}\" with 'dilation_angle' takes an equation of state without "
+          fmt::format("strength model \"{}\" changes the volume: it takes an equation of state without "
                       "phases and pores",
                       with_past));
     }

@@ -36,7 +36,8 @@ struct BrittleState {
   std::span<double> bulking_pressure;        ///< pressure gained by bulking, Pa; out
   std::span<SymmetricTensor> deviator;  ///< trial deviator, Pa; in and out; empty unless the law turns it
   std::span<double> work;               ///< plastic work, J/m^3; out; with the deviator
-  std::span<const double> dilation;     ///< fraction of the dilation angle that `dilate` took; empty: none
+  std::span<const double> dilation;  ///< fraction of the dilation angle that `dilate` took; with the deviator
+  std::span<const double> distension;  ///< after `dilate`; empty unless the law changes the volume
 };
 
 /// Holds a chunk of points after the equation of state at the distension before the step (SI units).
@@ -49,8 +50,8 @@ struct DilationState {
   std::span<const double> trial;              ///< equivalent trial stress of the deviator, Pa
   std::span<const double> distension;         ///< before the step
   std::span<const SymmetricTensor> deviator;  ///< trial, Pa; empty unless the law turns it
-  std::span<double> dilation;                 ///< fraction of the dilation that is left, 0 to 1; out
-  std::span<double> growth;                   ///< of ln(distension); out
+  std::span<double> dilation;  ///< fraction of the dilation angle that is left; out; with the deviator
+  std::span<double> growth;    ///< of ln(distension); out
 };
 
 /// Interface of the part of a strength model that acts once the pressure of the step is known, with one virtual call
@@ -84,6 +85,7 @@ struct BrittlePoint {
   double damage = 0.0;
   double compaction = 0.0;
   double crush_pressure = std::numeric_limits<double>::infinity();
+  double distension = 1.0;  ///< of laws that change the volume
 };
 
 /// Describes a point that may dilate.
@@ -140,7 +142,7 @@ inline BrittleReturn brittle_return(double trial, double stiffness, const Brittl
 ///   least_pressure(point) -> double               Pa, <= 0, at point.damage
 ///   crushed_strain(point) -> double               strain that crushed pores add to the damage
 /// and optionally prepare() (computes once what its functions need), keeps_strength (soils: no strain damages them),
-/// growth(point) (of ln J_p by flow; of laws that derive from Dilatant), bulking (fraction of the lost shear energy that
+/// growth(point) (of ln J_p by flow, where changes_volume(); not beyond maximum_dilation), bulking (fraction of the lost shear energy that
 /// becomes pressure) or hardening(trial, stiffness, surface, point) -> BrittleReturn (strain hardening before any
 /// damage).
 template <class Law>
@@ -181,7 +183,7 @@ class BrittleModel final : public Strength, public Brittle {
     for (std::size_t i = 0; i < state.trial.size(); ++i) relax_point(state, i);
   }
   [[nodiscard]] bool dilates() const override {
-    if constexpr (grows()) return law_.dilation_angle > 0.0;
+    if constexpr (grows()) return law_.changes_volume();
     return false;
   }
   [[nodiscard]] double greatest_distension() const override {
@@ -193,7 +195,6 @@ class BrittleModel final : public Strength, public Brittle {
       for (std::size_t i = 0; i < state.trial.size(); ++i) {
         const bool flows =
             may_dilate(state, i, law_.least_pressure(BrittlePoint{.pressure = 0.0, .rate = 0.0}));
-        state.dilation[i] = flows ? law_.remaining(state.distension[i]) : 0.0;
         state.growth[i] = flows ? law_.growth({.pressure = state.pressure[i],
                                                .trial = state.trial[i],
                                                .stiffness = state.stiffness[i],
@@ -217,6 +218,7 @@ class BrittleModel final : public Strength, public Brittle {
                        .compaction = state.compaction[i],
                        .crush_pressure = state.crush_pressure[i]};
     if (!state.lode_cosine.empty()) point.lode_cosine = state.lode_cosine[i];
+    if (!state.distension.empty()) point.distension = state.distension[i];
     point.pressure = std::max(point.pressure, law_.least_pressure(point));
     BrittleSurface y = law_.surface(point);
     const double solid = state.solid_fraction[i], stiffness = 3.0 * state.modulus[i];

@@ -56,6 +56,7 @@ struct Dilatant : ElasticConstants {
                     "give work back",
                     dilation_angle / degree, friction_angle / degree));
   }
+  [[nodiscard]] bool changes_volume() const { return dilation_angle > 0.0; }
   /// Returns how much ln J_p may still grow.
   [[nodiscard]] double room(double plastic_volume_ratio) const {
     return std::max(0.0, maximum_dilation - std::log(plastic_volume_ratio));

@@ -124,7 +124,7 @@ class MohrCoulombModel final : public Strength, public Brittle {
   }
   [[nodiscard]] bool turns_deviator() const override { return true; }
   void relax(const BrittleState& state) const override;
-  [[nodiscard]] bool dilates() const override { return law_.dilation_angle > 0.0; }
+  [[nodiscard]] bool dilates() const override { return law_.changes_volume(); }
   [[nodiscard]] double greatest_distension() const override {
     return dilates() ? std::exp(law_.maximum_dilation) : 1.0;
   }
