@@ -240,6 +240,7 @@ class MaterialBuilder {
     if (!(slope > 0.0 && slope < steepest)) fail(material_, "q_phi must be > 0 and < sqrt(3)");
     if (!(cohesion >= 0.0)) fail(material_, "k_phi must be >= 0");
     if (!(n_[7] >= 0.0)) fail(material_, "the tensile strength must be >= 0");
+    if (!(n_[6] >= 0.0 && n_[6] <= n_[4])) fail(material_, "q_psi must be >= 0 and not above q_phi");
     const double sine = 3.0 * slope / (6.0 + slope), angle = std::asin(sine);
     begin("drucker_prager", material_);
     elastic_constants();
@@ -248,14 +249,19 @@ class MaterialBuilder {
                 "the cone of the deck's q_phi and k_phi");
     quantity("cohesion", cohesion * (3.0 - sine) / (6.0 * std::cos(angle)), dimension::pressure);
     quantity("tensile_strength", n_[7], dimension::pressure);
+    const std::string cone =
+        "drucker_prager with the same cone; tension opens a gap, and the stress stays on the cone there";
     if (n_[6] == 0.0) {
-      remark(
-          Outcome::converted, material_,
-          "drucker_prager with the same cone; tension opens a gap, and the stress stays on the cone there");
-    } else {
-      remark(Outcome::missing, material_,
-             fmt::format("Drucker-Prager with dilation, q_psi = {}: the law of the case has none", n_[6]));
+      remark(Outcome::converted, material_, cone);
+      return;
     }
+    const double flow = std::numbers::sqrt3 * n_[6], dilation = std::asin(3.0 * flow / (6.0 + flow));
+    toml_.entry("dilation_angle", fmt::format("\"{} deg\"", number(dilation * 180.0 / std::numbers::pi)),
+                "the flow of the deck's q_psi");
+    remark(
+        Outcome::converted, material_,
+        cone +
+            "; dilation begins with q_psi and ends at 'maximum_dilation', while that of the deck never ends");
   }
 
   void johnson_cook() {

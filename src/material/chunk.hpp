@@ -84,6 +84,7 @@ struct Chunk {
   Lanes kept;  // fraction of the deviator that is retained, where the chunk loses some
   bool loses = false;
   Lanes old_distension;  // of porous material only
+  Lanes dilation;        // of soil that dilates only: fraction of its dilation that is left
   bool burns = false;    // whether any point is at a detonation front
   Lanes burning;         // if so: 1 for points that burn or are about to
 

@@ -84,6 +84,12 @@ void require_parts_agree(const Material& material) {
       throw InputError(fmt::format(
           "strength model \"{}\" with 'bulking' takes an equation of state without pores", with_past));
     }
+    if (brittle->dilates() && (material.eos->has_phases() || material.eos->initial_distension() > 1.0)) {
+      throw InputError(
+          fmt::format("strength model \"{}\" changes the volume: it takes an equation of state without "
+                      "phases and pores",
+                      with_past));
+    }
   }
   if (is_foam(material) && (material.eos->has_phases() || material.eos->initial_distension() > 1.0)) {
     throw InputError(fmt::format(
@@ -152,7 +158,8 @@ Material completed(Material material) {
     if (criterion->grows_voids()) material.void_growth = criterion.get();
   }
   if (const strength::Brittle* brittle = material.strength->brittle()) {
-    if (brittle->bulks()) material.eos = std::make_shared<const eos::Distended>(material.eos);
+    if (brittle->bulks() || brittle->dilates())
+      material.eos = std::make_shared<const eos::Distended>(material.eos);
   }
   if (const auto* foam = dynamic_cast<const strength::Foam*>(material.strength.get())) {
     material.eos = std::make_shared<const eos::Distended>(material.eos, foam->initial_distension());

@@ -48,9 +48,21 @@ TEST_F(SoilDeck, ADeckOfSoilUnderLoadsIsACase) {
   EXPECT_NEAR(setup.loads[2].acceleration[2], -4.9, 1e-12) << "of the other body";
 }
 
-TEST_F(SoilDeck, DilationAndForcesOnParticlesAreMissing) {
-  EXPECT_THAT(with("9740 0 5000", "9740 0.1 5000").report(),
-              testing::HasSubstr("with dilation, q_psi = 0.1"));
+TEST_F(SoilDeck, DilationBeginsAsInTheDeck) {
+  const Import import = with("9740 0 5000", "9740 0.1 5000");
+  EXPECT_EQ(import.count(Outcome::missing), 0U) << import.report();
+  EXPECT_THAT(import.report(), testing::HasSubstr("ends at 'maximum_dilation'"));
+  const CaseFolder written(import, folder_ / "case");
+  const cases::Case setup = cases::read_case(written.case_file(), {});
+  const auto* soil =
+      dynamic_cast<const strength::DruckerPragerModel*>(setup.materials.front()->strength.get());
+  ASSERT_NE(soil, nullptr);
+  EXPECT_NEAR(soil->law().dilation_slope(), std::sqrt(3.0) * 0.1, 1e-6) << "q_psi of the deck";
+  EXPECT_THAT(message_of<InputError>([&] { (void)with("9740 0 5000", "9740 0.36 5000"); }),
+              testing::HasSubstr("q_psi must be >= 0 and not above q_phi"));
+}
+
+TEST_F(SoilDeck, ForcesOnParticlesAreMissing) {
   EXPECT_THAT(with("body 2 0.5", "part 2 0.5").report(), testing::HasSubstr("forces on single particles"));
 }
 

@@ -287,5 +287,44 @@ TEST(Lithostatic, AColumnStaysAtRest) {
   }
 }
 
+/// A block of soil that collapses on a rough floor: its flow changes the volume up to the bound, and no energy is made.
+TEST(SoilHeap, DilatesAndKeepsTheTotalEnergy) {
+  const std::string constants =
+      "shear_modulus = \"3 MPa\"\nfriction_angle = \"35 deg\"\ncohesion = \"0 Pa\"\ndilation_angle = \"15 "
+      "deg\"\nmaximum_dilation = 0.02\n";
+  for (const std::string law :
+       {"model = \"drucker_prager\"\nmatch = \"plane_strain\"\n", "model = \"mohr_coulomb\"\n"}) {
+    const cases::Case setup = cases::read_case_text(
+        Method{}.time_toml(0.4) + Method{}.toml() +
+            "[output]\nmaximum_energy_error = 10.0\n[domain]\ndimension = \"plane_strain\"\nlower = [0, "
+            "0]\nupper = "
+            "[1, 0.3]\ncell_size = 0.02\nboundary = { x_lower = \"symmetry\", y_lower = \"no_slip\" }\n"
+            "[gravity]\nacceleration = [0, -9.81, 0]\n" +
+            BodyOptions{"soil", soil(law + constants), box({0, 0, -1}, {0.3, 0.2, 1})}.toml(),
+        "heap.toml");
+    solver::Simulation simulation(setup, parallel::world());
+    double lost = 0.0, heat = 0.0;
+    run_to(simulation, 0.4, [&](const solver::Simulation& s) {
+      const solver::Ledger& ledger = s.state().ledger;
+      lost = std::max(lost, std::abs(s.totals().energy() - ledger.initial.energy() - ledger.external_work));
+      EXPECT_GE(ledger.plastic_work, heat);
+      heat = ledger.plastic_work;
+    });
+    EXPECT_LT(lost, 1e-12 * simulation.state().ledger.external_work);
+    EXPECT_GT(heat, 0.1 * simulation.state().ledger.external_work);
+    double most = 1.0;
+    std::size_t grown = 0;
+    for (const double ratio : simulation.particles().history.scalar("distension")) {
+      EXPECT_GE(ratio, 1.0);
+      most = std::max(most, ratio);
+      grown += ratio > 1.01 ? 1 : 0;
+    }
+    std::printf("greatest ln J_p %.4f, above 0.01 in %zu of %zu\n", std::log(most), grown,
+                simulation.particles().size());
+    EXPECT_LE(std::log(most), 0.02 * (1.0 + 1e-12));
+    EXPECT_GT(grown, simulation.particles().size() / 20);
+  }
+}
+
 }  // namespace
 }  // namespace whipple::verification

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Water with a free surface under gravity (docs/theory/soil.md, section 4): a standing wave of small amplitude against
+// Water with a free surface under gravity (docs/theory/soil.md, section 5): a standing wave of small amplitude against
 // the linear theory, omega^2 = g k tanh(k h).
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include "src/case/case.hpp"
 #include "src/particles/particles.hpp"
 
-/// The initial stress of bodies under their own weight (docs/theory/soil.md, section 4).
+/// The initial stress of bodies under their own weight (docs/theory/soil.md, section 5).
 namespace whipple::cases {
 
 /// Sets the particles [begin, end) of a body, initialised without stress, to the stress of `initial.lithostatic`: the

@@ -105,7 +105,9 @@ void relax_brittle(const EosStrength& model, const Step& step, Chunk& chunk) {
        .least_pressure = chunk.view(chunk.least_pressure),
        .bulking_pressure = chunk.view(gained),
        .deviator = turned ? std::span(turned->deviator.data(), chunk.size) : std::span<SymmetricTensor>(),
-       .work = turned ? chunk.view(turned->work) : std::span<double>()});
+       .work = turned ? chunk.view(turned->work) : std::span<double>(),
+       .dilation = std::span<const double>(chunk.dilation.data(), turned && law.dilates() ? chunk.size : 0),
+       .distension = std::span<const double>(distension.data(), law.dilates() ? chunk.size : 0)});
   if (turned) turned->store(chunk, equivalent);
   for (std::size_t k = 0; k < chunk.size; ++k) {
     if (chunk.failed[k] != failure::intact) continue;

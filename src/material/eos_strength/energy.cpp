@@ -62,6 +62,13 @@ void evaluate_porous_phases(const EosStrength& model, const Step& in, Chunk& out
   evaluate_distended<true>(model, in, out);
 }
 
+void TrialEvaluation::repeat(const EosStrength& model, const Step& in, Chunk& out) const {
+  out.report = report_;
+  out.pressure = pressure_;
+  in.energy == Energy::from_grid ? energy_from_grid(model, in, out) : energy_by_work(model, in, out);
+  evaluate_equation_of_state<false>(in, out, out.view(out.history[model.distension]));
+}
+
 void accept_energy(const EosStrength&, const Step&, Chunk& out) {
   std::copy_n(out.energy.data(), out.size, out.specific_internal_energy.data());
 }

@@ -66,6 +66,9 @@ bool softens(const Material& material) {
   return any_criterion(material, [](const failure::Criterion& c) { return c.softens(); });
 }
 bool is_brittle(const Material& material) { return material.strength->brittle() != nullptr; }
+bool dilates(const Material& material) {
+  return is_brittle(material) && material.strength->brittle()->dilates();
+}
 
 }  // namespace
 
@@ -80,7 +83,7 @@ EosStrength::EosStrength(const Material& material)
     damage = declare(damage_field);
   }
   if (material.eos->initial_distension() > 1.0 ||
-      (is_brittle(material) && material.strength->brittle()->bulks())) {
+      (is_brittle(material) && material.strength->brittle()->bulks()) || dilates(material)) {
     distension = declare(distension_field);
   }
   if (material.strength->kinematic_modulus() > 0.0) back_stress = declare(back_stress_field);
@@ -139,6 +142,8 @@ EosStrength::Parts EosStrength::parts_of(const Material& material, Energy energy
   section = &all.pressure;
   if (foam != nullptr) {
     take(evaluate_foam);
+  } else if (dilates(material)) {
+    take(evaluate_dilating);
   } else if (distension != undeclared) {
     take(has_phases ? evaluate_porous_phases : evaluate_porous);
   } else {
@@ -196,8 +201,13 @@ void EosStrength::start(const eos::State& state, MaterialPoints& points, std::si
 }
 
 double EosStrength::maximum_density(const Material& material, const Chunk& chunk, std::size_t k) const {
-  if (foam == nullptr) return Constitutive::maximum_density(material, chunk, k);
-  return material.eos->maximum_density() * foam->initial_distension() / chunk.history[distension][k];
+  if (foam == nullptr && !dilates(material)) return Constitutive::maximum_density(material, chunk, k);
+  return material.eos->maximum_density() * material.eos->initial_distension() / chunk.history[distension][k];
+}
+
+double EosStrength::least_maximum_density(const Material& material) const {
+  const double greatest = dilates(material) ? material.strength->brittle()->greatest_distension() : 1.0;
+  return Constitutive::least_maximum_density(material) / greatest;
 }
 
 void EosStrength::void_share(const Chunk& chunk, Lanes& share) const {

@@ -33,6 +33,7 @@ class EosStrength final : public Constitutive {
              std::size_t end) const override;
   [[nodiscard]] double maximum_density(const Material& material, const Chunk& chunk,
                                        std::size_t k) const override;
+  [[nodiscard]] double least_maximum_density(const Material& material) const override;
   void void_share(const Chunk& chunk, Lanes& share) const override;
   void update(const Step& in, Chunk& out) const override;
 

@@ -9,8 +9,7 @@ namespace whipple::material::parts {
 
 void evaluate_foam(const EosStrength& model, const Step& step, Chunk& chunk) {
   Lanes& distension = chunk.history[model.distension];
-  const Lanes before = chunk.pressure;
-  const MaterialReport reported = chunk.report;
+  const TrialEvaluation trial(chunk);
   evaluate_equation_of_state<false>(step, chunk, chunk.view(distension));
   Lanes bulk, equivalent, work;
   for (std::size_t k = 0; k < chunk.size; ++k) {
@@ -32,14 +31,9 @@ void evaluate_foam(const EosStrength& model, const Step& step, Chunk& chunk) {
     for (Lanes& lane : chunk.motion.deviator) lane[k] *= equivalent[k] / chunk.motion.trial[k];
   }
   if (!(sum > 0.0)) return;
-  // The same step again, with the stress and the distension that it ends with; the trial state is not reported.
-  chunk.report = reported;
+  trial.repeat(model, step, chunk);
   chunk.report.plastic_work += sum;
   chunk.report.dissipation += sum;
-  chunk.pressure = before;
-  step.energy == Energy::from_grid ? energy_from_grid(model, step, chunk)
-                                   : energy_by_work(model, step, chunk);
-  evaluate_equation_of_state<false>(step, chunk, chunk.view(distension));
 }
 
 }  // namespace whipple::material::parts

@@ -59,9 +59,25 @@ void evaluate_porous_phases(const EosStrength& model, const Step& in, Chunk& out
 /// Evaluates the equation of state, crushes the foam to its yield surface, and evaluates it again with the new distension
 /// (docs/theory/foam.md).
 void evaluate_foam(const EosStrength& model, const Step& in, Chunk& out);
+/// Evaluates the equation of state, changes the distension by the flow of soil, and evaluates it again
+/// (docs/theory/soil.md, section 3).
+void evaluate_dilating(const EosStrength& model, const Step& in, Chunk& out);
 /// Set the energy of the points to the solved one; the second adds the cold work.
 void accept_energy(const EosStrength& model, const Step& in, Chunk& out);
 void return_cold_work(const EosStrength& model, const Step& in, Chunk& out);
+
+/// Holds the state before the equation of state of a step was evaluated with a distension that its flow changes.
+class TrialEvaluation {
+ public:
+  explicit TrialEvaluation(const Chunk& chunk) : pressure_(chunk.pressure), report_(chunk.report) {}
+  /// Evaluates it again, for the same step, with the stress and the distension that it ends with; the trial state is not
+  /// reported.
+  void repeat(const EosStrength& model, const Step& in, Chunk& out) const;
+
+ private:
+  Lanes pressure_;
+  MaterialReport report_;
+};
 
 // ---- failure (failure.cpp, brittle.cpp)
 /// Updates strength, damage and bulking of brittle material (docs/theory/concrete_and_ceramics.md).

@@ -36,6 +36,22 @@ struct BrittleState {
   std::span<double> bulking_pressure;        ///< pressure gained by bulking, Pa; out
   std::span<SymmetricTensor> deviator;  ///< trial deviator, Pa; in and out; empty unless the law turns it
   std::span<double> work;               ///< plastic work, J/m^3; out; with the deviator
+  std::span<const double> dilation;  ///< fraction of the dilation angle that `dilate` took; with the deviator
+  std::span<const double> distension;  ///< after `dilate`; empty unless the law changes the volume
+};
+
+/// Holds a chunk of points after the equation of state at the distension before the step (SI units).
+struct DilationState {
+  std::span<const double> stiffness;    ///< dp/d(ln distension) at constant density, Pa
+  std::span<const double> pressure;     ///< of the equation of state, as if the material filled its voids, Pa
+  std::span<const double> void_volume;  ///< m^3
+  std::span<const double> modulus;      ///< shear modulus, Pa
+  std::span<const double> solid_fraction;     ///< 0 where the point has failed
+  std::span<const double> trial;              ///< equivalent trial stress of the deviator, Pa
+  std::span<const double> distension;         ///< before the step
+  std::span<const SymmetricTensor> deviator;  ///< trial, Pa; empty unless the law turns it
+  std::span<double> dilation;  ///< fraction of the dilation angle that is left; out; with the deviator
+  std::span<double> growth;    ///< of ln(distension); out
 };
 
 /// Interface of the part of a strength model that acts once the pressure of the step is known, with one virtual call
@@ -45,6 +61,13 @@ class Brittle {
   virtual ~Brittle() = default;
   /// Returns the deviator to the strength, advances the damage, and computes the pressure at which voids open.
   virtual void relax(const BrittleState& state) const = 0;
+  /// Returns whether its flow changes the volume: `dilate` is then called before `relax`, and the equation of state is
+  /// evaluated between them with the new distension.
+  [[nodiscard]] virtual bool dilates() const { return false; }
+  /// Returns the greatest distension that `dilate` leads to.
+  [[nodiscard]] virtual double greatest_distension() const { return 1.0; }
+  /// Computes by how much the flow of the step changes the distension.
+  virtual void dilate(const DilationState& /*state*/) const {}
   /// Returns whether lost shear energy is converted to pressure (bulking).
   [[nodiscard]] virtual bool bulks() const { return false; }
   /// Returns whether the law returns the deviator itself, in another direction than to zero.
@@ -62,7 +85,23 @@ struct BrittlePoint {
   double damage = 0.0;
   double compaction = 0.0;
   double crush_pressure = std::numeric_limits<double>::infinity();
+  double distension = 1.0;  ///< of laws that change the volume
 };
+
+/// Describes a point that may dilate.
+struct DilatingPoint {
+  double pressure;    ///< at the distension before the step, Pa
+  double trial;       ///< equivalent trial stress, Pa
+  double stiffness;   ///< dp/d(ln distension), Pa
+  double modulus;     ///< shear modulus, Pa
+  double distension;  ///< before the step
+};
+
+/// Returns whether a point is solid and its parts are together: what separates opens the gap, not the plastic volume.
+inline bool may_dilate(const DilationState& state, std::size_t i, double least_pressure) {
+  return state.modulus[i] > 0.0 && state.solid_fraction[i] > 0.0 && !(state.void_volume[i] > 0.0) &&
+         state.pressure[i] > least_pressure;
+}
 
 /// Describes the strength at a pressure and a rate, linear in the damage up to a bound, Y = min(whole - D fall,
 /// greatest), not below 0, and the plastic strain over which the damage increases from 0 to 1.
@@ -102,8 +141,10 @@ inline BrittleReturn brittle_return(double trial, double stiffness, const Brittl
 ///   surface(point) -> BrittleSurface              strength and failure strain at point.pressure, point.rate
 ///   least_pressure(point) -> double               Pa, <= 0, at point.damage
 ///   crushed_strain(point) -> double               strain that crushed pores add to the damage
-/// and optionally prepare() (computes once what its functions need), keeps_strength (soils: no strain damages them), bulking (fraction of the lost shear energy that becomes
-/// pressure) or hardening(trial, stiffness, surface, point) -> BrittleReturn (strain hardening before any damage).
+/// and optionally prepare() (computes once what its functions need), keeps_strength (soils: no strain damages them),
+/// growth(point) (of ln J_p by flow, where changes_volume(); not beyond maximum_dilation), bulking (fraction of the lost shear energy that
+/// becomes pressure) or hardening(trial, stiffness, surface, point) -> BrittleReturn (strain hardening before any
+/// damage).
 template <class Law>
 class BrittleModel final : public Strength, public Brittle {
  public:
@@ -141,6 +182,28 @@ class BrittleModel final : public Strength, public Brittle {
   void relax(const BrittleState& state) const override {
     for (std::size_t i = 0; i < state.trial.size(); ++i) relax_point(state, i);
   }
+  [[nodiscard]] bool dilates() const override {
+    if constexpr (grows()) return law_.changes_volume();
+    return false;
+  }
+  [[nodiscard]] double greatest_distension() const override {
+    if constexpr (grows()) return dilates() ? std::exp(law_.maximum_dilation) : 1.0;
+    return 1.0;
+  }
+  void dilate(const DilationState& state) const override {
+    if constexpr (grows()) {
+      for (std::size_t i = 0; i < state.trial.size(); ++i) {
+        const bool flows =
+            may_dilate(state, i, law_.least_pressure(BrittlePoint{.pressure = 0.0, .rate = 0.0}));
+        state.growth[i] = flows ? law_.growth({.pressure = state.pressure[i],
+                                               .trial = state.trial[i],
+                                               .stiffness = state.stiffness[i],
+                                               .modulus = state.modulus[i],
+                                               .distension = state.distension[i]})
+                                : 0.0;
+      }
+    }
+  }
   [[nodiscard]] std::string constants() const override {
     Law copy = law_;
     return fmt::format("model = \"{}\"\n{}", Law::name, to_toml(whipple::bind(Law::parameters(), copy)));
@@ -155,6 +218,7 @@ class BrittleModel final : public Strength, public Brittle {
                        .compaction = state.compaction[i],
                        .crush_pressure = state.crush_pressure[i]};
     if (!state.lode_cosine.empty()) point.lode_cosine = state.lode_cosine[i];
+    if (!state.distension.empty()) point.distension = state.distension[i];
     point.pressure = std::max(point.pressure, law_.least_pressure(point));
     BrittleSurface y = law_.surface(point);
     const double solid = state.solid_fraction[i], stiffness = 3.0 * state.modulus[i];
@@ -182,6 +246,9 @@ class BrittleModel final : public Strength, public Brittle {
     state.plastic_strain[i] += increment;
     state.damage[i] = point.damage;
     state.least_pressure[i] = law_.least_pressure(point);
+  }
+  static constexpr bool grows() {
+    return requires(const Law& law) { law.growth(DilatingPoint{}); };
   }
   static constexpr bool keeps_strength() {
     return requires { Law::keeps_strength; };

@@ -11,6 +11,7 @@
 #include "src/material/strength/johnson_cook.hpp"
 #include "src/material/strength/johnson_holmquist_2.hpp"
 #include "src/material/strength/mechanical_threshold_model.hpp"
+#include "src/material/strength/modified_cam_clay.hpp"
 #include "src/material/strength/mohr_coulomb.hpp"
 #include "src/material/strength/none.hpp"
 #include "src/material/strength/power_law.hpp"
@@ -54,6 +55,7 @@ const Catalogue<ModelEntry>& catalogue() {
                                              entry<JohnsonHolmquist2, JohnsonHolmquist2Model>(),
                                              entry<DruckerPrager, DruckerPragerModel>(),
                                              entry<MohrCoulomb, MohrCoulombModel>(),
+                                             entry<ModifiedCamClay, ModifiedCamClayModel>(),
                                              entry<GranularFlow, GranularFlowModel>(),
                                              entry<DeshpandeFleck, DeshpandeFleckModel>(),
                                          });

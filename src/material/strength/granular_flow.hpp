@@ -14,7 +14,7 @@ namespace whipple::strength {
 /// Dense flow of dry grains, mu(I): friction that increases with the inertial number,
 ///   q <= sqrt(3) p mu(I),   mu = mu_s + (mu_2 - mu_s)/(1 + I_0/I),   I = g d sqrt(rho_g/p),   p >= 0,
 /// g the rate of shear, sqrt(3) times the equivalent strain rate; no cohesion, no dilation. Source: P. Jop, Y. Forterre,
-/// O. Pouliquen, Nature 441 (2006) 727. docs/theory/soil.md, section 2.
+/// O. Pouliquen, Nature 441 (2006) 727. docs/theory/soil.md, section 4.
 struct GranularFlow : ElasticConstants {
   double static_friction = 0.0;    ///< mu_s
   double limiting_friction = 0.0;  ///< mu_2

@@ -10,35 +10,27 @@
 #include <numbers>
 
 #include "src/material/strength/brittle.hpp"
+#include "src/material/strength/dilatant.hpp"
 
 namespace whipple::strength {
 
-/// Mohr-Coulomb, soil: a pyramid around the axis of hydrostatic pressure that flows without dilation,
+/// Mohr-Coulomb, soil: a pyramid around the axis of hydrostatic pressure,
 ///   f = (s1 - s3) + (s1 + s3) sin(phi) - 2 c cos(phi) <= 0,   s1 >= s2 >= s3, tension positive,
 ///   p >= p_min = -min(sigma_t, c cot(phi)).
 /// Source: C. A. Coulomb, Mem. Acad. R. Sci. 7 (1776) 343; O. Mohr, Z. Ver. Dtsch. Ing. 44 (1900) 1524.
-/// docs/theory/soil.md, section 2.
-struct MohrCoulomb : ElasticConstants {
-  double friction_angle = 0.0;                                        ///< phi, rad
-  double cohesion = 0.0;                                              ///< c, Pa
-  double tensile_strength = std::numeric_limits<double>::infinity();  ///< sigma_t, Pa
-
+/// docs/theory/soil.md, sections 2 and 3.
+struct MohrCoulomb : Dilatant {
   static ParameterTable<MohrCoulomb> parameters() {
-    using P = MohrCoulomb;
-    return ElasticConstants::parameters<P>(
-        {real("friction_angle", &P::friction_angle, "rad", range::open_between(0.0, std::numbers::pi / 2),
-              "phi, angle of internal friction"),
-         real("cohesion", &P::cohesion, "Pa", range::non_negative(), "c"),
-         real("tensile_strength", &P::tensile_strength, "Pa", range::non_negative(),
-              "sigma_t: mean tension at which gaps open, if that is less than the apex of the pyramid")
-             .optional("the apex of the pyramid")});
+    return Dilatant::parameters<MohrCoulomb>({}, "the apex of the pyramid");
   }
   static constexpr const char* name = "mohr_coulomb";
-  static constexpr const char* summary = "soil: friction and cohesion without dilation (Mohr-Coulomb)";
+  static constexpr const char* summary = "soil: friction, cohesion and dilation on a pyramid (Mohr-Coulomb)";
   static constexpr const char* theory =
       "(s1 - s3) + (s1 + s3) sin(phi) <= 2 c cos(phi), p >= -min(sigma_t, c cot(phi)): a gap opens. The "
       "return is "
       "exact, on the faces and the edges of the pyramid.\n"
+      "Flow changes the plastic volume ratio J_p by d(ln J_p) = 2 sin(psi) (1 - ln J_p/maximum_dilation) dx "
+      "for each face, dx half the difference of its plastic strains at psi = 0.\n"
       "Sources: Coulomb (1776); Mohr, Z. Ver. Dtsch. Ing. 44 (1900) 1524.";
 
   [[nodiscard]] double least_pressure() const {
@@ -99,14 +91,17 @@ inline PrincipalStress return_to(const Pyramid& pyramid, double bulk, double she
   return s;
 }
 
-/// Implements the interfaces for the pyramid; its flow has no dilation.
+/// Implements the interfaces for the pyramid.
 class MohrCoulombModel final : public Strength, public Brittle {
  public:
-  /// @throws InputError if the elastic constants are inconsistent
+  /// @throws InputError if the constants are inconsistent
   explicit MohrCoulombModel(const MohrCoulomb& law)
       : law_(law),
         modulus_(law.stiffness()),
-        pyramid_{std::sin(law.friction_angle), 0.0, 2.0 * law.cohesion * std::cos(law.friction_angle)} {}
+        pyramid_{std::sin(law.friction_angle), std::sin(law.dilation_angle),
+                 2.0 * law.cohesion * std::cos(law.friction_angle)} {
+    law.require_consistent();
+  }
 
   [[nodiscard]] const MohrCoulomb& law() const { return law_; }
   [[nodiscard]] std::string_view model() const override { return MohrCoulomb::name; }
@@ -129,6 +124,11 @@ class MohrCoulombModel final : public Strength, public Brittle {
   }
   [[nodiscard]] bool turns_deviator() const override { return true; }
   void relax(const BrittleState& state) const override;
+  [[nodiscard]] bool dilates() const override { return law_.changes_volume(); }
+  [[nodiscard]] double greatest_distension() const override {
+    return dilates() ? std::exp(law_.maximum_dilation) : 1.0;
+  }
+  void dilate(const DilationState& state) const override;
   [[nodiscard]] std::string constants() const override {
     MohrCoulomb copy = law_;
     return fmt::format("model = \"{}\"\n{}", MohrCoulomb::name,
@@ -136,6 +136,11 @@ class MohrCoulombModel final : public Strength, public Brittle {
   }
 
  private:
+  /// Returns the pyramid with a fraction of its dilation.
+  [[nodiscard]] Pyramid with_dilation(double fraction) const {
+    return {pyramid_.sine, pyramid_.dilation * fraction, pyramid_.intercept};
+  }
+
   MohrCoulomb law_;
   double modulus_;
   Pyramid pyramid_;
