@@ -20,7 +20,6 @@
 #include "src/core/base/error.hpp"
 #include "src/core/base/normal_samples.hpp"
 #include "src/core/base/units.hpp"
-#include "src/material/material_coverage.hpp"
 #include "src/material/material_file.hpp"
 #include "src/material/material_samples.hpp"
 #include "tests/unit/fit_support.hpp"
@@ -149,35 +148,6 @@ TEST_F(FitMaterial, SaysOfEveryConstantWhereItComesFrom) {
   EXPECT_THAT(material, HasSubstr(whipple::sha256_of_file(file)));
   EXPECT_THAT(material, HasSubstr("lammps_version = \"none\""));
   EXPECT_THAT(material, HasSubstr("[provenance.finished_points]\ncoexistence = 4\nhugoniot = 9"));
-}
-
-TEST_F(FitMaterial, MeasurementsInTheFitAreNamedWithTheirCoverage) {
-  const std::string material = (folder.path() / "joint.toml").string();
-  const std::string table = (folder.path() / "own.csv").string();
-  std::ofstream(table) << "# material: copper\nup [km/s];us [km/s];us_err "
-                          "[%]\n0,5;4,62;1\n1,0;5,36;1\n1,5;6,10;1\n2,0;6,83;1\n";
-  const std::string command = fmt::format("{} -o {} -q --density \"8.93 g/cm^3\"", file.string(), material);
-  ASSERT_EQ(run(fmt::format("{} --with {} cu_isotherm_298K_dewaele2004 --check cu_hugoniot_marsh1980",
-                            command, table)),
-            0)
-      << output();
-  const std::string text = read_text(material);
-  EXPECT_THAT(text, HasSubstr("together with measurements (own, cu_isotherm_298K_dewaele2004)"));
-  const std::vector<Coverage> coverage = coverage_of(read_material(material));
-  ASSERT_EQ(coverage.size(), 3U);
-  EXPECT_EQ(coverage[0].curve, "own");
-  EXPECT_EQ(coverage[0].points, 4);
-  EXPECT_EQ(coverage[2].curve, "cu_hugoniot_marsh1980");
-  EXPECT_GT(coverage[2].inside_95, 0.5);
-  // What cannot be fitted is refused before the fit, by name.
-  EXPECT_EQ(run(command + " --force --with al_isotherm_298K_dewaele2004"), 2);
-  EXPECT_THAT(output(), HasSubstr("measured on another material than copper"));
-  EXPECT_EQ(run(command + " --force --check cu_hugoniot_marsh1980"), 2);
-  EXPECT_THAT(output(), HasSubstr("--check"));
-  EXPECT_EQ(run(command + " --force --with nothing"), 2);
-  EXPECT_THAT(output(), HasSubstr("no experiment 'nothing'"));
-  EXPECT_EQ(run(command + " --force --model mie_gruneisen --with cu_hugoniot_marsh1980"), 2);
-  EXPECT_THAT(output(), HasSubstr("--model gray only"));
 }
 
 TEST_F(FitMaterial, CopiesStrengthAndFailureVerbatim) {

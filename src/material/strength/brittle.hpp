@@ -9,6 +9,8 @@
 
 #include "src/core/base/parameter_table.hpp"
 #include "src/core/base/tensor.hpp"
+#include "src/material/strength/brittle_surface.hpp"
+#include "src/material/strength/dilation.hpp"
 #include "src/material/strength/elastic_constants.hpp"
 #include "src/material/strength/strength.hpp"
 
@@ -38,20 +40,6 @@ struct BrittleState {
   std::span<double> work;               ///< plastic work, J/m^3; out; with the deviator
   std::span<const double> dilation;  ///< fraction of the dilation angle that `dilate` took; with the deviator
   std::span<const double> distension;  ///< after `dilate`; empty unless the law changes the volume
-};
-
-/// Holds a chunk of points after the equation of state at the distension before the step (SI units).
-struct DilationState {
-  std::span<const double> stiffness;    ///< dp/d(ln distension) at constant density, Pa
-  std::span<const double> pressure;     ///< of the equation of state, as if the material filled its voids, Pa
-  std::span<const double> void_volume;  ///< m^3
-  std::span<const double> modulus;      ///< shear modulus, Pa
-  std::span<const double> solid_fraction;     ///< 0 where the point has failed
-  std::span<const double> trial;              ///< equivalent trial stress of the deviator, Pa
-  std::span<const double> distension;         ///< before the step
-  std::span<const SymmetricTensor> deviator;  ///< trial, Pa; empty unless the law turns it
-  std::span<double> dilation;  ///< fraction of the dilation angle that is left; out; with the deviator
-  std::span<double> growth;    ///< of ln(distension); out
 };
 
 /// Interface of the part of a strength model that acts once the pressure of the step is known, with one virtual call
@@ -88,63 +76,15 @@ struct BrittlePoint {
   double distension = 1.0;  ///< of laws that change the volume
 };
 
-/// Describes a point that may dilate.
-struct DilatingPoint {
-  double pressure;    ///< at the distension before the step, Pa
-  double trial;       ///< equivalent trial stress, Pa
-  double stiffness;   ///< dp/d(ln distension), Pa
-  double modulus;     ///< shear modulus, Pa
-  double distension;  ///< before the step
-};
-
-/// Returns whether a point is solid and its parts are together: what separates opens the gap, not the plastic volume.
-inline bool may_dilate(const DilationState& state, std::size_t i, double least_pressure) {
-  return state.modulus[i] > 0.0 && state.solid_fraction[i] > 0.0 && !(state.void_volume[i] > 0.0) &&
-         state.pressure[i] > least_pressure;
-}
-
-/// Describes the strength at a pressure and a rate, linear in the damage up to a bound, Y = min(whole - D fall,
-/// greatest), not below 0, and the plastic strain over which the damage increases from 0 to 1.
-struct BrittleSurface {
-  double whole;     ///< at D = 0, Pa
-  double fall;      ///< >= 0, Pa
-  double greatest;  ///< Pa
-  double failure_strain;
-
-  [[nodiscard]] double strength(double damage) const {
-    return std::clamp(whole - damage * fall, 0.0, std::max(greatest, 0.0));
-  }
-};
-
-struct BrittleReturn {
-  double increment;  ///< of the equivalent plastic strain
-  double damage;     ///< after the return
-};
-
-/// Returns the closed solution of q - 3 G x = Y(D + x/eps_f), the return to a surface that decreases during the return
-/// (docs/theory/concrete_and_ceramics.md, eq. 8). Where it decreases faster than the stress, the point breaks at once:
-/// D = 1.
-inline BrittleReturn brittle_return(double trial, double stiffness, const BrittleSurface& y, double damage) {
-  if (trial <= y.strength(damage)) return {0.0, damage};
-  if (damage < 1.0 && y.failure_strain > 0.0) {
-    const double excess = trial - (y.whole - damage * y.fall), slope = stiffness - y.fall / y.failure_strain;
-    double x = std::max(0.0, (trial - y.greatest) / stiffness);
-    if (excess > 0.0) x = slope > 0.0 ? std::max(x, excess / slope) : std::numeric_limits<double>::infinity();
-    const double grown = damage + x / y.failure_strain;
-    if (grown < 1.0) return {std::min(x, trial / stiffness), grown};
-  }
-  return {std::max(0.0, trial - y.strength(1.0)) / stiffness, 1.0};
-}
-
 /// Implements the interfaces for a brittle law. A law is a plain struct of constants that derives from
 /// ElasticConstants, with name, summary, theory, parameters(), require_consistent() and
 ///   surface(point) -> BrittleSurface              strength and failure strain at point.pressure, point.rate
 ///   least_pressure(point) -> double               Pa, <= 0, at point.damage
 ///   crushed_strain(point) -> double               strain that crushed pores add to the damage
 /// and optionally prepare() (computes once what its functions need), keeps_strength (soils: no strain damages them),
-/// growth(point) (of ln J_p by flow, where changes_volume(); not beyond maximum_dilation), bulking (fraction of the lost shear energy that
-/// becomes pressure) or hardening(trial, stiffness, surface, point) -> BrittleReturn (strain hardening before any
-/// damage).
+/// growth(point) (of ln J_p by flow, where changes_volume(); not beyond maximum_dilation), bulking (fraction of the lost
+/// shear energy that becomes pressure) or hardening(trial, stiffness, surface, point) -> BrittleReturn (strain hardening
+/// before any damage).
 template <class Law>
 class BrittleModel final : public Strength, public Brittle {
  public:
