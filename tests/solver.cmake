@@ -17,6 +17,8 @@ whipple_test(test_run STARTS_MPI
 whipple_test(test_contact STARTS_MPI SOURCES property/contact_pressing_test.cpp verification/solver_gap_test.cpp verification/solver_first_touch_test.cpp verification/solver_conduction_test.cpp
              DEPENDS whipple_run LABELS fast)
 whipple_test(test_cracks STARTS_MPI SOURCES verification/solver_cracks_test.cpp verification/solver_fragment_size_test.cpp DEPENDS whipple_run LABELS fast)
+# The steady flow of grains: half a minute.
+whipple_test(test_granular_flow STARTS_MPI SOURCES verification/solver_granular_flow_test.cpp DEPENDS whipple_solver LABELS long)
 whipple_test(test_driven STARTS_MPI SOURCES verification/solver_driven_test.cpp verification/solver_tool_test.cpp verification/solver_friction_wall_test.cpp verification/solver_averages_test.cpp verification/solver_loads_test.cpp verification/solver_water_test.cpp DEPENDS whipple_solver LABELS fast)
 whipple_test(test_burn STARTS_MPI SOURCES verification/burn_test.cpp verification/burn_contact_test.cpp verification/lighting_times_test.cpp verification/reaction_test.cpp DEPENDS whipple_run GTest::gmock LABELS fast)
 add_test(NAME burn.fine_slab COMMAND test_burn --gtest_filter=PlanarDetonation.FollowsTheTaylorWaveOfTnt)
