@@ -153,9 +153,7 @@ TEST(Mpm3dDeck, MissingPhysicsIsNamed) {
   for (const Remark& remark : import.remarks) {
     if (remark.outcome == Outcome::missing) missing += fmt::format("{}: {}\n", remark.keyword, remark.text);
   }
-  for (const char* law : {"Drucker-Prager", "loads that grow"}) {
-    EXPECT_THAT(missing, HasSubstr(law));
-  }
+  EXPECT_THAT(missing, HasSubstr("loads that grow"));
   EXPECT_THAT(import.case_text, HasSubstr("[[detonation]]"));
 }
 
