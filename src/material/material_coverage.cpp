@@ -9,16 +9,15 @@ namespace whipple {
 namespace {
 
 ParameterTable<Coverage> coverage_keys() {
-  return {
-      text("curve", &Coverage::curve, "measured curve"),
-      text("kind", &Coverage::kind, "its kind"),
-      integer("points", &Coverage::points, range::positive(), "points with a prediction"),
-      real("inside_68", &Coverage::inside_68, "", range::between(0.0, 1.0), "fraction within 68 %"),
-      real("inside_95", &Coverage::inside_95, "", range::between(0.0, 1.0), "fraction within 95 %"),
-      real("half_width", &Coverage::half_width, "", range::non_negative(), "of the constants' 95 % band"),
-      real("half_width_with_form", &Coverage::half_width_with_form, "", range::non_negative(),
-           "with the error of the form"),
-      real("rms", &Coverage::rms, "", range::non_negative(), "of the relative deviation")};
+  return {text("curve", &Coverage::curve, "measured curve"),
+          text("kind", &Coverage::kind, "its kind"),
+          integer("points", &Coverage::points, range::positive(), "points with a prediction"),
+          real("inside_68", &Coverage::inside_68, "", range::between(0.0, 1.0), "fraction within 68 %"),
+          real("inside_95", &Coverage::inside_95, "", range::between(0.0, 1.0), "fraction within 95 %"),
+          real("half_width", &Coverage::half_width, "", range::non_negative(), "of the constants' 95 % band"),
+          real("half_width_with_form", &Coverage::half_width_with_form, "", range::non_negative(),
+               "with the error of the form"),
+          real("rms", &Coverage::rms, "", range::non_negative(), "of the relative deviation")};
 }
 
 }  // namespace
