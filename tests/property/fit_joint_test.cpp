@@ -24,7 +24,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using eos::experiments::Experiment;
 using eos::experiments::ExperimentKind;
-using testing::Noise;
 using testing::SyntheticStore;
 using testing::true_constants;
 

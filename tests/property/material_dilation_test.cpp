@@ -102,12 +102,12 @@ TYPED_TEST(Dilation, WithoutAnAngleTheVolumeIsTheElasticOne) {
 TEST(DruckerPragerDilation, AtTheAngleOfFrictionFlowIsNormalToTheCone) {
   for (const MatchedStates match :
        {MatchedStates::compression, MatchedStates::extension, MatchedStates::plane_strain_associated}) {
-    DruckerPrager law = sand<DruckerPrager>(31, 31, 2e3);
+    auto law = sand<DruckerPrager>(31, 31, 2e3);
     law.match = match;
     EXPECT_NEAR(law.dilation_slope(), law.cone().slope, 1e-14) << static_cast<int>(match);
   }
   // In plane strain without flow across: sin(psi) is the rate of volume over that of shear.
-  const DruckerPrager law = sand<DruckerPrager>(40, 17, 0);
+  const auto law = sand<DruckerPrager>(40, 17, 0);
   const double slope = law.dilation_slope(), across = -2.0 / 9.0 * slope;  // s_z/q
   const double half = std::sqrt((1.0 - 2.25 * across * across) / 3.0);     // (s_1 - s_3)/2 q
   EXPECT_NEAR(1.5 * across + slope / 3.0, 0.0, 1e-15);                     // rate of flow along z
@@ -115,7 +115,7 @@ TEST(DruckerPragerDilation, AtTheAngleOfFrictionFlowIsNormalToTheCone) {
 }
 
 TEST(DruckerPragerDilation, RandomReturnsEndOnTheSurfaceWithTheVolumeOfTheirFlow) {
-  DruckerPrager law = sand<DruckerPrager>(35, 20, 5e3);
+  auto law = sand<DruckerPrager>(35, 20, 5e3);
   law.maximum_strength = 400e3;
   law.prepare();
   const double slope = law.cone().slope, cohesion = law.cone().cohesion;
@@ -213,7 +213,7 @@ TEST(MohrCoulombDilation, TheStagesOfAStepAreOneReturn) {
 }
 
 TEST(DruckerPragerDilation, ShearedSoilStaysOnTheConeAndDilatesToItsBound) {
-  DruckerPrager law = sand<DruckerPrager>(30, 12, 10e3);
+  auto law = sand<DruckerPrager>(30, 12, 10e3);
   law.prepare();
   const Material material = soil(law);
   Body body{material};
@@ -237,7 +237,7 @@ TEST(DruckerPragerDilation, ShearedSoilStaysOnTheConeAndDilatesToItsBound) {
 // On a face the flow has the volume sin(psi) of its greatest shear.
 TEST(MohrCoulombDilation, TheVolumeOfPlaneFlowIsTheSineOfTheAngleTimesItsShear) {
   for (const double psi : {3.0, 15.0, 33.0}) {
-    MohrCoulomb law = sand<MohrCoulomb>(33, psi, 5e3);
+    auto law = sand<MohrCoulomb>(33, psi, 5e3);
     law.maximum_dilation = 0.5;
     const Material material = soil(law);
     Body body{material};
@@ -309,7 +309,7 @@ double dissipation_along(Body& body, std::initializer_list<Matrix3> places, int 
 
 // Normal flow on a cone without cohesion, at its apex p = q = 0, dissipates nothing at all.
 TEST(DruckerPragerDilation, AssociatedFlowWithoutCohesionOnlyStoresItsWork) {
-  DruckerPrager law = sand<DruckerPrager>(30, 30, 0);
+  auto law = sand<DruckerPrager>(30, 30, 0);
   law.match = MatchedStates::compression;
   law.maximum_dilation = 0.5;  // the angle stays
   const Material material = soil(law);
