@@ -21,6 +21,13 @@ struct Discrepancy {
   std::function<double(std::size_t, std::size_t)> correlation;
 };
 
+/// Returns a discrepancy that is smooth along a curve, with Matern's correlation.
+/// @param place, length  of the states and over which it changes, in one unit
+Discrepancy smooth(std::vector<double> size, std::vector<double> place, double length);
+
+/// Returns row indices from `begin` on.
+std::vector<Eigen::Index> rows_from(Eigen::Index begin, std::size_t count, Eigen::Index step = 1);
+
 /// Adds the covariance of a discrepancy to the rows of its states.
 /// @param rows  row of each state in `covariance`
 void add_discrepancy(const Discrepancy& deviation, std::span<const Eigen::Index> rows,

@@ -12,13 +12,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 double square(double value) { return value * value; }
-
-/// Returns equally spaced row indices starting at `begin`.
-std::vector<Index> rows_from(Index begin, std::size_t count, Index step = 1) {
-  std::vector<Index> rows(count);
-  for (std::size_t i = 0; i < count; ++i) rows[i] = begin + step * static_cast<Index>(i);
-  return rows;
-}
 }  // namespace
 
 void SolidProblem::weigh_noise(MatrixXd& statistical) const {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 
+#include "eos/experiments/calibration.hpp"
 #include "md_fitting/fit/joint/joint_problem.hpp"
 #include "src/core/base/error.hpp"
 
@@ -101,13 +102,12 @@ CurveCoverage predict(const LinearCurve& linear, const CurveModel& model, const 
     const double pull =
         std::abs(values[i] - measured) / std::sqrt(band + form + table + curve.error[i] * curve.error[i]);
     const double level = std::erf(pull / std::numbers::sqrt2);
-    constexpr double half_width_95 = 1.959964;
     ++result.points;
     result.inside_68 += level <= 0.68 ? 1.0 : 0.0;
     result.inside_95 += level <= 0.95 ? 1.0 : 0.0;
     result.rms += std::pow((values[i] - measured) / measured, 2);
-    widths.push_back(half_width_95 * std::sqrt(band) / measured);
-    form_widths.push_back(half_width_95 * std::sqrt(band + form) / measured);
+    widths.push_back(eos::experiments::half_width_95 * std::sqrt(band) / measured);
+    form_widths.push_back(eos::experiments::half_width_95 * std::sqrt(band + form) / measured);
   }
   if (result.points == 0) return result;
   result.inside_68 /= result.points;

@@ -59,13 +59,8 @@ void add_form(const std::vector<LinearCurve>& curves, const std::vector<std::opt
   }
   if (form.rows.empty()) return;
   const auto count = static_cast<Index>(size.size());
-  form.covariance.resize(count, count);
-  for (Index i = 0; i < count; ++i) {
-    for (Index k = 0; k < count; ++k) {
-      const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(k);
-      form.covariance(i, k) = size[a] * size[b] * matern(place[a] - place[b], form_of(kind).length);
-    }
-  }
+  form.covariance = MatrixXd::Zero(count, count);
+  add_discrepancy(smooth(size, place, form_of(kind).length), rows_from(0, size.size()), form.covariance);
   system.components.push_back(std::move(form));
 }
 

@@ -25,13 +25,8 @@ struct Along {
               std::vector<VarianceComponent>& components) const {
     if (rows.empty()) return;
     const auto count = static_cast<Index>(rows.size());
-    MatrixXd covariance(count, count);
-    for (Index i = 0; i < count; ++i) {
-      for (Index k = 0; k < count; ++k) {
-        const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(k);
-        covariance(i, k) = size[a] * size[b] * matern(place[a] - place[b], length);
-      }
-    }
+    MatrixXd covariance = MatrixXd::Zero(count, count);
+    add_discrepancy(smooth(size, place, length), rows_from(0, rows.size()), covariance);
     components.push_back(
         {std::string("potential, ") + name, Deviation::potential, 0, rows, std::move(covariance), spread});
   }
