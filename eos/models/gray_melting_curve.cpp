@@ -31,7 +31,7 @@ struct Node {
 };
 
 /// Solves P_s = P_l and G_s = G_l by Newton's method from a close guess; nothing if it leaves the stable branches.
-std::optional<Node> tangent(const GrayFreeEnergy& f, double T, double Vs, double Vl) {
+std::optional<Node> tangent(const SolidLiquidSurfaces& f, double T, double Vs, double Vl) {
   for (int i = 0; i < 40; ++i) {
     const GrayPoint s = f.solid(Vs, T), l = f.liquid(Vl, T);
     // d(P_s - P_l) = Q_s dV_s - Q_l dV_l,  d(G_s - G_l) = V_s Q_s dV_s - V_l Q_l dV_l,  Q = (dP/dV)_T
@@ -42,7 +42,7 @@ std::optional<Node> tangent(const GrayFreeEnergy& f, double T, double Vs, double
     const double step_l = -(Vs * dP - dG) / (l.pressure_by_volume * width);
     Vs += step_s;
     Vl += step_l;
-    if (!(Vs > 0.5 * f.least_volume()) || !(Vl < 2 * f.join_volume())) return std::nullopt;
+    if (!(Vs > 0.5 * f.least_volume) || !(Vl < 2 * f.join_volume)) return std::nullopt;
     if (std::abs(step_s) + std::abs(step_l) > 1e-12 * Vs) continue;
 
     const GrayPoint solid = f.solid(Vs, T), liquid = f.liquid(Vl, T);
@@ -61,12 +61,13 @@ std::optional<Node> tangent(const GrayFreeEnergy& f, double T, double Vs, double
 }
 
 /// Follows the curve from a node to a nearby temperature.
-std::optional<Node> follow(const GrayFreeEnergy& f, const Node& from, double T) {
+std::optional<Node> follow(const SolidLiquidSurfaces& f, const Node& from, double T) {
   return tangent(f, T, from.Vs + from.Vs1 * (T - from.T), from.Vl + from.Vl1 * (T - from.T));
 }
 
 /// Marches from a node by steps of a factor in T until `past` holds; returns the last point before it, to 1e-12 in T.
-Node march(const GrayFreeEnergy& f, Node at, double factor, const std::function<bool(const Node&)>& past) {
+Node march(const SolidLiquidSurfaces& f, Node at, double factor,
+           const std::function<bool(const Node&)>& past) {
   constexpr int most_steps = 10000;  // 2 % each: longer than the curve of any material
   for (int i = 0; i < most_steps && std::abs(factor - 1) > 1e-12; ++i) {
     const std::optional<Node> next = follow(f, at, at.T * factor);
@@ -120,11 +121,23 @@ HermiteTable inverse(const HermiteTable& volume, double T_low, double T_high, do
   return HermiteTable(V_low, step, std::move(nodes));
 }
 
+SolidLiquidSurfaces melting_surfaces(const GrayFreeEnergy& surface) {
+  const GrayConstants& c = surface.constants();
+  return {.solid = [&surface](double V, double T) { return surface.solid(V, T); },
+          .liquid = [&surface](double V, double T) { return surface.liquid(V, T); },
+          .start_volume = c.reference_specific_volume,
+          .start_temperature = c.melting_temperature,
+          .least_volume = surface.least_volume(),
+          .join_volume = surface.join_volume()};
+}
+
 }  // namespace
 
-GrayMeltingCurve::GrayMeltingCurve(const GrayFreeEnergy& f) {
-  const GrayConstants& c = f.constants();
-  const double T0 = c.melting_temperature, V0 = c.reference_specific_volume;
+GrayMeltingCurve::GrayMeltingCurve(const GrayFreeEnergy& surface)
+    : GrayMeltingCurve(melting_surfaces(surface)) {}
+
+GrayMeltingCurve::GrayMeltingCurve(const SolidLiquidSurfaces& f) {
+  const double T0 = f.start_temperature, V0 = f.start_volume;
   // Solid and liquid are on opposite sides of the isochore on which their free energies are equal.
   std::optional<Node> start;
   for (const double width : {0.02, 0.04, 0.08, 0.01}) {
@@ -136,10 +149,10 @@ GrayMeltingCurve::GrayMeltingCurve(const GrayFreeEnergy& f) {
         "({} K); check melting_entropy, melting_gruneisen and gruneisen",
         T0));
   }
-  const Node first = march(f, *start, 0.98, [&](const Node& n) { return n.Vl > f.join_volume(); });
+  const Node first = march(f, *start, 0.98, [&](const Node& n) { return n.Vl > f.join_volume; });
   Node last = march(f, *start, 1.02, [&](const Node& n) {
     const double step = (n.T - first.T) / intervals;
-    return n.Vs < f.least_volume() || !(std::abs(n.P2) * step < most_bending * std::abs(n.P1));
+    return n.Vs < f.least_volume || !(std::abs(n.P2) * step < most_bending * std::abs(n.P1));
   });
   // The curve ends where the common tangent is lost before the compression limit of the solid.
   std::vector<Node> curve;
@@ -161,6 +174,11 @@ GrayMeltingCurve::GrayMeltingCurve(const GrayFreeEnergy& f) {
     }
   }
 
+  for (const Node& n : curve) {
+    if (n.Vs1 < 0 && n.Vl1 < 0) continue;
+    throw InputError(
+        fmt::format("melting curve: the volume of a phase grows along it at {:.6g} K, {:.6g} Pa", n.T, n.P));
+  }
   const double step = (last.T - first.T) / intervals;
   std::vector<HermiteTable::Node> pressure, gibbs, solid, liquid;
   for (const Node& n : curve) {

@@ -1,10 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
+
 #include "eos/hermite_table.hpp"
 #include "eos/models/gray_free_energy.hpp"
 
 namespace whipple::eos {
+
+/// Provides the states of solid and liquid, stable or not, to the search of their equilibrium. SI per unit mass.
+struct SolidLiquidSurfaces {
+  std::function<GrayPoint(double V, double T)> solid, liquid;
+  double start_volume = 0, start_temperature = 0;  ///< at which both have equal free energies
+  double least_volume = 0;                         ///< of the solid: the compression limit
+  double join_volume = 0;                          ///< V_J, of the liquid where the search ends
+};
 
 /// Tabulates solid and liquid of GRAY in equilibrium: the common tangent of their free energies on a grid of
 /// temperatures (G27), docs/theory/gray.md, section 3. It extends from the state where the liquid reaches V_J, far
@@ -27,7 +37,8 @@ class GrayMeltingCurve {
     double pressure_by_temperature = 0;  ///< dP/dT; (dP/dV)_T = 0
   };
 
-  /// @throws InputError if the tangent does not exist on the isochore V0
+  /// @throws InputError if the tangent does not exist at the start
+  explicit GrayMeltingCurve(const SolidLiquidSurfaces& surfaces);
   explicit GrayMeltingCurve(const GrayFreeEnergy& surface);
 
   [[nodiscard]] const Tangent& coldest() const { return coldest_; }

@@ -297,6 +297,7 @@ std::string fit_details(const Fit& fit) {
   }
 
   if (fit.joint) text += joint_text(*fit.joint);
+  if (fit.correction) text += "\n" + correction_text(*fit.correction);
   text += unknown_to_classical_nuclei(fit);
   text += nuclei_text(fit);
   text += "\nnot from the simulations\n";

@@ -245,6 +245,8 @@ GrayFit fit_with_join(std::span<const md::PointRecord> points, const FitSettings
                     "coefficient {:.3g} mJ/(mol K^2): {}",
                     store_name, 1e3 * fit.gray.electronic_heat_coefficient, error.what()));
   }
+  if (settings.correction)
+    fit.correction = fit_correction(points, fit.gray, settings.correction_samples, settings.seed);
   if (settings.bootstrap > 0) fit.bootstrap = bootstrap_gray(points, solid, settings, store_name);
   if (settings.density) replace_volume(fit, *settings.density, sources);
   list_constants(fit, whipple::bind(eos::gray_parameters(), fit.gray), sources);
