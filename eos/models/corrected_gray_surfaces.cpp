@@ -40,7 +40,7 @@ ParameterTable<CorrectionConstants> CorrectionConstants::parameters(const std::s
       real(prefix + "_least_volume_ratio", &C::least_volume_ratio, "", range::positive(),
            fmt::format("V/V0 below which the correction of {} does not depend on the volume", of)),
       real(prefix + "_greatest_volume_ratio", &C::greatest_volume_ratio, "", range::positive(),
-           "V/V0 above which it is zero"),
+           "V/V0 above which it does not depend on the volume"),
       real(prefix + "_temperature", &C::temperature, "K", range::positive(), "T* of its u = T/(T + T*)"),
       integer(prefix + "_temperatures", &C::temperatures,
               {.lower = static_cast<double>(FreeEnergySpline::least_temperatures)},

@@ -108,9 +108,8 @@ FreeEnergyTerms FreeEnergySpline::operator()(double V, double T) const {
   // Sums over the temperatures of one row: of the values, and of the derivatives along u.
   FreeEnergyTerms local;  // by the units of the knots
   for (std::size_t i = 0; i < active; ++i) {
-    const long row = p.volume.first + static_cast<long>(i);
-    if (row >= volumes) break;
-    const double* const c = &coefficients_[static_cast<std::size_t>(std::max(row, 0L)) * grid_.temperatures +
+    const long row = std::clamp(p.volume.first + static_cast<long>(i), 0L, volumes - 1);
+    const double* const c = &coefficients_[static_cast<std::size_t>(row) * grid_.temperatures +
                                            static_cast<std::size_t>(p.temperature.first + left)];
     double f = 0, f1 = 0, f2 = 0;
     for (std::size_t k = 0; k < active; ++k) {
@@ -137,11 +136,11 @@ void FreeEnergySpline::add_functional(const FreeEnergyGrid& grid, double V, doub
                                       const FreeEnergyTerms& w, std::span<double> row) {
   const Place p = place(grid, V, T);
   for (std::size_t i = 0; i < active; ++i) {
-    const long line = p.volume.first + static_cast<long>(i);
-    if (line >= static_cast<long>(grid.volumes)) break;
+    const long line =
+        std::clamp(p.volume.first + static_cast<long>(i), 0L, static_cast<long>(grid.volumes) - 1);
     const double v = p.volume.value[i], v1 = p.v1 * p.volume.slope[i],
                  v2 = p.v1 * p.v1 * p.volume.curvature[i] - p.v2 * p.volume.slope[i];
-    const std::size_t begin = static_cast<std::size_t>(std::max(line, 0L)) * grid.temperatures +
+    const std::size_t begin = static_cast<std::size_t>(line) * grid.temperatures +
                               static_cast<std::size_t>(p.temperature.first + left);
     for (std::size_t k = 0; k < active; ++k) {
       const double u = p.temperature.value[k], u1 = p.u1 * p.temperature.slope[k],

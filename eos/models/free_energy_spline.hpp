@@ -15,8 +15,8 @@ struct FreeEnergyTerms {
 
 /// Describes the grid of a FreeEnergySpline. SI.
 struct FreeEnergyGrid {
-  double least_volume = 0;     ///< m^3/kg: about and below it the correction does not depend on V
-  double greatest_volume = 0;  ///< m^3/kg: about and above it there is no correction
+  double least_volume = 0;     ///< m^3/kg: about and below it the correction does not depend on V,
+  double greatest_volume = 0;  ///< m^3/kg: nor about and above this one
   double temperature = 0;      ///< T* of u = T/(T + T*), K
   std::size_t volumes = 0, temperatures = 0;
 
@@ -33,8 +33,7 @@ struct FreeEnergyGrid {
 /// Represents a smooth part of a free energy by a tensor product of quintic B-splines on uniform knots of ln V and
 /// u = T/(T + T*), four times continuously differentiable (docs/theory/gray.md, section 11):
 ///   F(V, T) = sum_ik c_ik B(ln V/h - i) B(u/h_u - k).
-/// Towards small volumes the coefficients continue as constants, towards large ones as zeros: beyond the grid the
-/// pressure has no correction. For T -> infinity the corrections of entropy and heat capacity vanish with T^-2.
+/// Beyond the first and the last volume the coefficients continue as constants: the pressure has no correction there. For T -> infinity the corrections of entropy and heat capacity vanish with T^-2.
 class FreeEnergySpline {
  public:
   static constexpr std::size_t least_temperatures = 6;  ///< one interval of u

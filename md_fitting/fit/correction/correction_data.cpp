@@ -17,8 +17,10 @@ using md::Estimate;
 /// Resolution of the splines, which adds to the noise: of a pressure, in parts of it and of rho0 C^2, and of a thermal
 /// energy.
 constexpr double of_pressure = 5e-4, of_bulk_modulus = 1e-4, of_energy = 1e-3;
-/// What a coexistence or a film of a small box may be off beside its noise, relative: its temperature and its densities.
-constexpr double of_melting = 5e-3, of_heat = 0.02, of_liquid_density = 2e-3, of_vapour_density = 0.03;
+/// What a coexistence of a small box may be off beside its noise, relative: its temperature and its heat.
+constexpr double of_melting = 5e-3, of_heat = 0.02;
+/// The same of a film of two replicas, whose own errors are known to 70 % only: its densities and its pressure.
+constexpr double of_liquid_density = 0.01, of_vapour_density = 0.2, of_vapour_pressure = 0.2;
 constexpr double most_correlated = 0.999;
 
 /// Holds the errors of a group of data as independent sources: covariance = columns columns^T.
@@ -99,8 +101,8 @@ class Collector {
     const double T = point.temperature;
     const double Vl = 1.0 / point.liquid_density.value, Vv = 1.0 / point.vapour_density.value;
     const GrayPoint l = at(PhaseSurface::fluid, Vl, T), v = at(PhaseSurface::fluid, Vv, T);
-    const auto P = [&](double V, double sign, double factor) {
-      return SurfaceTerm{PhaseSurface::fluid, V, T, {.F_V = -sign * factor}};
+    const auto P = [&](double V, double sign) {
+      return SurfaceTerm{PhaseSurface::fluid, V, T, {.F_V = -sign}};
     };
     const auto G = [&](double V, double sign) {
       return SurfaceTerm{PhaseSurface::fluid, V, T, {.F = sign, .F_V = -sign * V}};
@@ -114,22 +116,17 @@ class Collector {
     const double gas = gray_.specific_gas_constant() * T;
     const double slope_l = std::max(std::abs(Vl * l.pressure_by_volume), gas / Vl);
     const double slope_v = gas / Vv;
-    Eigen::MatrixXd sources(2, 2);
-    sources << slope_l * liquid, -slope_v * vapour, Vl * slope_l * liquid, -Vv * slope_v * vapour;
+    const Estimate& stress = point.vapour_pressure;
+    const double pressure = std::hypot(stress.error, of_vapour_pressure * stress.value);
+    // Rows: pressures, Gibbs energies, pressure of the vapour; columns: errors of liquid, vapour and stress.
+    Eigen::MatrixXd sources = Eigen::MatrixXd::Zero(3, 3);
+    sources << slope_l * liquid, -slope_v * vapour, 0.0,  //
+        Vl * slope_l * liquid, -Vv * slope_v * vapour, 0.0, 0.0, -slope_v * vapour, pressure;
     groups_.push_back(
-        {{{"film, pressures", -(l.pressure - v.pressure), gas / Vv, 0.0, {P(Vl, 1.0, 1.0), P(Vv, -1.0, 1.0)}},
-          {"film, Gibbs energies", -(l.gibbs(Vl, T) - v.gibbs(Vv, T)), gas, 0.0, {G(Vl, 1.0), G(Vv, -1.0)}}},
+        {{{"film, pressures", v.pressure - l.pressure, gas / Vv, 0.0, {P(Vl, 1.0), P(Vv, -1.0)}},
+          {"film, Gibbs energies", v.gibbs(Vv, T) - l.gibbs(Vl, T), gas, 0.0, {G(Vl, 1.0), G(Vv, -1.0)}},
+          {"film, pressure of the vapour", stress.value - v.pressure, gas / Vv, 0.0, {P(Vv, 1.0)}}},
          sources * sources.transpose()});
-    if (point.vapour_pressure.error > 0.0) {
-      const double error =
-          std::hypot(point.vapour_pressure.error, of_vapour_density * point.vapour_pressure.value);
-      groups_.push_back({{{"film, pressure of the vapour",
-                           point.vapour_pressure.value - v.pressure,
-                           gas / Vv,
-                           0.0,
-                           {P(Vv, 1.0, 1.0)}}},
-                         Eigen::MatrixXd::Constant(1, 1, error * error)});
-    }
   }
 
   [[nodiscard]] double modulus(PhaseSurface surface, double V, double T) const {

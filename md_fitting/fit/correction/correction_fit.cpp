@@ -22,8 +22,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Standard deviation of ln f of a part before the data.
-constexpr double spread = 2.0;
 /// Errors of the conditions at the reference state, in units of rho0 C^2 and C^2: they fix it, and the zero of energy.
 constexpr double reference_pressure_error = 1e-6, reference_energy_error = 1e-6;
 
@@ -43,7 +41,7 @@ class Problem {
         data_(correction_data(points, classical_)),
         grids_(correction_grids(data_, classical_)),
         energy_(constants.hugoniot_intercept * constants.hugoniot_intercept),
-        parts_(correction_parts(grids_, energy_)),
+        parts_(correction_parts(grids_, energy_, constants.reference_specific_volume)),
         limits_(stability_limits(gray_, grids_)) {
     add_reference();
     const auto count = static_cast<Index>(data_.data.size());
@@ -159,7 +157,7 @@ class Problem {
       system.components.push_back({.name = part.name,
                                    .rows = every,
                                    .covariance = columns * part.covariance * columns.transpose(),
-                                   .spread = spread});
+                                   .spread = part.spread});
     }
     log_factors_ =
         most_probable_factors(system, VectorXd::Zero(static_cast<Index>(system.components.size())));

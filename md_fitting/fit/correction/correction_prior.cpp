@@ -22,8 +22,14 @@ constexpr double least_fluid_end = 4.0;  ///< V/V0 without dilute data
 // Lengths over which the corrections change: ln V and u.
 constexpr double common_length = 0.3, fluid_length = 0.5, temperature_length = 0.5;
 // Standard deviations at f = 1 in units of C^2. A cold part of 0.003 C^2 over 0.3 of ln V is a pressure of 1 % of the
-// bulk modulus.
-constexpr double cold_size = 3e-3, thermal_size = 1e-3;
+// bulk modulus; a twentieth of T_m times the entropy of melting is 0.0008 C^2 for copper.
+constexpr double cold_size = 3e-3, thermal_size = 1e-3, melt_size = 5e-4, vapour_size = 3e-3;
+/// The part of the expanded fluid rises over these V/V0, and falls as 1/V from there: as a second virial coefficient.
+constexpr double expanded_from = 1.0, expanded_to = 1.6;
+/// Standard deviation of ln f of the melt: melting of GRAY is right within a factor of two of these sizes.
+constexpr double melt_spread = 0.7;
+/// Of the energy of cohesion, in units of C^2.
+constexpr double cohesion_size = 0.03;
 /// Functions over which the correction ends towards large volumes.
 constexpr double taper = 4.0;
 
@@ -38,24 +44,37 @@ double correlation(double distance, double length) {
   return (1.0 + r + r * r / 3.0) * std::exp(-r);
 }
 
-/// Returns the covariance of the coefficients of a grid.
-/// @param thermal  whether the part depends on the temperature
-MatrixXd covariance(const FreeEnergyGrid& grid, double length, bool thermal, double size) {
+double smooth_step(double x) {
+  const double t = std::clamp(x, 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
+/// Describes a part of the correction on a grid.
+struct Part {
+  double length = 0.0;   ///< of ln V
+  bool thermal = false;  ///< depends on the temperature
+  double size = 0.0;     ///< J/kg
+  std::function<double(double log_volume)> weight = [](double) { return 1.0; };
+  bool ends = true;  ///< at the last volume; otherwise it continues as a constant
+};
+
+/// Returns the covariance of the coefficients of a part.
+MatrixXd covariance(const FreeEnergyGrid& grid, const Part& part) {
   const auto count = static_cast<Index>(grid.size());
   MatrixXd K(count, count);
   const std::size_t n = grid.temperatures;
   const auto weight = [&](std::size_t i) {  // falls smoothly to zero at the last volume
-    const double rest = std::min(1.0, static_cast<double>(grid.volumes - i) / taper);
-    return rest * rest * (3.0 - 2.0 * rest);
+    return part.size * part.weight(grid.volume_centre(i)) *
+           (part.ends ? smooth_step(static_cast<double>(grid.volumes - 1 - i) / taper) : 1.0);
   };
   for (std::size_t i = 0; i < grid.volumes; ++i) {
     for (std::size_t k = 0; k < grid.volumes; ++k) {
-      const double along_volume = size * size * weight(i) * weight(k) *
-                                  correlation(grid.volume_centre(i) - grid.volume_centre(k), length);
+      const double along_volume =
+          weight(i) * weight(k) * correlation(grid.volume_centre(i) - grid.volume_centre(k), part.length);
       for (std::size_t a = 0; a < n; ++a) {
         for (std::size_t b = 0; b < n; ++b) {
           const double along_temperature =
-              thermal
+              part.thermal
                   ? correlation(grid.temperature_centre(a) - grid.temperature_centre(b), temperature_length)
                   : 1.0;
           K(static_cast<Index>(i * n + a), static_cast<Index>(k * n + b)) = along_volume * along_temperature;
@@ -81,12 +100,42 @@ CorrectionGrids correction_grids(const CorrectionData& data, const eos::GrayFree
   return {grid(least, gray.join_volume(), T, common_step), grid(least, greatest, T, fluid_step)};
 }
 
-std::vector<CorrectionPart> correction_parts(const CorrectionGrids& grids, double energy) {
+std::vector<CorrectionPart> correction_parts(const CorrectionGrids& grids, double energy,
+                                             double reference_volume) {
   const auto fluid = static_cast<Index>(grids.common.size());
-  return {{"cold curve", 0, covariance(grids.common, common_length, false, cold_size * energy)},
-          {"thermal energy", 0, covariance(grids.common, common_length, true, thermal_size * energy)},
-          {"fluid, cold", fluid, covariance(grids.fluid, fluid_length, false, cold_size * energy)},
-          {"fluid, thermal", fluid, covariance(grids.fluid, fluid_length, true, thermal_size * energy)}};
+  const auto expanded = [reference_volume](double log_volume) {
+    const double x = log_volume - std::log(expanded_from * reference_volume);
+    const double width = std::log(expanded_to / expanded_from);
+    return smooth_step(x / width) * std::exp(-std::max(x - width, 0.0));
+  };
+  // What the energy of cohesion differs, with an attraction that ends where the fluid is no longer expanded.
+  const auto cohesion = [reference_volume](double log_volume) {
+    const double free = 1.0 - std::min(1.0, expanded_to * reference_volume * std::exp(-log_volume));
+    return free * free;
+  };
+  constexpr double everywhere = 1e3;  // a length: one function with one unknown size
+  const auto part = [&](double length, bool thermal, double size) {
+    return Part{.length = length, .thermal = thermal, .size = size * energy};
+  };
+  const auto dense = [reference_volume](double log_volume) {
+    const double x = log_volume - std::log(expanded_from * reference_volume);
+    return 1.0 - smooth_step(x / std::log(expanded_to / expanded_from));
+  };
+  const auto of_melt = [&](bool thermal) {
+    return Part{.length = fluid_length, .thermal = thermal, .size = melt_size * energy, .weight = dense};
+  };
+  const auto of_vapour = [&](bool thermal) {
+    return Part{.length = fluid_length, .thermal = thermal, .size = vapour_size * energy, .weight = expanded};
+  };
+  const Part of_cohesion{
+      .length = everywhere, .size = cohesion_size * energy, .weight = cohesion, .ends = false};
+  return {{"cold curve", 0, covariance(grids.common, part(common_length, false, cold_size))},
+          {"thermal energy", 0, covariance(grids.common, part(common_length, true, thermal_size))},
+          {"melt, cold", fluid, covariance(grids.fluid, of_melt(false)), melt_spread},
+          {"melt, thermal", fluid, covariance(grids.fluid, of_melt(true)), melt_spread},
+          {"cohesion", fluid, covariance(grids.fluid, of_cohesion)},
+          {"expanded, cold", fluid, covariance(grids.fluid, of_vapour(false))},
+          {"expanded, thermal", fluid, covariance(grids.fluid, of_vapour(true))}};
 }
 
 Eigen::RowVectorXd coefficient_row(const CorrectionGrids& grids, const std::vector<SurfaceTerm>& terms) {

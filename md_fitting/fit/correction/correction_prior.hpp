@@ -27,12 +27,14 @@ struct CorrectionPart {
   const char* name;
   Eigen::Index first = 0;      ///< coefficient
   Eigen::MatrixXd covariance;  ///< of its coefficients at f = 1
+  double spread = 2.0;         ///< standard deviation of ln f before the data
 };
 
-/// Returns the parts: of the cold curve, which does not depend on T, and of the thermal energy; each in common and of
-/// the fluid alone.
+/// Returns the parts: common to both phases, of the fluid alone, and of the expanded fluid; of each a cold one, which
+/// does not depend on T, and a thermal one.
 /// @param energy  unit of the free energy, C^2, J/kg
-std::vector<CorrectionPart> correction_parts(const CorrectionGrids& grids, double energy);
+std::vector<CorrectionPart> correction_parts(const CorrectionGrids& grids, double energy,
+                                             double reference_volume);
 
 /// Returns the row of coefficients of a list of functionals.
 Eigen::RowVectorXd coefficient_row(const CorrectionGrids& grids, const std::vector<SurfaceTerm>& terms);
