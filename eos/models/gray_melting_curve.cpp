@@ -65,6 +65,17 @@ std::optional<Node> follow(const SolidLiquidSurfaces& f, const Node& from, doubl
   return tangent(f, T, from.Vs + from.Vs1 * (T - from.T), from.Vl + from.Vl1 * (T - from.T));
 }
 
+/// Follows the curve in tension, where it bends, by halved steps if one is too long.
+std::optional<Node> follow_closely(const SolidLiquidSurfaces& f, const Node& from, double T) {
+  for (int steps = 1; steps <= 64; steps *= 2) {
+    std::optional<Node> at = from;
+    for (int i = 1; i <= steps && at; ++i)
+      at = follow(f, *at, i == steps ? T : from.T + (T - from.T) * i / steps);
+    if (at) return at;
+  }
+  return std::nullopt;
+}
+
 /// Marches from a node by steps of a factor in T until `past` holds; returns the last point before it, to 1e-12 in T.
 Node march(const SolidLiquidSurfaces& f, Node at, double factor,
            const std::function<bool(const Node&)>& past) {
@@ -160,7 +171,9 @@ GrayMeltingCurve::GrayMeltingCurve(const SolidLiquidSurfaces& f) {
     curve.assign(1, first);
     const double step = (last.T - first.T) / intervals;
     for (int i = 1; i <= intervals; ++i) {
-      const std::optional<Node> next = follow(f, curve.back(), i == intervals ? last.T : first.T + i * step);
+      const double T = i == intervals ? last.T : first.T + i * step;
+      const std::optional<Node> next =
+          T < start->T ? follow_closely(f, curve.back(), T) : follow(f, curve.back(), T);
       if (!next) break;
       curve.push_back(*next);
     }

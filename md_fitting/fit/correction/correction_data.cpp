@@ -176,8 +176,8 @@ PhaseSurface surface_of(bool solid) { return solid ? PhaseSurface::solid : Phase
 
 }  // namespace
 
-CorrectionData correction_data(std::span<const md::PointRecord> points,
-                               const eos::GrayFreeEnergy& classical) {
+CorrectionData correction_data(std::span<const md::PointRecord> points, const eos::GrayFreeEnergy& classical,
+                               Films films) {
   Collector collector(classical);
   for (const char* protocol : {"isotherm", "isochore"}) {
     for (const md::StatePoint& p : md::select_as<md::StatePoint>(points, protocol)) {
@@ -187,6 +187,7 @@ CorrectionData correction_data(std::span<const md::PointRecord> points,
     }
   }
   for (const md::HugoniotPoint& p : md::select_as<md::HugoniotPoint>(points)) {
+    if (!(p.temperature.value > 0.0)) continue;  // an older store
     // The errors of pressure, energy and temperature of a shock are those of one state on the curve: the energy
     // follows from the pressure by the jump condition.
     collector.state(p.solid ? "shock" : "molten shock", surface_of(p.solid), p.specific_volume,
@@ -211,6 +212,7 @@ CorrectionData correction_data(std::span<const md::PointRecord> points,
     }
   }
   for (const md::CoexistencePoint& p : md::select_as<md::CoexistencePoint>(points)) collector.coexistence(p);
+  if (films == Films::left_out) return collector.result();
   for (const md::LiquidVapourPoint& p : md::select_as<md::LiquidVapourPoint>(points)) collector.film(p);
   return collector.result();
 }

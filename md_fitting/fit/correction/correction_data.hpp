@@ -39,9 +39,13 @@ struct CorrectionData {
   Eigen::MatrixXd covariance;
 };
 
+/// Specifies whether films of melt and vapour are data.
+enum class Films { used, left_out };
+
 /// Collects the states of a store: solid and molten states and shocks, volumes at zero pressure, melts, coexistence,
 /// films. Every residual is taken at the simulated volume and temperature, so that it is exactly linear.
 /// @param classical  GRAY without electrons, as the simulations are
-CorrectionData correction_data(std::span<const md::PointRecord> points, const eos::GrayFreeEnergy& classical);
+CorrectionData correction_data(std::span<const md::PointRecord> points, const eos::GrayFreeEnergy& classical,
+                               Films films);
 
 }  // namespace whipple::fit

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "eos/models/corrected_gray.hpp"
+#include "md_fitting/data_set/points.hpp"
 #include "md_fitting/fit/correction/correction_prior.hpp"
 #include "md_fitting/fit/correction/stability.hpp"
 #include "md_fitting/fit/joint/variance_components.hpp"
@@ -34,11 +35,11 @@ struct Rows {
 
 class Problem {
  public:
-  Problem(std::span<const md::PointRecord> points, const eos::GrayConstants& constants)
+  Problem(std::span<const md::PointRecord> points, const eos::GrayConstants& constants, Films films)
       : constants_(constants),
         gray_(constants),
         classical_(without_electrons(constants)),
-        data_(correction_data(points, classical_)),
+        data_(correction_data(points, classical_, films)),
         grids_(correction_grids(data_, classical_)),
         energy_(constants.hugoniot_intercept * constants.hugoniot_intercept),
         parts_(correction_parts(grids_, energy_, constants.reference_specific_volume)),
@@ -195,14 +196,17 @@ class Problem {
   [[nodiscard]] VectorXd stable(const VectorXd& values, const VectorXd& before, int& limited) const {
     constexpr int most_rounds = 40;
     constexpr std::size_t at_once = 6;
-    constexpr double error = 1e-4;  // of the limited quantity
+    // Aimed at beyond the limit, so that rows with an error end on the right side of it.
+    constexpr double margin = 0.03, error = 0.01;
     Rows rows = rows_;
     rows.values = values;
     limited = 0;
+    std::size_t last_violation = 0;
     for (int round = 0; round < most_rounds; ++round) {
       const VectorXd c = solve(rows, prior_, before);
       const std::vector<std::size_t> violated = worst_violations(limits_, c.head(grids_.size()), at_once);
       if (violated.empty()) return c;
+      last_violation = violated.front();
       const Index old = rows.values.size(), added = static_cast<Index>(violated.size());
       rows.matrix.conservativeResize(old + added, Eigen::NoChange);
       rows.values.conservativeResize(old + added);
@@ -213,13 +217,17 @@ class Problem {
         const StabilityLimit& limit = limits_[violated[static_cast<std::size_t>(i)]];
         rows.matrix.row(old + i).setZero();
         rows.matrix.row(old + i).head(grids_.size()) = limit.row;
-        rows.values[old + i] = limit.least;
+        rows.values[old + i] = limit.least + margin;
         rows.covariance(old + i, old + i) = error * error;
       }
       limited += static_cast<int>(added);
     }
+    const StabilityLimit& worst = limits_[last_violation];
     throw StateError(
-        "correction: no stable correction found: heat capacity or bulk modulus stays below its limit");
+        fmt::format("correction: the data leave heat capacity or bulk modulus below half of those of GRAY at "
+                    "V/V0 = {:.3g}, "
+                    "{:.4g} K",
+                    worst.volume / constants_.reference_specific_volume, worst.temperature));
   }
 
   eos::GrayConstants constants_;
@@ -239,11 +247,9 @@ class Problem {
 /// Checks that the corrected phases make a material. @throws InputError if they do not
 void require_material(const eos::CorrectedGrayConstants& constants) { eos::CorrectedGray model(constants); }
 
-}  // namespace
-
-CorrectionResult fit_correction(std::span<const md::PointRecord> points, const eos::GrayConstants& constants,
-                                int samples, std::uint64_t seed) {
-  const Problem problem(points, constants);
+CorrectionResult fit_with(std::span<const md::PointRecord> points, const eos::GrayConstants& constants,
+                          int samples, std::uint64_t seed, Films films) {
+  const Problem problem(points, constants, films);
   int limited = 0;
   const VectorXd best = problem.most_probable(limited);
   CorrectionResult result = problem.report(best);
@@ -265,6 +271,23 @@ CorrectionResult fit_correction(std::span<const md::PointRecord> points, const e
   return result;
 }
 
+}  // namespace
+
+CorrectionResult fit_correction(std::span<const md::PointRecord> points, const eos::GrayConstants& constants,
+                                int samples, std::uint64_t seed) {
+  std::string reason;
+  try {
+    return fit_with(points, constants, samples, seed, Films::used);
+  } catch (const std::runtime_error& error) {  // InputError or StateError
+    if (md::select_as<md::LiquidVapourPoint>(points).empty()) throw;
+    reason = error.what();
+  }
+  CorrectionResult result = fit_with(points, constants, samples, seed, Films::left_out);
+  result.remark =
+      fmt::format("films of melt and vapour left out, the expanded fluid stays that of GRAY: {}", reason);
+  return result;
+}
+
 std::string correction_text(const CorrectionResult& result) {
   std::string text = fmt::format("{:<38} {:>5} {:>12} {:>12} {:>10}\n", "correction of the free energy: data",
                                  "", "GRAY %", "corrected %", "of errors");
@@ -279,6 +302,7 @@ std::string correction_text(const CorrectionResult& result) {
   text += "sizes in units of those expected:";
   for (const CorrectionSize& size : result.sizes) text += fmt::format(" {} {:.2f};", size.name, size.factor);
   text += fmt::format(" {} limits of stability\n", result.limited);
+  if (!result.remark.empty()) text += result.remark + "\n";
   return text;
 }
 

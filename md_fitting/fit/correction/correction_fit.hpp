@@ -32,10 +32,12 @@ struct CorrectionResult {
   std::vector<CorrectionSize> sizes;
   double energy_zero = 0.0;  ///< J/kg, of the simulation at the reference state of the model
   int limited = 0;           ///< states at which stability decided
+  std::string remark{};      ///< on data that were left out
   std::vector<eos::CorrectedGrayConstants> samples{};  ///< drawn from the posterior distribution
 };
 
-/// Fits the corrections and draws samples of them.
+/// Fits the corrections and draws samples of them. Films from which no dome of melt and vapour follows are left out,
+/// with a remark.
 /// @param constants  of the material, with electrons; they are taken out of what is compared with simulations
 /// @param samples    number
 /// @throws InputError if the corrected phases make no material; StateError if no stable correction is found

@@ -16,11 +16,16 @@ using eos::FreeEnergyGrid;
 // Steps of ln V and numbers of functions of the temperature.
 constexpr double common_step = 0.06, fluid_step = 0.12;
 constexpr std::size_t temperatures = 10;
+constexpr double fluid_temperature = 3.0;  ///< T* of the fluid over that of the common part, T_m0
 /// The grids begin at this fraction of the densest volume, and end at this multiple of the most dilute one.
 constexpr double below = 0.75, beyond = 3.0;
 constexpr double least_fluid_end = 4.0;  ///< V/V0 without dilute data
+/// V/V0: far enough from the solid for the common part to end without bending its pressure.
+constexpr double common_end = 2.0;
 // Lengths over which the corrections change: ln V and u.
 constexpr double common_length = 0.3, fluid_length = 0.5, temperature_length = 0.5;
+/// Thermal parts fall to zero over these u.
+constexpr double thermal_from = 0.6, thermal_to = 0.9;
 // Standard deviations at f = 1 in units of C^2. A cold part of 0.003 C^2 over 0.3 of ln V is a pressure of 1 % of the
 // bulk modulus; a twentieth of T_m times the entropy of melting is 0.0008 C^2 for copper.
 constexpr double cold_size = 3e-3, thermal_size = 1e-3, melt_size = 5e-4, vapour_size = 3e-3;
@@ -31,7 +36,7 @@ constexpr double melt_spread = 0.7;
 /// Of the energy of cohesion, in units of C^2.
 constexpr double cohesion_size = 0.03;
 /// Functions over which the correction ends towards large volumes.
-constexpr double taper = 4.0;
+constexpr double taper = 6.0;
 
 FreeEnergyGrid grid(double least, double greatest, double temperature, double step) {
   const double count = std::ceil(std::log(greatest / least) / step) + 1.0;
@@ -47,6 +52,11 @@ double correlation(double distance, double length) {
 double smooth_step(double x) {
   const double t = std::clamp(x, 0.0, 1.0);
   return t * t * (3.0 - 2.0 * t);
+}
+
+/// Returns the weight of the thermal parts at u: they end where no solid is hot enough to have taught them.
+double thermal_weight(double u) {
+  return 1.0 - smooth_step((u - thermal_from) / (thermal_to - thermal_from));
 }
 
 /// Describes a part of the correction on a grid.
@@ -75,7 +85,9 @@ MatrixXd covariance(const FreeEnergyGrid& grid, const Part& part) {
         for (std::size_t b = 0; b < n; ++b) {
           const double along_temperature =
               part.thermal
-                  ? correlation(grid.temperature_centre(a) - grid.temperature_centre(b), temperature_length)
+                  ? thermal_weight(grid.temperature_centre(a)) * thermal_weight(grid.temperature_centre(b)) *
+                        correlation(grid.temperature_centre(a) - grid.temperature_centre(b),
+                                    temperature_length)
                   : 1.0;
           K(static_cast<Index>(i * n + a), static_cast<Index>(k * n + b)) = along_volume * along_temperature;
         }
@@ -97,7 +109,8 @@ CorrectionGrids correction_grids(const CorrectionData& data, const eos::GrayFree
     }
   }
   least *= below;
-  return {grid(least, gray.join_volume(), T, common_step), grid(least, greatest, T, fluid_step)};
+  return {grid(least, common_end * V0, T, common_step),
+          grid(least, greatest, fluid_temperature * T, fluid_step)};
 }
 
 std::vector<CorrectionPart> correction_parts(const CorrectionGrids& grids, double energy,

@@ -18,8 +18,8 @@ struct CorrectionGrids {
   [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(common.size() + fluid.size()); }
 };
 
-/// Returns grids that hold the data: volumes from well below the densest datum, for the solid to V_J, for the fluid
-/// to beyond the most dilute one.
+/// Returns grids that hold the data: volumes from well below the densest datum, in common to twice V0, for the fluid to
+/// beyond the most dilute one.
 CorrectionGrids correction_grids(const CorrectionData& data, const eos::GrayFreeEnergy& gray);
 
 /// Describes a random part of the corrections: a Gaussian process with a stated standard deviation.

@@ -14,7 +14,6 @@ using eos::GrayPoint;
 constexpr double least_heat_capacity = 0.5, least_modulus = 0.4;
 /// States of which GRAY's bulk modulus is below this fraction of rho0 C^2 are near a spinodal.
 constexpr double near_spinodal = 0.1;
-constexpr double tolerance = 1e-3;
 
 class Limits {
  public:
@@ -74,7 +73,7 @@ std::vector<std::size_t> worst_violations(const std::vector<StabilityLimit>& lim
   std::vector<std::pair<double, std::size_t>> violated;
   for (std::size_t i = 0; i < limits.size(); ++i) {
     const double lack = limits[i].least - limits[i].row.dot(c);
-    if (lack > tolerance) violated.emplace_back(lack, i);
+    if (lack > 0.0) violated.emplace_back(lack, i);
   }
   std::ranges::sort(violated, std::greater{});
   std::vector<std::size_t> indices;
