@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "eos/models/gray_melting_curve.hpp"
 #include "md_fitting/data_set/points.hpp"
 
 namespace whipple::fit {
@@ -19,6 +20,9 @@ using md::Estimate;
 constexpr double of_pressure = 5e-4, of_bulk_modulus = 1e-4, of_energy = 1e-3;
 /// What a coexistence of a small box may be off beside its noise, relative: its temperature and its heat.
 constexpr double of_melting = 5e-3, of_heat = 0.02;
+/// The melting line of GRAY is kept to this, relative, up to this multiple of the melting temperature at rest, and
+/// further than this in ln T from simulated coexistence.
+constexpr double of_kept_melting = 0.01, hottest_kept = 4.0, near_simulated = 0.2;
 /// The same of a film of two replicas, whose own errors are known to 70 % only: its densities and its pressure.
 constexpr double of_liquid_density = 0.01, of_vapour_density = 0.2, of_vapour_pressure = 0.2;
 constexpr double most_correlated = 0.999;
@@ -95,6 +99,32 @@ class Collector {
                            {{PhaseSurface::fluid, Vl, T, {.F = 1.0, .F_T = -T}},
                             {PhaseSurface::solid, Vs, T, {.F = -1.0, .F_T = T}}}};
     groups_.push_back({{std::move(fusion)}, Eigen::MatrixXd::Constant(1, 1, heat_error * heat_error)});
+  }
+  /// Keeps the melting line of GRAY, which the constants come from, where no coexistence was simulated: equal Gibbs
+  /// energies at its pressures and temperatures.
+  void melting_line(const std::vector<md::CoexistencePoint>& simulated) {
+    const eos::GrayMeltingCurve curve(gray_);
+    const double first = curve.at_pressure(0.0).temperature;
+    const double last = std::min(0.95 * curve.hottest().temperature, hottest_kept * first);
+    constexpr int points = 8;
+    for (int i = 0; i < points; ++i) {
+      const double T = first * std::pow(last / first, static_cast<double>(i) / (points - 1));
+      const bool is_known = std::ranges::any_of(simulated, [&](const md::CoexistencePoint& point) {
+        return std::abs(std::log(T / point.melting_temperature.value)) < near_simulated;
+      });
+      if (is_known) continue;
+      const eos::GrayMeltingCurve::Tangent t = curve.at_temperature(T);
+      const double entropy = at(PhaseSurface::fluid, t.liquid_volume, T).entropy -
+                             at(PhaseSurface::solid, t.solid_volume, T).entropy;
+      const double error = of_kept_melting * T * entropy;
+      groups_.push_back({{{"melting line kept",
+                           0.0,
+                           T * entropy,
+                           0.0,
+                           {{PhaseSurface::fluid, t.liquid_volume, T, {.F = 1.0}},
+                            {PhaseSurface::solid, t.solid_volume, T, {.F = -1.0}}}}},
+                         Eigen::MatrixXd::Constant(1, 1, error * error)});
+    }
   }
   /// Adds melt and vapour in equilibrium: equal pressures and Gibbs energies at the simulated densities.
   void film(const md::LiquidVapourPoint& point) {
@@ -211,7 +241,9 @@ CorrectionData correction_data(std::span<const md::PointRecord> points, const eo
       collector.pressure("melt, pressure", PhaseSurface::fluid, V, p.temperature, p.pressure, error);
     }
   }
-  for (const md::CoexistencePoint& p : md::select_as<md::CoexistencePoint>(points)) collector.coexistence(p);
+  const std::vector<md::CoexistencePoint> coexistence = md::select_as<md::CoexistencePoint>(points);
+  for (const md::CoexistencePoint& p : coexistence) collector.coexistence(p);
+  collector.melting_line(coexistence);
   if (films == Films::left_out) return collector.result();
   for (const md::LiquidVapourPoint& p : md::select_as<md::LiquidVapourPoint>(points)) collector.film(p);
   return collector.result();
