@@ -339,6 +339,16 @@ std::string plot_data(const NamedFit& named) {
                                  {"fitted", row.fitted},
                                  {"sigma", row.sigma}});
   }
+  if (fit.correction) {
+    for (const CorrectionRow& row : fit.correction->rows) {
+      data["correction"].push_back({{"kind", row.kind},
+                                    {"volume", row.volume},
+                                    {"temperature", row.temperature},
+                                    {"gray", row.gray},
+                                    {"corrected", row.corrected},
+                                    {"error", row.error}});
+    }
+  }
   for (const IsochoreGruneisen& isochore : fit.isochores) {
     data["isochores"].push_back(
         {{"volume", isochore.volume}, {"gruneisen", isochore.gruneisen}, {"error", isochore.error}});

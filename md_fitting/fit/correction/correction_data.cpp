@@ -110,7 +110,7 @@ class Collector {
     for (int i = 0; i < points; ++i) {
       const double T = first * std::pow(last / first, static_cast<double>(i) / (points - 1));
       const bool is_known = std::ranges::any_of(simulated, [&](const md::CoexistencePoint& point) {
-        return std::abs(std::log(T / point.melting_temperature.value)) < near_simulated;
+        return point.fusion_volume && std::abs(std::log(T / point.melting_temperature.value)) < near_simulated;
       });
       if (is_known) continue;
       const eos::GrayMeltingCurve::Tangent t = curve.at_temperature(T);

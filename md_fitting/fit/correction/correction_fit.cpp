@@ -94,6 +94,9 @@ class Problem {
       CorrectionResiduals& kind = result.residuals[at->second];
       ++kind.data;
       const double before = rows_.values[row] - datum.energy_zero * c[grids_.size()];
+      const SurfaceTerm& state = datum.terms.front();
+      result.rows.push_back({datum.kind, state.volume, state.temperature, before / datum.scale,
+                             rest[row] / datum.scale, std::sqrt(rows_.covariance(row, row)) / datum.scale});
       kind.gray += std::pow(before / datum.scale, 2);
       kind.corrected += std::pow(rest[row] / datum.scale, 2);
       kind.of_errors += rest[row] * rest[row] / rows_.covariance(row, row);

@@ -20,6 +20,13 @@ struct CorrectionResiduals {
   double of_errors = 0.0;              ///< rms of the corrected over their errors
 };
 
+/// Holds one datum before and after the correction, over the scale of its kind.
+struct CorrectionRow {
+  std::string kind;
+  double volume = 0.0, temperature = 0.0;           ///< m^3/kg, K; of the first state of the datum
+  double gray = 0.0, corrected = 0.0, error = 0.0;  ///< datum less model; one standard deviation
+};
+
 /// Holds the estimated size of one part of the corrections.
 struct CorrectionSize {
   std::string name;
@@ -29,6 +36,7 @@ struct CorrectionSize {
 struct CorrectionResult {
   eos::CorrectionConstants common, fluid;
   std::vector<CorrectionResiduals> residuals;
+  std::vector<CorrectionRow> rows;
   std::vector<CorrectionSize> sizes;
   double energy_zero = 0.0;  ///< J/kg, of the simulation at the reference state of the model
   int limited = 0;           ///< states at which stability decided
