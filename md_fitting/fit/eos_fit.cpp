@@ -111,8 +111,6 @@ FitSettings settings(const Options& options) {
     if (model_of(options.model) != FitModel::gray ||
         options.melting != word_of(eos::MeltingTransition::equilibrium))
       throw InputError("--correct: corrects the phases of --model gray with --melting equilibrium only");
-    if (!options.measured.empty())
-      throw InputError("--correct: the correction follows simulations alone: leave --with out");
     settings.correction_samples = options.samples;
   }
   if (!options.density.empty()) {

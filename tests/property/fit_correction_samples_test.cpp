@@ -31,7 +31,7 @@ TEST(FitCorrectionSamples, ScatterAsTheErrors) {
   constexpr int stores = 8, samples = 12;
   double sum = 0.0, count = 0.0;
   for (unsigned seed = 1; seed <= stores; ++seed) {
-    const CorrectionResult result = fit_correction(crystal(10 + seed), constants, samples, seed);
+    const CorrectionResult result = fit_correction({crystal(10 + seed), constants, constants}, samples, seed);
     ASSERT_EQ(result.samples.size(), static_cast<std::size_t>(samples));
     std::vector<eos::CorrectedGraySurfaces> drawn;
     for (const eos::CorrectedGrayConstants& sample : result.samples) drawn.emplace_back(sample);
@@ -54,7 +54,7 @@ TEST(FitCorrectionSamples, ScatterAsTheErrors) {
 // Identities of a hundred samples, to 1e-6 over the range: section 10.
 TEST(FitCorrectionSamples, IdentitiesHold) {
   const eos::GrayConstants constants = true_constants();
-  const CorrectionResult result = fit_correction(crystal(1), constants, 100, 3);
+  const CorrectionResult result = fit_correction({crystal(1), constants, constants}, 100, 3);
   double largest = 0.0;
   int states = 0;
   for (const eos::CorrectedGrayConstants& sample : result.samples) {

@@ -402,8 +402,6 @@ TEST_F(FitMaterial, ExecutableCorrectsTheFreeEnergies) {
   }
   EXPECT_EQ(run(fmt::format("'{}' --correct --melting band", file.string())), 2);
   EXPECT_THAT(output(), HasSubstr("--melting equilibrium only"));
-  EXPECT_EQ(run(fmt::format("'{}' --correct --with cu_hugoniot_marsh1980", file.string())), 2);
-  EXPECT_THAT(output(), HasSubstr("leave --with out"));
 }
 
 TEST_F(FitMaterial, ExecutableReportsWrongInput) {

@@ -23,8 +23,6 @@ constexpr double of_melting = 5e-3, of_heat = 0.02;
 /// The melting line of GRAY is kept to this, relative, up to this multiple of the melting temperature at rest, and
 /// further than this in ln T from simulated coexistence.
 constexpr double of_kept_melting = 0.01, hottest_kept = 4.0, near_simulated = 0.2;
-/// The same of a film of two replicas, whose own errors are known to 70 % only: its densities and its pressure.
-constexpr double of_liquid_density = 0.01, of_vapour_density = 0.2, of_vapour_pressure = 0.2;
 constexpr double most_correlated = 0.999;
 
 /// Holds the errors of a group of data as independent sources: covariance = columns columns^T.
@@ -35,7 +33,8 @@ struct Group {
 
 class Collector {
  public:
-  explicit Collector(const eos::GrayFreeEnergy& gray) : gray_(gray) {
+  Collector(const eos::GrayFreeEnergy& gray, const FilmErrors& film_errors)
+      : gray_(gray), film_errors_(film_errors) {
     const eos::GrayConstants& c = gray.constants();
     bulk_modulus_ = c.hugoniot_intercept * c.hugoniot_intercept / c.reference_specific_volume;
   }
@@ -75,17 +74,17 @@ class Collector {
     const auto volume_error = [&](const GrayPoint& p, const Estimate& V) {
       return p.pressure_by_volume * V.error;
     };
-    pressure("coexistence, pressure of the solid", PhaseSurface::solid, Vs, T, P,
+    pressure("coexistence, solid", PhaseSurface::solid, Vs, T, P,
              volume_error(s, *point.solid_specific_volume));
-    pressure("coexistence, pressure of the melt", PhaseSurface::fluid, Vl, T, P,
-             volume_error(l, *point.fusion_volume));
+    pressure("coexistence, melt", PhaseSurface::fluid, Vl, T, P, volume_error(l, *point.fusion_volume));
     // F_l - F_s + P (V_l - V_s) = 0, of which the error of T makes S_l - S_s times it.
     const double entropy = l.entropy - s.entropy;
     const double error = entropy * std::hypot(point.melting_temperature.error, of_melting * T);
     CorrectionDatum gibbs{
         "coexistence, Gibbs energies",
+        CorrectionRowKind::gibbs,
         -(l.energy - s.energy - T * entropy + P * (Vl - Vs)),
-        entropy,
+        T * entropy,
         0.0,
         {{PhaseSurface::fluid, Vl, T, {.F = 1.0}}, {PhaseSurface::solid, Vs, T, {.F = -1.0}}}};
     groups_.push_back({{std::move(gibbs)}, Eigen::MatrixXd::Constant(1, 1, error * error)});
@@ -93,6 +92,7 @@ class Collector {
     const double heat = point.latent_heat->value;
     const double heat_error = std::hypot(point.latent_heat->error, of_heat * heat);
     CorrectionDatum fusion{"coexistence, heat of fusion",
+                           CorrectionRowKind::fusion,
                            heat - P * (Vl - Vs) - (l.energy - s.energy),
                            heat,
                            0.0,
@@ -100,24 +100,24 @@ class Collector {
                             {PhaseSurface::solid, Vs, T, {.F = -1.0, .F_T = T}}}};
     groups_.push_back({{std::move(fusion)}, Eigen::MatrixXd::Constant(1, 1, heat_error * heat_error)});
   }
-  /// Keeps the melting line of GRAY, which the constants come from, where no coexistence was simulated: equal Gibbs
+  /// Keeps the melting line of GRAY, which the constants come from, where melting is not known otherwise: equal Gibbs
   /// energies at its pressures and temperatures.
-  void melting_line(const std::vector<md::CoexistencePoint>& simulated) {
+  void melting_line(const std::vector<double>& known) {
     const eos::GrayMeltingCurve curve(gray_);
     const double first = curve.at_pressure(0.0).temperature;
     const double last = std::min(0.95 * curve.hottest().temperature, hottest_kept * first);
     constexpr int points = 8;
     for (int i = 0; i < points; ++i) {
       const double T = first * std::pow(last / first, static_cast<double>(i) / (points - 1));
-      const bool is_known = std::ranges::any_of(simulated, [&](const md::CoexistencePoint& point) {
-        return point.fusion_volume && std::abs(std::log(T / point.melting_temperature.value)) < near_simulated;
-      });
+      const bool is_known = std::ranges::any_of(
+          known, [&](double temperature) { return std::abs(std::log(T / temperature)) < near_simulated; });
       if (is_known) continue;
       const eos::GrayMeltingCurve::Tangent t = curve.at_temperature(T);
       const double entropy = at(PhaseSurface::fluid, t.liquid_volume, T).entropy -
                              at(PhaseSurface::solid, t.solid_volume, T).entropy;
       const double error = of_kept_melting * T * entropy;
       groups_.push_back({{{"melting line kept",
+                           CorrectionRowKind::kept,
                            0.0,
                            T * entropy,
                            0.0,
@@ -138,25 +138,39 @@ class Collector {
       return SurfaceTerm{PhaseSurface::fluid, V, T, {.F = sign, .F_V = -sign * V}};
     };
     const double liquid =
-        std::hypot(point.liquid_density.error / point.liquid_density.value, of_liquid_density);
+        std::hypot(point.liquid_density.error / point.liquid_density.value, film_errors_.liquid_density);
     const double vapour =
-        std::hypot(point.vapour_density.error / point.vapour_density.value, of_vapour_density);
+        std::hypot(point.vapour_density.error / point.vapour_density.value, film_errors_.vapour_density);
     // By the densities: dP = V (dP/dV) d ln V, d(F + P V) = V dP. Slopes of an ideal gas at least: those of GRAY may
     // lie in its loop.
     const double gas = gray_.specific_gas_constant() * T;
     const double slope_l = std::max(std::abs(Vl * l.pressure_by_volume), gas / Vl);
     const double slope_v = gas / Vv;
     const Estimate& stress = point.vapour_pressure;
-    const double pressure = std::hypot(stress.error, of_vapour_pressure * stress.value);
+    const double pressure = std::hypot(stress.error, film_errors_.vapour_pressure * stress.value);
     // Rows: pressures, Gibbs energies, pressure of the vapour; columns: errors of liquid, vapour and stress.
     Eigen::MatrixXd sources = Eigen::MatrixXd::Zero(3, 3);
     sources << slope_l * liquid, -slope_v * vapour, 0.0,  //
         Vl * slope_l * liquid, -Vv * slope_v * vapour, 0.0, 0.0, -slope_v * vapour, pressure;
-    groups_.push_back(
-        {{{"film, pressures", v.pressure - l.pressure, gas / Vv, 0.0, {P(Vl, 1.0), P(Vv, -1.0)}},
-          {"film, Gibbs energies", v.gibbs(Vv, T) - l.gibbs(Vl, T), gas, 0.0, {G(Vl, 1.0), G(Vv, -1.0)}},
-          {"film, pressure of the vapour", stress.value - v.pressure, gas / Vv, 0.0, {P(Vv, 1.0)}}},
-         sources * sources.transpose()});
+    groups_.push_back({{{"film, pressures",
+                         CorrectionRowKind::film,
+                         v.pressure - l.pressure,
+                         gas / Vv,
+                         0.0,
+                         {P(Vl, 1.0), P(Vv, -1.0)}},
+                        {"film, Gibbs energies",
+                         CorrectionRowKind::film,
+                         v.gibbs(Vv, T) - l.gibbs(Vl, T),
+                         gas,
+                         0.0,
+                         {G(Vl, 1.0), G(Vv, -1.0)}},
+                        {"film, pressure of the vapour",
+                         CorrectionRowKind::film,
+                         stress.value - v.pressure,
+                         gas / Vv,
+                         0.0,
+                         {P(Vv, 1.0)}}},
+                       sources * sources.transpose()});
   }
 
   [[nodiscard]] double modulus(PhaseSurface surface, double V, double T) const {
@@ -186,11 +200,17 @@ class Collector {
   }
   [[nodiscard]] CorrectionDatum pressure_datum(const std::string& kind, PhaseSurface surface, double V,
                                                double T, double residual) const {
-    return {kind + ", pressure", residual, bulk_modulus_, 0.0, {{surface, V, T, {.F_V = -1.0}}}};
+    return {kind + ", pressure",
+            CorrectionRowKind::pressure,
+            residual,
+            bulk_modulus_,
+            0.0,
+            {{surface, V, T, {.F_V = -1.0}}}};
   }
   [[nodiscard]] CorrectionDatum energy_datum(const std::string& kind, PhaseSurface surface, double V,
                                              double T, double residual) const {
     return {kind + ", energy",
+            CorrectionRowKind::energy,
             residual,
             3.0 * gray_.specific_gas_constant() * T,
             1.0,
@@ -198,20 +218,36 @@ class Collector {
   }
 
   const eos::GrayFreeEnergy& gray_;
+  FilmErrors film_errors_;
   double bulk_modulus_;
   std::vector<Group> groups_;
 };
 
-PhaseSurface surface_of(bool solid) { return solid ? PhaseSurface::solid : PhaseSurface::fluid; }
+PhaseSurface phase_of(bool solid) { return solid ? PhaseSurface::solid : PhaseSurface::fluid; }
 
 }  // namespace
 
+CorrectionData joined(CorrectionData first, const CorrectionData& second) {
+  const Eigen::Index begin = first.covariance.rows(), added = second.covariance.rows();
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(begin + added, begin + added);
+  covariance.topLeftCorner(begin, begin) = first.covariance;
+  covariance.bottomRightCorner(added, added) = second.covariance;
+  first.covariance = std::move(covariance);
+  first.data.insert(first.data.end(), second.data.begin(), second.data.end());
+  for (VarianceComponent deviation : second.deviations) {
+    for (Eigen::Index& row : deviation.rows) row += begin;
+    first.deviations.push_back(std::move(deviation));
+  }
+  return first;
+}
+
 CorrectionData correction_data(std::span<const md::PointRecord> points, const eos::GrayFreeEnergy& classical,
-                               Films films) {
-  Collector collector(classical);
+                               Films films, const FilmErrors& film_errors,
+                               std::span<const double> melts_measured) {
+  Collector collector(classical, film_errors);
   for (const char* protocol : {"isotherm", "isochore"}) {
     for (const md::StatePoint& p : md::select_as<md::StatePoint>(points, protocol)) {
-      collector.state(p.solid ? protocol : "molten " + std::string(protocol), surface_of(p.solid),
+      collector.state(p.solid ? protocol : "molten " + std::string(protocol), phase_of(p.solid),
                       p.specific_volume, p.temperature, p.pressure, p.specific_internal_energy,
                       p.error_correlation);
     }
@@ -220,7 +256,7 @@ CorrectionData correction_data(std::span<const md::PointRecord> points, const eo
     if (!(p.temperature.value > 0.0)) continue;  // an older store
     // The errors of pressure, energy and temperature of a shock are those of one state on the curve: the energy
     // follows from the pressure by the jump condition.
-    collector.state(p.solid ? "shock" : "molten shock", surface_of(p.solid), p.specific_volume,
+    collector.state(p.solid ? "shock" : "molten shock", phase_of(p.solid), p.specific_volume,
                     p.temperature.value, p.pressure, p.specific_internal_energy, 0.0);
   }
   for (const md::ZeroPressurePoint& p : md::select_as<md::ZeroPressurePoint>(points)) {
@@ -238,12 +274,15 @@ CorrectionData correction_data(std::span<const md::PointRecord> points, const eo
       collector.state("melt", PhaseSurface::fluid, V, p.temperature, {p.pressure, error},
                       p.specific_internal_energy, 0.0);
     } else {
-      collector.pressure("melt, pressure", PhaseSurface::fluid, V, p.temperature, p.pressure, error);
+      collector.pressure("melt", PhaseSurface::fluid, V, p.temperature, p.pressure, error);
     }
   }
-  const std::vector<md::CoexistencePoint> coexistence = md::select_as<md::CoexistencePoint>(points);
-  for (const md::CoexistencePoint& p : coexistence) collector.coexistence(p);
-  collector.melting_line(coexistence);
+  std::vector<double> known(melts_measured.begin(), melts_measured.end());
+  for (const md::CoexistencePoint& p : md::select_as<md::CoexistencePoint>(points)) {
+    collector.coexistence(p);
+    if (p.fusion_volume) known.push_back(p.melting_temperature.value);
+  }
+  collector.melting_line(known);
   if (films == Films::left_out) return collector.result();
   for (const md::LiquidVapourPoint& p : md::select_as<md::LiquidVapourPoint>(points)) collector.film(p);
   return collector.result();

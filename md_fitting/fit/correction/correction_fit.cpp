@@ -11,6 +11,8 @@
 #include "eos/models/corrected_gray.hpp"
 #include "md_fitting/data_set/points.hpp"
 #include "md_fitting/fit/correction/correction_prior.hpp"
+#include "md_fitting/fit/correction/measured_rows.hpp"
+#include "md_fitting/fit/correction/potential_rows.hpp"
 #include "md_fitting/fit/correction/stability.hpp"
 #include "md_fitting/fit/joint/variance_components.hpp"
 #include "src/core/base/error.hpp"
@@ -35,14 +37,13 @@ struct Rows {
 
 class Problem {
  public:
-  Problem(std::span<const md::PointRecord> points, const eos::GrayConstants& constants, Films films)
-      : constants_(constants),
-        gray_(constants),
-        classical_(without_electrons(constants)),
-        data_(correction_data(points, classical_, films)),
-        grids_(correction_grids(data_, classical_)),
-        energy_(constants.hugoniot_intercept * constants.hugoniot_intercept),
-        parts_(correction_parts(grids_, energy_, constants.reference_specific_volume)),
+  Problem(const CorrectionSource& source, Films films)
+      : constants_(source.metal),
+        gray_(constants_),
+        data_(collect(source, films)),
+        grids_(correction_grids(data_, gray_)),
+        energy_(constants_.hugoniot_intercept * constants_.hugoniot_intercept),
+        parts_(correction_parts(grids_, energy_, constants_.reference_specific_volume)),
         limits_(stability_limits(gray_, grids_)) {
     add_reference();
     const auto count = static_cast<Index>(data_.data.size());
@@ -84,6 +85,9 @@ class Problem {
     result.energy_zero = energy_zero_ + c[grids_.size()];
     for (std::size_t i = 0; i < parts_.size(); ++i)
       result.sizes.push_back({parts_[i].name, std::exp(log_factors_[static_cast<Index>(i)])});
+    for (std::size_t i = 0; i < data_.deviations.size(); ++i)
+      result.sizes.push_back(
+          {data_.deviations[i].name, std::exp(log_factors_[static_cast<Index>(parts_.size() + i)])});
     const VectorXd rest = rows_.values - rows_.matrix * c;
     std::map<std::string, std::size_t> place;
     for (std::size_t i = 0; i + reference_rows < data_.data.size(); ++i) {
@@ -114,6 +118,21 @@ class Problem {
     constants.electronic_heat_coefficient = 0.0;
     return constants;
   }
+  /// Collects simulations and measurements as data of the metal.
+  static CorrectionData collect(const CorrectionSource& source, Films films) {
+    const eos::GrayFreeEnergy simulated(without_electrons(source.simulated));
+    const bool is_measured = !source.measured.empty();
+    std::vector<double> melting;
+    for (const MeasuredCurve& curve : source.measured) {
+      if (curve.experiment.kind == eos::experiments::ExperimentKind::melting)
+        melting.insert(melting.end(), curve.experiment.ordinate.begin(), curve.experiment.ordinate.end());
+    }
+    CorrectionData data = correction_data(source.points, simulated, films,
+                                          is_measured ? of_films_for_metal : of_films, melting);
+    if (is_measured) add_potential_errors(data, simulated);
+    move_to(data, source.metal.reference_specific_volume / source.simulated.reference_specific_volume);
+    return is_measured ? joined(std::move(data), measured_rows(source.measured, source.metal)) : data;
+  }
   static VectorXd normal(Index size, std::mt19937_64& random) {
     std::normal_distribution<double> distribution;
     VectorXd x(size);
@@ -125,10 +144,18 @@ class Problem {
   void add_reference() {
     const eos::GrayConstants& c = constants_;
     const double V = c.reference_specific_volume, T = c.reference_temperature;
-    data_.data.push_back(
-        {"reference state, pressure", 0.0, 1.0, 0.0, {{PhaseSurface::solid, V, T, {.F_V = -1.0}}}});
-    data_.data.push_back(
-        {"reference state, energy", 0.0, 1.0, 0.0, {{PhaseSurface::solid, V, T, {.F = 1.0, .F_T = -T}}}});
+    data_.data.push_back({"reference state, pressure",
+                          CorrectionRowKind::kept,
+                          0.0,
+                          1.0,
+                          0.0,
+                          {{PhaseSurface::solid, V, T, {.F_V = -1.0}}}});
+    data_.data.push_back({"reference state, energy",
+                          CorrectionRowKind::kept,
+                          0.0,
+                          1.0,
+                          0.0,
+                          {{PhaseSurface::solid, V, T, {.F = 1.0, .F_T = -T}}}});
     const Index count = data_.covariance.rows();
     MatrixXd all = MatrixXd::Zero(count + 2, count + 2);
     all.topLeftCorner(count, count) = data_.covariance;
@@ -163,6 +190,7 @@ class Problem {
                                    .covariance = columns * part.covariance * columns.transpose(),
                                    .spread = part.spread});
     }
+    for (const VarianceComponent& deviation : data_.deviations) system.components.push_back(deviation);
     log_factors_ =
         most_probable_factors(system, VectorXd::Zero(static_cast<Index>(system.components.size())));
     prior_ = MatrixXd::Zero(grids_.size() + 1, grids_.size() + 1);
@@ -170,6 +198,11 @@ class Problem {
       const Index size = parts_[i].covariance.rows(), first = parts_[i].first;
       prior_.block(first, first, size, size) +=
           std::exp(2.0 * log_factors_[static_cast<Index>(i)]) * parts_[i].covariance;
+    }
+    for (std::size_t i = 0; i < data_.deviations.size(); ++i) {
+      const VarianceComponent& deviation = data_.deviations[i];
+      rows_.covariance(deviation.rows, deviation.rows) +=
+          std::exp(2.0 * log_factors_[static_cast<Index>(parts_.size() + i)]) * deviation.covariance;
     }
     prior_(grids_.size(), grids_.size()) = zero_width * zero_width;
     const SymmetricEigen eigen = symmetric_eigen(prior_);
@@ -234,7 +267,7 @@ class Problem {
   }
 
   eos::GrayConstants constants_;
-  eos::GrayFreeEnergy gray_, classical_;
+  eos::GrayFreeEnergy gray_;
   CorrectionData data_;
   CorrectionGrids grids_;
   double energy_;
@@ -250,9 +283,8 @@ class Problem {
 /// Checks that the corrected phases make a material. @throws InputError if they do not
 void require_material(const eos::CorrectedGrayConstants& constants) { eos::CorrectedGray model(constants); }
 
-CorrectionResult fit_with(std::span<const md::PointRecord> points, const eos::GrayConstants& constants,
-                          int samples, std::uint64_t seed, Films films) {
-  const Problem problem(points, constants, films);
+CorrectionResult fit_with(const CorrectionSource& source, int samples, std::uint64_t seed, Films films) {
+  const Problem problem(source, films);
   int limited = 0;
   const VectorXd best = problem.most_probable(limited);
   CorrectionResult result = problem.report(best);
@@ -276,16 +308,15 @@ CorrectionResult fit_with(std::span<const md::PointRecord> points, const eos::Gr
 
 }  // namespace
 
-CorrectionResult fit_correction(std::span<const md::PointRecord> points, const eos::GrayConstants& constants,
-                                int samples, std::uint64_t seed) {
+CorrectionResult fit_correction(const CorrectionSource& source, int samples, std::uint64_t seed) {
   std::string reason;
   try {
-    return fit_with(points, constants, samples, seed, Films::used);
+    return fit_with(source, samples, seed, Films::used);
   } catch (const std::runtime_error& error) {  // InputError or StateError
-    if (md::select_as<md::LiquidVapourPoint>(points).empty()) throw;
+    if (md::select_as<md::LiquidVapourPoint>(source.points).empty()) throw;
     reason = error.what();
   }
-  CorrectionResult result = fit_with(points, constants, samples, seed, Films::left_out);
+  CorrectionResult result = fit_with(source, samples, seed, Films::left_out);
   result.remark =
       fmt::format("films of melt and vapour left out, the expanded fluid stays that of GRAY: {}", reason);
   return result;

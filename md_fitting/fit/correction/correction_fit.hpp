@@ -8,6 +8,7 @@
 
 #include "eos/models/corrected_gray_surfaces.hpp"
 #include "md_fitting/data_set/data_set.hpp"
+#include "md_fitting/fit/joint/measured_curves.hpp"
 
 /// Fits smooth corrections of GRAY's free energies to the states of a store (docs/theory/fit.md, section 10).
 namespace whipple::fit {
@@ -44,13 +45,20 @@ struct CorrectionResult {
   std::vector<eos::CorrectedGrayConstants> samples{};  ///< drawn from the posterior distribution
 };
 
+/// Holds what a correction is fitted to.
+struct CorrectionSource {
+  std::span<const md::PointRecord> points;
+  eos::GrayConstants simulated;  ///< constants at V0 of the simulations
+  eos::GrayConstants metal;      ///< the same at V0 of the metal: of the material
+  std::span<const MeasuredCurve> measured{};
+};
+
 /// Fits the corrections and draws samples of them. Films from which no dome of melt and vapour follows are left out,
 /// with a remark.
-/// @param constants  of the material, with electrons; they are taken out of what is compared with simulations
-/// @param samples    number
+/// Electrons are taken out of what is compared with simulations.
+/// @param samples  number
 /// @throws InputError if the corrected phases make no material; StateError if no stable correction is found
-CorrectionResult fit_correction(std::span<const md::PointRecord> points, const eos::GrayConstants& constants,
-                                int samples, std::uint64_t seed);
+CorrectionResult fit_correction(const CorrectionSource& source, int samples, std::uint64_t seed);
 
 /// Formats the table of residuals and sizes.
 std::string correction_text(const CorrectionResult& result);

@@ -32,7 +32,7 @@ constexpr double cold_size = 3e-3, thermal_size = 1e-3, melt_size = 5e-4, vapour
 /// The part of the expanded fluid rises over these V/V0, and falls as 1/V from there: as a second virial coefficient.
 constexpr double expanded_from = 1.0, expanded_to = 1.6;
 /// Standard deviation of ln f of the melt: melting of GRAY is right within a factor of two of these sizes.
-constexpr double melt_spread = 0.7;
+constexpr double melt_spread = 1.5;
 /// Of the energy of cohesion, in units of C^2.
 constexpr double cohesion_size = 0.03;
 /// Functions over which the correction ends towards large volumes.

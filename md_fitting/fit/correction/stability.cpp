@@ -49,7 +49,7 @@ std::vector<StabilityLimit> stability_limits(const eos::GrayFreeEnergy& gray, co
   Limits limits(gray, grids);
   const double least = std::max(1.001 * gray.least_volume(), grids.common.least_volume);
   const double join = gray.join_volume();
-  constexpr int volumes = 24, thin_volumes = 12;
+  constexpr int volumes = 36, thin_volumes = 12;
   for (int i = 0; i <= volumes; ++i) {
     const double V = least * std::pow(join / least, static_cast<double>(i) / volumes);
     const double melting = gray.melting_temperature(V);
