@@ -16,6 +16,7 @@
 #include "eos/models/mie_gruneisen.hpp"
 #include "eos/models/murnaghan.hpp"
 #include "eos/models/polynomial.hpp"
+#include "eos/models/solid_transition.hpp"
 #include "eos/models/stiffened_gas.hpp"
 #include "eos/models/tait.hpp"
 #include "eos/models/tillotson.hpp"
@@ -61,6 +62,7 @@ const Catalogue<ModelEntry>& catalogue() {
                                              entry<CorrectedGray>(),
                                              entry<Gray71>(),
                                              entry<DebyeGruneisen>(),
+                                             entry<SolidTransition>(),
                                              entry<Tillotson>(),
                                              // Condensed material without phases.
                                              entry<MieGruneisen>(),

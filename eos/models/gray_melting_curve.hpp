@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <functional>
-
 #include "eos/hermite_table.hpp"
 #include "eos/models/gray_free_energy.hpp"
+#include "eos/models/phase_equilibrium.hpp"
 
 namespace whipple::eos {
 
 /// Provides the states of solid and liquid, stable or not, to the search of their equilibrium. SI per unit mass.
 struct SolidLiquidSurfaces {
-  std::function<GrayPoint(double V, double T)> solid, liquid;
+  PhaseSurfaceFunction solid, liquid;
   double start_volume = 0, start_temperature = 0;  ///< at which both have equal free energies
   double least_volume = 0;                         ///< of the solid: the compression limit
   double join_volume = 0;                          ///< V_J, of the liquid where the search ends
@@ -30,12 +29,7 @@ class GrayMeltingCurve {
     double temperature = 0, pressure = 0;
     double solid_volume = 0, liquid_volume = 0;
   };
-  /// Holds the mixture at (V, T).
-  struct Mixture {
-    double pressure = 0, energy = 0, entropy = 0;
-    double heat_capacity = 0;            ///< at constant volume
-    double pressure_by_temperature = 0;  ///< dP/dT; (dP/dV)_T = 0
-  };
+  using Mixture = PhaseMixture;
 
   /// @throws InputError if the tangent does not exist at the start
   explicit GrayMeltingCurve(const SolidLiquidSurfaces& surfaces);
