@@ -25,11 +25,7 @@ constexpr int intervals = 256;
 ParameterTable<SolidTransitionConstants> of_phase(
     const std::string& prefix, const std::string& phase,
     DebyeGruneisenConstants SolidTransitionConstants::* member) {
-  ParameterTable<DebyeGruneisenConstants> table = DebyeGruneisen::parameters();
-  table.remove_if([](const ParameterInfo& info) {
-    return info.name == "molar_mass" || info.name == "reference_temperature" ||
-           info.name == "melting_temperature";
-  });
+  ParameterTable<DebyeGruneisenConstants> table = DebyeGruneisen::phase_parameters();
   for (UnboundParameter& parameter : table) {
     parameter.info.name = prefix + parameter.info.name;
     parameter.info.meaning += ", " + phase;
