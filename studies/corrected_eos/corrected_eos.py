@@ -27,7 +27,7 @@ BEGIN, END = "<!-- tables: begin -->", "<!-- tables: end -->"
 METALS = {
     "copper": ("copper_mishin_short", ["copper_mishin_short"], "8.9445 g/cm^3",
                ["cu_hugoniot_marsh1980", "cu_isotherm_298K_dewaele2004", "cu_melting"]),
-    "copper, with melting": ("copper_mishin_melting", ["copper_mishin_short", "copper_mishin_melting"], "8.9445 g/cm^3",
+    "copper, with melting": ("copper_mishin_with_melting", ["copper_mishin_short", "copper_mishin_melting_short"], "8.9445 g/cm^3",
                              ["cu_hugoniot_marsh1980", "cu_isotherm_298K_dewaele2004", "cu_melting"]),
     "aluminium": ("aluminium_zhakhovsky_short", ["aluminium_zhakhovsky_short"], "2.70 g/cm^3",
                   ["al_hugoniot_mcqueen1970_2024", "al_isotherm_298K_dewaele2004", "al_melting_boehler_ross1997"]),
