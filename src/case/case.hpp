@@ -15,6 +15,7 @@
 #include "src/case/detonation.hpp"
 #include "src/case/dissipation.hpp"
 #include "src/case/domain.hpp"
+#include "src/case/force_gauge.hpp"
 #include "src/case/gauges.hpp"
 #include "src/case/gravity.hpp"
 #include "src/case/heat.hpp"
@@ -48,6 +49,7 @@ struct Case {
   std::vector<Detonation> detonations;
   std::vector<Gauge> gauges;
   std::vector<Tracers> tracers;
+  std::vector<ForceGauge> force_gauges;
   std::vector<Stop> stops;
 
   std::filesystem::path file;  ///< the case file; materials are searched for in its folder

@@ -24,6 +24,16 @@ void GridUpdate::meet_images_again(BlockGrid& grid, Nodes which) {
   transfer::MirrorPlanes::copy_back(grid, which);
 }
 
+/// Returns the impulse of planes and walls in the step, after telling that of every node.
+Vector3 GridUpdate::impulse(const BlockGrid& grid, Nodes which) const {
+  if (watch_) {
+    planes_.for_each_impulse(grid, which, dt_, [&](std::uint32_t node, Lanes impulse) {
+      watch_(node, {impulse[0], impulse[1], impulse[2]});
+    });
+  }
+  return planes_.impulse(grid, which, dt_);
+}
+
 void GridUpdate::send(BlockGrid& grid, BlockGrid::Part part) {
   if (part == BlockGrid::Part::both) planes_.remember(grid, Nodes::awaited);
   if (grid.awaits()) transfer::MirrorPlanes::fold(grid, Nodes::awaited, part);
@@ -56,7 +66,7 @@ Vector3 GridUpdate::share_step(BlockGrid& grid) {
   grid.begin_borrow_from_owners(BlockGrid::Part::both);
   awaiting_ = Awaiting::step;
   meet_images(grid, Nodes::others);
-  return planes_.impulse(grid, Nodes::others, dt_);
+  return impulse(grid, Nodes::others);
 }
 
 void GridUpdate::solve_velocity(BlockGrid& grid) {
@@ -79,7 +89,7 @@ Vector3 GridUpdate::receive(BlockGrid& grid) {
     return Vector3::Zero();
   }
   meet_images(grid, Nodes::awaited);
-  return planes_.impulse(grid, Nodes::awaited, dt_);
+  return impulse(grid, Nodes::awaited);
 }
 
 }  // namespace whipple::contact

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <utility>
 
 #include "src/contact/mirror_contact.hpp"
@@ -41,6 +42,14 @@ class GridUpdate {
   /// @returns impulse of mirror planes and walls by these nodes, N s; zero after `solve_velocity`
   Vector3 receive(grid::BlockGrid& grid);
 
+  /// Registers a function that is called, one after the other, with every node at a plane or, on request, in a contact
+  /// slot, and the impulse (N s) that planes, walls and contact gave to the particles of this rank there in a step.
+  using WatchImpulse = std::function<void(std::uint32_t node, const Vector3& impulse)>;
+  void watch_impulses(WatchImpulse watch, bool also_contact) {
+    watch_ = std::move(watch);
+    planes_.remember_contact(also_contact);
+  }
+
   /// Returns the contact between material and its images. Its surfaces must be found in every step before the nodes are
   /// advanced.
   [[nodiscard]] MirrorContact& mirror_contact() { return mirror_contact_; }
@@ -50,9 +59,11 @@ class GridUpdate {
  private:
   void complete_sums(grid::BlockGrid& grid, grid::BlockGrid::Part part);
   void meet_images(grid::BlockGrid& grid, transfer::Nodes which);
+  [[nodiscard]] Vector3 impulse(const grid::BlockGrid& grid, transfer::Nodes which) const;
   void meet_images_again(grid::BlockGrid& grid, transfer::Nodes which);
 
   transfer::MirrorPlanes planes_;
+  WatchImpulse watch_;
   MirrorContact mirror_contact_;
   double contact_heat_ = 0.0;  // J
   bool sent_ = false;          // `send` was called

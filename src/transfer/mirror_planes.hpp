@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "src/core/base/vector_math.hpp"
 #include "src/grid/block_grid.hpp"
 
 namespace whipple::transfer {
@@ -23,6 +24,8 @@ inline bool is_among(const grid::BlockGrid& grid, std::uint32_t node, Nodes node
 /// image (contact::MirrorContact).
 class MirrorPlanes {
  public:
+  /// Sets whether the nodes of contact slots are remembered as well, whose impulses `for_each_impulse` then visits.
+  void remember_contact(bool also) { also_contact_ = also; }
   /// Stores the contributions of the particles of this rank to the nodes near the planes before they are folded.
   void remember(const grid::BlockGrid& grid, Nodes which);
   /// Folds every plane and restricts the nodes on it.
@@ -31,20 +34,36 @@ class MirrorPlanes {
   static void copy_back(grid::BlockGrid& grid, Nodes which);
   /// Returns the impulse (N s) that the planes gave to the particles of this rank in a step (3.6), after it.
   [[nodiscard]] Vector3 impulse(const grid::BlockGrid& grid, Nodes which, double dt) const;
+  /// Calls f(node, impulse) for every remembered node that planes or contact may have changed, one after the other:
+  /// impulse (N s, lanes 0 to 2) of both on the particles of this rank, in a step, after it.
+  template <class Function>
+  void for_each_impulse(const grid::BlockGrid& grid, Nodes which, double dt, const Function& f) const {
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      if (is_among(grid, nodes_[i], which)) f(nodes_[i], impulse_at(grid, i, dt));
+    }
+  }
   /// Adds to a sum, node by node, the mass contributed by particles times value(node).
   template <class Value>
   void add_by_mass(const grid::BlockGrid& grid, Nodes which, const Value& value, double& sum) const {
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      if (is_among(grid, nodes_[i], which)) sum += before_[i].sums.mass() * value(nodes_[i]);
+      if (kind_[i].at_plane && is_among(grid, nodes_[i], which))
+        sum += before_[i].sums.mass() * value(nodes_[i]);
     }
   }
 
  private:
-  void find_nodes(const grid::BlockGrid& grid);
+  /// Describes what may change a node.
+  struct Kind {
+    bool at_plane;          ///< a plane; otherwise contact of bodies alone
+    bool may_be_unchanged;  ///< it is only an image or in a contact slot, and may have received nothing
+  };
 
-  std::vector<std::uint32_t> nodes_;  // that the planes may change, ascending
-  std::vector<std::uint8_t>
-      may_be_unchanged_;  // of each: it is only an image, which may have received nothing
+  void find_nodes(const grid::BlockGrid& grid);
+  [[nodiscard]] Lanes impulse_at(const grid::BlockGrid& grid, std::size_t i, double dt) const;
+
+  bool also_contact_ = false;
+  std::vector<std::uint32_t> nodes_;                   // that the planes may change, ascending
+  std::vector<Kind> kind_;                             // of each
   std::size_t layout_ = static_cast<std::size_t>(-1);  // of the grid that they belong to
   std::vector<grid::Node> before_;                     // their content before the fold
 };

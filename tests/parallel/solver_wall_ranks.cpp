@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "src/case/case.hpp"
 #include "tests/parallel/solver_ranks.hpp"
@@ -34,6 +35,13 @@ cases::Case blocks_into_corner(const Corner& corner) {
           "boundary = { x_lower = \"symmetry\", y_lower = \"" + corner.wall +
           "\", z_lower = \"no_slip\" }\n" + block("first", {0.4, 0.9, 0.7}, 6, {-700, -1500, -800}) +
           block("second", {0.3, 7.6, 0.7}, 5, {-900, -2500, -300}) +
+          "[[force_gauge]]\nname = \"base\"\nface = \"z_lower\"\nabout = [0.001, 0.002, 0]\n"
+          "[[force_gauge]]\nname = \"part\"\nface = \"y_lower\"\nbox = { lower = [0.0023, -1, 0], upper = "
+          "[1, 1, "
+          "0.0091] }\n" +
+          (std::string(corner.contact).find("none") == std::string::npos
+               ? "[[force_gauge]]\nname = \"third\"\nbody = \"third\"\n"
+               : "") +
           block("third", {0.5, 1.1, 8.0}, 6, {-900, -800, -1900}),
       "corner.toml");
 }
@@ -50,6 +58,14 @@ TEST_P(WallRanks, AgreeWithOneRank) {
   const Ledger &a = together.state().ledger, &b = alone.state().ledger;
   EXPECT_GT(b.contact_heat, 1e-4 * b.initial.energy());
   EXPECT_NEAR(a.contact_heat, b.contact_heat, 1e-11 * b.initial.energy());
+  const std::vector<GaugedImpulse>&of_all = together.state().gauged, &of_one = alone.state().gauged;
+  ASSERT_EQ(of_all.size(), of_one.size());
+  const double scale = b.initial.momentum_scale, length = 0.024;
+  for (std::size_t g = 0; g < of_one.size(); ++g) {
+    EXPECT_GT(of_one[g].impulse.norm(), 1e-3 * scale) << g;
+    EXPECT_LE((of_all[g].impulse - of_one[g].impulse).norm(), 1e-11 * scale) << g;
+    EXPECT_LE((of_all[g].moment - of_one[g].moment).norm(), 1e-11 * scale * length) << g;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Contact, WallRanks,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "src/fem/distribution.hpp"
@@ -66,6 +67,8 @@ class Hexahedra : public Carrier {
  private:
   [[nodiscard]] double path_factor(const fem::Mesh& mesh) const;
   [[nodiscard]] fem::ConstraintBalance advance_free_nodes(std::size_t mesh);
+  [[nodiscard]] std::vector<Vector3> unconstrained_velocities(std::size_t mesh) const;
+  void book_faces(std::size_t mesh, std::span<const Vector3> unconstrained);
   [[nodiscard]] std::string advance_mesh(std::size_t mesh, SqueezedPoints& squeezed);
   [[nodiscard]] std::string deform(std::size_t mesh, bool heated, SqueezedPoints& squeezed);
   [[nodiscard]] std::string describe(const fem::Mesh& mesh, std::size_t point,

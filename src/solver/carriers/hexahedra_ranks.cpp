@@ -108,6 +108,46 @@ fem::ConstraintBalance Hexahedra::advance_free_nodes(std::size_t m) {
   return balance;
 }
 
+/// Returns the velocities that the nodes of a mesh would have after the step without faces and prescribed velocities;
+/// those of interface nodes are not used.
+std::vector<Vector3> Hexahedra::unconstrained_velocities(std::size_t m) const {
+  const fem::Nodes& nodes = meshes_[m].nodes;
+  const double dt = state_.run.time_step;
+  std::vector<Vector3> velocity(nodes.size());
+  for (std::size_t a = 0; a < nodes.size(); ++a) {
+    velocity[a] = nodes.velocity[a] + dt / nodes.mass[a] * nodes.force[a];
+  }
+  const std::span<const fem::SharedNodes::Place> places = shared_nodes_.places();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (places[i].mesh != m) continue;
+    const std::array<double, 5>& sum = shared_[i];
+    velocity[places[i].node] = nodes.velocity[places[i].node] + dt / sum[3] * Vector3(sum[0], sum[1], sum[2]);
+  }
+  return velocity;
+}
+
+/// Books the impulses of the faces of the domain on the nodes of a mesh for the force gauges: those across a face at
+/// which a node ends the step, all at a no-slip wall. The grid has those on interface nodes.
+void Hexahedra::book_faces(std::size_t m, std::span<const Vector3> unconstrained) {
+  const fem::Mesh& mesh = meshes_[m];
+  const fem::Nodes& nodes = mesh.nodes;
+  const grid::Geometry& geometry = state_.setup.geometry;
+  for (std::size_t a = 0; a < nodes.size(); ++a) {
+    if (nodes.in_transition[a] != 0) continue;
+    Vector3 impulse = nodes.mass[a] * (nodes.velocity[a] - unconstrained[a]);
+    if (impulse.isZero(0.0)) continue;
+    const Vector3 end = nodes.position[a] + state_.run.time_step * motions_[m].end[a];
+    for (std::size_t face = 0; face < 6; ++face) {
+      const auto axis = static_cast<int>(face / 2);
+      if (geometry.boundary[face] == grid::Boundary::outflow || !geometry.is_in_plane(face, end)) continue;
+      const bool all = geometry.boundary[face] == grid::Boundary::no_slip;
+      const Vector3 of_face = all ? impulse : Vector3(impulse[axis] * Vector3::Unit(axis));
+      state_.force_gauges.book_point(mesh.body, face, end, of_face);
+      impulse -= of_face;
+    }
+  }
+}
+
 void Hexahedra::add_work(std::vector<Vector3>& centres, std::vector<double>& work) const {
   const std::vector<Vector3> own = centres_of(meshes_, state_.setup.geometry);
   centres.insert(centres.end(), own.begin(), own.end());

@@ -51,6 +51,13 @@ Transfers::Transfers(State& state, const Loads& loads, const Activity& activity)
       activity_(activity),
       drive_(state.setup),
       averaged_(averaged_bodies(state.setup)) {
+  if (state_.force_gauges.any()) {
+    grid_update_.watch_impulses(
+        [this](std::uint32_t node, const Vector3& impulse) {
+          state_.force_gauges.book_node(state_.grid, node, impulse);
+        },
+        state_.force_gauges.any_of_body());
+  }
   const cases::Dissipation& control = state_.setup.dissipation;
   for (std::size_t b = 0; b < state_.setup.bodies.size(); ++b) {
     const cases::ArtificialViscosity& viscosity = state_.setup.viscosity_of(b);
