@@ -35,6 +35,7 @@ std::span<const Section<Case>> Case::sections() {
       section<&Case::heat>("heat"),
       section<&Case::contact>("contact"),
       section<&Case::gravity>("gravity"),
+      section<&Case::damping>("damping", ", local: for states of rest"),
       section<&Case::burn>("burn", ", of explosives", [](const Case& setup) { return setup.has_burn(); }),
       section<&Case::output>("output"),
       section<&Case::bodies>("body"),

@@ -12,6 +12,7 @@
 #include "src/case/body.hpp"
 #include "src/case/build/contact_fields.hpp"
 #include "src/case/contact.hpp"
+#include "src/case/damping.hpp"
 #include "src/case/detonation.hpp"
 #include "src/case/dissipation.hpp"
 #include "src/case/domain.hpp"
@@ -42,6 +43,7 @@ struct Case {
   HeatControl heat;
   ContactControl contact;
   Gravity gravity;
+  Damping damping;
   BurnControl burn;
   OutputControl output;
   std::vector<Body> bodies;

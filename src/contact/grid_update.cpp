@@ -51,14 +51,29 @@ void GridUpdate::complete_sums(BlockGrid& grid, BlockGrid::Part part) {
   grid.finish_sum_to_owners(part);
 }
 
-void GridUpdate::solve_momentum(BlockGrid& grid, double dt, const transfer::Relaxation& relaxation) {
+void GridUpdate::solve_momentum(BlockGrid& grid, double dt, const transfer::Relaxation& relaxation,
+                                double damping) {
   dt_ = dt;
   complete_sums(grid, BlockGrid::Part::both);
+  damping_.clear();
+  if (damping > 0.0) damping_.find(grid, damping, dt);
+  planes_.set_damping(damping_.increments());
   mirror_contact_.lay_out(grid);
   transfer::solve_momentum(grid, dt, relaxation, [&](std::size_t block) {
     return grid.is_contact_block(block) || mirror_contact_.concerns_block(block);
   });
+  if (damping > 0.0) damping_.add(grid);
   mirror_contact_.remember(grid);
+}
+
+GridUpdate::Damped GridUpdate::take_damping(const BlockGrid& grid) {
+  if (damping_.increments().empty()) return {};
+  const Damped damped{.impulse = damping_.impulse() + planes_.damping_impulse(grid, Nodes::others) +
+                                 planes_.damping_impulse(grid, Nodes::awaited),
+                      .work = damping_.work(grid)};
+  damping_.clear();
+  planes_.set_damping({});
+  return damped;
 }
 
 Vector3 GridUpdate::share_step(BlockGrid& grid) {

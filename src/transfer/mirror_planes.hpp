@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "src/core/base/vector_math.hpp"
@@ -32,6 +33,13 @@ class MirrorPlanes {
   static void fold(grid::BlockGrid& grid, Nodes which, grid::BlockGrid::Part part);
   /// Sets the velocities beyond the planes to the reflected ones.
   static void copy_back(grid::BlockGrid& grid, Nodes which);
+  /// Sets the values of the images beyond the planes (lanes 0 to 2) to the reflected ones.
+  static void copy_to_images(const grid::BlockGrid& grid, std::span<Lanes> of_node);
+  /// Sets the increments of the velocity (m/s, lanes 0 to 2) of all nodes by local damping, whose impulses are not those
+  /// of planes or contact; empty: none. They must stay until the impulses have been asked for.
+  void set_damping(std::span<const Lanes> increment) { damping_ = increment; }
+  /// Returns the impulse (N s) of local damping on the particles of this rank at the nodes near planes, in a step.
+  [[nodiscard]] Vector3 damping_impulse(const grid::BlockGrid& grid, Nodes which) const;
   /// Returns the impulse (N s) that the planes gave to the particles of this rank in a step (3.6), after it.
   [[nodiscard]] Vector3 impulse(const grid::BlockGrid& grid, Nodes which, double dt) const;
   /// Calls f(node, impulse) for every remembered node that planes or contact may have changed, one after the other:
@@ -59,9 +67,11 @@ class MirrorPlanes {
   };
 
   void find_nodes(const grid::BlockGrid& grid);
+  [[nodiscard]] Lanes damping_at(std::size_t i) const;
   [[nodiscard]] Lanes impulse_at(const grid::BlockGrid& grid, std::size_t i, double dt) const;
 
   bool also_contact_ = false;
+  std::span<const Lanes> damping_;
   std::vector<std::uint32_t> nodes_;                   // that the planes may change, ascending
   std::vector<Kind> kind_;                             // of each
   std::size_t layout_ = static_cast<std::size_t>(-1);  // of the grid that they belong to

@@ -97,6 +97,7 @@ std::string Hexahedra::advance_mesh(std::size_t m, SqueezedPoints& squeezed) {
   fem::Mesh& mesh = meshes_[m];
   Ledger& booked = state_.booked;
   const double dt = state_.run.time_step;
+  damp_nodes(m);
   const bool gauged = state_.force_gauges.any();
   const std::vector<Vector3> unconstrained = gauged ? unconstrained_velocities(m) : std::vector<Vector3>();
   fem::ConstraintBalance balance = advance_free_nodes(m);
@@ -115,6 +116,7 @@ std::string Hexahedra::advance_mesh(std::size_t m, SqueezedPoints& squeezed) {
   }
   booked.transfer_heat += sum4(heat);
   book_loads(of_mesh_[m].acceleration, mesh.nodes, motions_[m], dt, booked);
+  book_damping(m);
   std::string error = deform(m, heated, squeezed);
   fem::move_nodes(mesh, motions_[m], dt);
   return error;
