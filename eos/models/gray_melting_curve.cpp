@@ -102,7 +102,7 @@ GrayMeltingCurve::GrayMeltingCurve(const SolidLiquidSurfaces& f) {
   const double T0 = f.start_temperature, V0 = f.start_volume;
   // Solid and liquid are on opposite sides of the isochore on which their free energies are equal.
   std::optional<Node> start;
-  for (const double width : {0.02, 0.04, 0.08, 0.01}) {
+  for (const double width : {0.02, 0.04, 0.08, 0.01, 0.005, 0.03, 0.06, 0.1, 0.14}) {
     if ((start = tangent(f, T0, V0 * (1 - width), V0 * (1 + width)))) break;
   }
   if (!start) {
