@@ -51,6 +51,8 @@ class Store:
         if "validity_pressure" in provenance:
             self.stable_to, self.reason = (provenance[key].decode() for key in ("validity_pressure", "validity_reason"))
         protocol = point.attrs["protocol"].decode()
+        if "solid" in point["results"] and result("solid") == 0.0:
+            return
         if protocol == "hugoniot":
             self.shocks.append((result("particle_velocity") / KM_S, result("shock_velocity") / KM_S))
         elif protocol == "zero_pressure_volume" and condition("temperature") < 310.0:

@@ -15,7 +15,7 @@ BOUNDS = {"points": 0.02, "fit": 0.02, "isotherm": 0.05, "density": 0.02, "melti
 
 @dataclasses.dataclass
 class Curve:
-    """Points joined by straight lines; nothing outside of them."""
+    """Points joined by straight lines; before the first one the first line goes on, after the last one there is nothing."""
 
     x: list
     y: list
@@ -25,7 +25,7 @@ class Curve:
         self.x, self.y = [self.x[i] for i in order], [self.y[i] for i in order]
 
     def __call__(self, x):
-        if not self.x or not self.x[0] <= x <= self.x[-1]:
+        if len(self.x) < 2 or x > self.x[-1]:
             return None
         i = min(max(bisect.bisect_right(self.x, x), 1), len(self.x) - 1)
         share = (x - self.x[i - 1]) / (self.x[i] - self.x[i - 1])
