@@ -7,6 +7,7 @@ Usage: studies/potential_ranking/potential_ranking.py [--bin build/release/bin] 
 """
 import argparse
 import csv
+import dataclasses
 import io
 import pathlib
 import re
@@ -77,6 +78,17 @@ class Store:
         return pressure
 
 
+@dataclasses.dataclass
+class Judged(rule.Candidate):
+    """A candidate with what the table shows beside its score: how far shocks and isotherm stay within their bounds, each a pressure and
+    whether that may not be the end, and to which pressure the crystal is that of lowest energy."""
+
+    label: str = ""
+    shocks_to: tuple = (0.0, False)
+    isotherm_to: tuple = None
+    stable_to: str = ""
+
+
 def fitted_curve(binaries, store, material):
     """Us(up) of the fitted material, and why there is none."""
     result = call([binaries / "whipple-fit", store, "-o", material, "--force"], allowed=(0, 2, 3))
@@ -91,7 +103,7 @@ def fitted_curve(binaries, store, material):
     return None, "no Hugoniot to 30 GPa"
 
 
-def judge(name, potential, metal, reference, store, fit, fault, speed):
+def judge(name, label, metal, reference, store, fit, fault, speed):
     """The candidate of the rule, with what the table shows beside its score."""
     shocks = store.shock_curve()
     places = rule.even(*reference.window)
@@ -101,56 +113,55 @@ def judge(name, potential, metal, reference, store, fit, fault, speed):
         deviations["fit"] = rule.root_mean_square(fit, reference.velocity, places, rule.BOUNDS["fit"])
     if store.melting:
         deviations["melting"] = store.melting / metal.melting_point - 1.0
-    ends = [reference.valid_on_hugoniot(shocks)]
+    isotherm_to = None
     if reference.isotherm:
         curve = store.isotherm_curve()
         ratios = reference.isotherm_ratios(*reference.pressures)
         deviations["isotherm"] = rule.root_mean_square(curve, reference.isotherm_pressure, ratios, rule.BOUNDS["isotherm"])
-        ends.append(reference.valid_on_isotherm(curve))
-    validity, open_end = min(ends)
-    candidate = rule.Candidate(name, deviations, store.structure == metal.structure, fault, validity, speed)
-    candidate.label, candidate.open_end, candidate.stable_to = potential, open_end, store.stable_to
-    return candidate
+        isotherm_to = reference.valid_on_isotherm(curve)
+    shocks_to = reference.valid_on_hugoniot(shocks)
+    validity = min(end[0] for end in (shocks_to, isotherm_to) if end)
+    return Judged(name, deviations, store.structure == metal.structure, fault, validity, speed, label, shocks_to, isotherm_to,
+                  store.stable_to)
 
 
 def percent(value, sign=False):
     return "" if value is None else f"{100.0 * value:{'+' if sign else ''}.1f}"
 
 
-def validity_text(candidate):
-    if not candidate.validity:
-        return f"< {rule.LOWEST:.0f}"
-    return f"{'> ' if candidate.open_end else ''}{candidate.validity:.0f}"
+def end_text(end):
+    """A pressure of validity: empty where nothing was measured."""
+    if end is None:
+        return ""
+    pressure, is_open = end
+    return f"{'> ' if is_open else ''}{pressure:.0f}" if pressure else f"< {rule.LOWEST:.0f}"
 
 
 def row_of(candidate, place, last):
     deviations = candidate.deviations
     melting = "not asked" if deviations["melting"] is None else percent(deviations["melting"], sign=True)
+    stable_to = f"{float(candidate.stable_to.split()[0]):.0f}" if candidate.stable_to else ""
     return [place, candidate.label, percent(deviations["points"]), percent(deviations["fit"]), percent(deviations["isotherm"]),
-            percent(deviations["density"], sign=True), melting, validity_text(candidate),
-            candidate.stable_to.replace(" GPa", ""), f"{candidate.speed:.1e}" if candidate.speed else "", last]
-
-
-def table(headings, rows):
-    return "\n".join(["| " + " | ".join(headings) + " |", "|" + " --- |" * len(headings)]
-                     + ["| " + " | ".join(row) + " |" for row in rows]) + "\n"
+            percent(deviations["density"], sign=True), melting, end_text(candidate.shocks_to), end_text(candidate.isotherm_to),
+            stable_to, f"{candidate.speed:.1e}" if candidate.speed else "", last]
 
 
 def section(metal, reference, candidates, missing):
     scored, out = rule.rank(candidates)
     rows = [row_of(one, str(place), f"{value:.2f}") for place, (one, value) in enumerate(scored, 1)]
     rows += [row_of(one, "", f"out: {reason}") for one, reason in out]
-    rows += [["", label, *[""] * 8, f"out: {why}"] for label, why in missing]
+    rows += [["", label, *[""] * 9, f"out: {why}"] for label, why in missing]
     begin, end = reference.pressures
     text = f"## {metal.capitalize()}\n\n{reference.text}; window {begin:.0f} to {end:.0f} GPa.\n\n"
-    return text + table(["rank", "potential", "Us, points %", "Us, fit %", "isotherm %", "V0 %", "T_m %", "valid to GPa",
-                         "own crystal to GPa", "atom-steps/s", "score"], rows)
+    return text + table(["rank", "potential", "Us, points %", "Us, fit %", "isotherm %", "V0 %", "T_m %", "Us within 2 % to GPa",
+                         "P within 5 % to GPa", "own crystal to GPa", "atom-steps/s", "score"], rows)
 
 
 def summary(best):
     """Of each metal the potential to take, and to which pressure."""
-    return table(["metal", "take", "score", "Us, points %", "valid to GPa", "next"],
-                 [[metal, one.label, f"{value:.2f}", percent(one.deviations["points"]), validity_text(one), following]
+    return table(["metal", "take", "score", "Us, points %", "Us within 2 % to GPa", "P within 5 % to GPa", "next"],
+                 [[metal, one.label, f"{value:.2f}", percent(one.deviations["points"]), end_text(one.shocks_to), end_text(one.isotherm_to),
+                   following]
                   for metal, one, value, following in best])
 
 

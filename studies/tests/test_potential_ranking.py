@@ -113,11 +113,10 @@ class Inputs(unittest.TestCase):
         self.assertEqual(len(measured.METALS), 10)
 
     def test_a_row_says_what_was_not_asked(self):
-        one = candidate("a", isotherm=None)
-        one.label, one.open_end, one.stable_to = "A", True, "58 GPa"
-        one.validity = 90.0
+        one = potential_ranking.Judged("a", candidate("a", isotherm=None).deviations, label="A", shocks_to=(90.0, True), stable_to="58.33 GPa")
         self.assertEqual(potential_ranking.row_of(one, "1", "0.50"),
-                         ["1", "A", "1.0", "1.0", "", "+1.0", "not asked", "> 90", "58", "", "0.50"])
+                         ["1", "A", "1.0", "1.0", "", "+1.0", "not asked", "> 90", "", "58", "", "0.50"])
+        self.assertEqual(potential_ranking.end_text((0.0, False)), "< 10")
 
 
 if __name__ == "__main__":
