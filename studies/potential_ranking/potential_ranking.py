@@ -146,6 +146,11 @@ def row_of(candidate, place, last):
             stable_to, f"{candidate.speed:.1e}" if candidate.speed else "", last]
 
 
+def table(headings, rows):
+    return "\n".join(["| " + " | ".join(headings) + " |", "|" + " --- |" * len(headings)]
+                     + ["| " + " | ".join(row) + " |" for row in rows]) + "\n"
+
+
 def section(metal, reference, candidates, missing):
     scored, out = rule.rank(candidates)
     rows = [row_of(one, str(place), f"{value:.2f}") for place, (one, value) in enumerate(scored, 1)]

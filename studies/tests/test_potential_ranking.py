@@ -118,6 +118,15 @@ class Inputs(unittest.TestCase):
                          ["1", "A", "1.0", "1.0", "", "+1.0", "not asked", "> 90", "", "58", "", "0.50"])
         self.assertEqual(potential_ranking.end_text((0.0, False)), "< 10")
 
+    def test_a_section_has_the_qualified_first_and_the_reasons_of_the_others(self):
+        rows = [potential_ranking.Judged(name, candidate(name, **values).deviations, label=name)
+                for name, values in (("far", {"density": 0.05}), ("second", {"points": 0.05}), ("first", {}))]
+        text = potential_ranking.section("copper", measured.Reference(measured.METALS["copper"]), rows, [("none", "no points")])
+        lines = [line for line in text.splitlines() if line.startswith("| ")][2:]
+        self.assertEqual([line.split(" | ")[1] for line in lines], ["first", "second", "far", "none"])
+        self.assertIn("out: V0 more than 3 % off", lines[2])
+        self.assertEqual({line.count("|") for line in lines}, {13})
+
 
 if __name__ == "__main__":
     unittest.main()
