@@ -163,15 +163,15 @@ class Reference:
     def isotherm_pressure(self, ratio):
         return next(pressure for pressure, one in self.isotherm if one == ratio)
 
-    def valid_on_hugoniot(self, curve):
+    def valid_on_hugoniot(self, curve, ends_by_itself):
         """Pressure up to which the simulated shocks stay within their bound, and whether that may not be the end."""
         top = max(up for up in rule.even(0.0, self.up_end, 2001)
                   if self.quadratic or rule.shock_pressure(self.density, self.velocity(up), up) <= HIGHEST_OF_A_LINE)
         places = rule.even(self.window[0], top, 401)
-        last, open_end = rule.valid_to(curve, self.velocity, places, rule.BOUNDS["points"])
+        last, open_end = rule.valid_to(curve, self.velocity, places, rule.BOUNDS["points"], ends_by_itself)
         return (0.0 if last is None else rule.shock_pressure(self.density, self.velocity(last), last)), open_end
 
-    def valid_on_isotherm(self, curve):
+    def valid_on_isotherm(self, curve, ends_by_itself):
         ratios = self.isotherm_ratios(rule.LOWEST, float("inf"))
-        last, open_end = rule.valid_to(curve, self.isotherm_pressure, ratios, rule.BOUNDS["isotherm"])
+        last, open_end = rule.valid_to(curve, self.isotherm_pressure, ratios, rule.BOUNDS["isotherm"], ends_by_itself)
         return (0.0 if last is None else self.isotherm_pressure(last)), open_end

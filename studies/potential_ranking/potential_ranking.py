@@ -34,13 +34,19 @@ class Store:
         import h5py  # here, since the tests of the rule need none
 
         self.shocks, self.isotherm, self.melting, self.volume = [], [], None, None
-        self.structure = self.stable_to = self.reason = ""
+        self.structure = self.stable_to = ""
+        self.lost = {"hugoniot": [], "isotherm": []}  # specific volumes where the crystal was lost or the point failed
+        self.volumes = {"hugoniot": [], "isotherm": []}  # of the whole crystals
         with h5py.File(path) as file:
             for point in file["points"].values():
-                if point.attrs["status"] == b"done":
-                    self._take(point)
+                protocol = point.attrs["protocol"].decode()
+                done = point.attrs["status"] == b"done"
+                if done and not ("solid" in point["results"] and point["results"]["solid"][0] == 0.0):
+                    self._take(protocol, point)
+                elif protocol in self.lost:
+                    self.lost[protocol].append(1e3 * float(point["conditions"]["specific_volume"][0]))
 
-    def _take(self, point):
+    def _take(self, protocol, point):
         def result(name):
             return float(point["results"][name][0])
 
@@ -50,18 +56,21 @@ class Store:
         provenance = point["provenance"].attrs
         self.structure = provenance["structure"].decode()
         if "validity_pressure" in provenance:
-            self.stable_to, self.reason = (provenance[key].decode() for key in ("validity_pressure", "validity_reason"))
-        protocol = point.attrs["protocol"].decode()
-        if "solid" in point["results"] and result("solid") == 0.0:
-            return
+            self.stable_to = provenance["validity_pressure"].decode()
         if protocol == "hugoniot":
             self.shocks.append((result("particle_velocity") / KM_S, result("shock_velocity") / KM_S))
+            self.volumes["hugoniot"].append(1e3 * condition("specific_volume"))
         elif protocol == "zero_pressure_volume" and condition("temperature") < 310.0:
             self.volume = 1e3 * result("specific_volume")
         elif protocol == "isotherm" and condition("temperature") < 310.0:
+            self.volumes["isotherm"].append(1e3 * condition("specific_volume"))
             self.isotherm.append((1e3 * condition("specific_volume"), result("pressure") / GPA))
         elif protocol == "coexistence" and condition("pressure") == 0.0:
             self.melting = result("melting_temperature")
+
+    def ends_by_itself(self, protocol):
+        """Whether the potential and not its plan ends a curve: the crystal was lost, or the point failed, where it is denser still."""
+        return bool(self.lost[protocol]) and min(self.lost[protocol]) < min(self.volumes[protocol], default=0.0)
 
     def shock_curve(self):
         return rule.Curve([up for up, _ in self.shocks], [us for _, us in self.shocks])
@@ -118,8 +127,8 @@ def judge(name, label, metal, reference, store, fit, fault, speed):
         curve = store.isotherm_curve()
         ratios = reference.isotherm_ratios(*reference.pressures)
         deviations["isotherm"] = rule.root_mean_square(curve, reference.isotherm_pressure, ratios, rule.BOUNDS["isotherm"])
-        isotherm_to = reference.valid_on_isotherm(curve)
-    shocks_to = reference.valid_on_hugoniot(shocks)
+        isotherm_to = reference.valid_on_isotherm(curve, store.ends_by_itself("isotherm"))
+    shocks_to = reference.valid_on_hugoniot(shocks, store.ends_by_itself("hugoniot"))
     validity = min(end[0] for end in (shocks_to, isotherm_to) if end)
     return Judged(name, deviations, store.structure == metal.structure, fault, validity, speed, label, shocks_to, isotherm_to,
                   store.stable_to)
@@ -163,11 +172,17 @@ def section(metal, reference, candidates, missing):
 
 
 def summary(best):
-    """Of each metal the potential to take, and to which pressure."""
-    return table(["metal", "take", "score", "Us, points %", "Us within 2 % to GPa", "P within 5 % to GPa", "next"],
-                 [[metal, one.label, f"{value:.2f}", percent(one.deviations["points"]), end_text(one.shocks_to), end_text(one.isotherm_to),
-                   following]
-                  for metal, one, value, following in best])
+    """Of each metal the potential to take, to which pressure, and the next one."""
+    rows = []
+    for metal, scored in best:
+        if not scored:
+            rows.append([metal, "none qualified", *[""] * 5])
+            continue
+        one, value = scored[0]
+        following = f"{scored[1][0].label} ({scored[1][1]:.2f})" if len(scored) > 1 else ""
+        rows.append([metal, one.label, f"{value:.2f}", percent(one.deviations["points"]), end_text(one.shocks_to),
+                     end_text(one.isotherm_to), following])
+    return table(["metal", "take", "score", "Us, points %", "Us within 2 % to GPa", "P within 5 % to GPa", "next"], rows)
 
 
 def speed_of(binaries, plan):
@@ -202,7 +217,7 @@ def candidates_of(name, metal, options, speeds):
     found, missing = [], []
     for plan, label in metal.potentials.items():
         store = stores / f"{plan}.md.h5"
-        for suffix in () if options.no_md else ("", "_strong"):
+        for suffix in () if options.no_md else ("", "_strong", "_melting_point"):
             file = ROOT / "cases/md" / f"{plan.removesuffix('_short')}{suffix or '_short'}.toml"
             if file.is_file():
                 ranks = ["--ranks", options.ranks] if options.ranks else []
@@ -236,11 +251,7 @@ def main():
     for name, metal in METALS.items():
         reference, candidates, missing = candidates_of(name, metal, options, speeds)
         sections.append(section(name, reference, candidates, missing))
-        scored, _ = rule.rank(candidates)
-        if scored:
-            one, value = scored[0]
-            following = f"{scored[1][0].label} ({scored[1][1]:.2f})" if len(scored) > 1 else ""
-            best.append((name, one, value, following))
+        best.append((name, rule.rank(candidates)[0]))
         print(f"{name}: {len(candidates)} potentials", flush=True)
     write_speeds(speeds)
     head, rest = PAGE.read_text(encoding="utf-8").split(BEGIN)

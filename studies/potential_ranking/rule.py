@@ -90,14 +90,14 @@ def root_mean_square(model, reference, places, bound):
     return math.sqrt(total / len(places))
 
 
-def valid_to(model, reference, places, bound):
-    """How far the model stays within the bound from the first place on: the last such place (None: not even the first) and whether it
-    went on to the last place or to its own end, so that the true limit may be higher."""
+def valid_to(model, reference, places, bound, ends_by_itself):
+    """How far the model stays within the bound from the first place on: the last such place (None: not even the first) and whether the
+    true limit may be higher, since places end there, or the model does without doing so by itself."""
     last = None
     for place in places:
         value = model(place)
         if value is None:
-            return last, last is not None
+            return last, last is not None and not ends_by_itself
         if abs(value / reference(place) - 1.0) > bound:
             return last, False
         last = place

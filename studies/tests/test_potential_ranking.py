@@ -64,10 +64,11 @@ class Curves(unittest.TestCase):
 
     def test_validity_ends_at_the_first_place_out_of_bounds(self):
         places = [1.0, 2.0, 3.0, 4.0]
-        self.assertEqual(rule.valid_to(lambda x: 1.0 + (0.03 if x == 3.0 else 0.0), lambda x: 1.0, places, 0.02), (2.0, False))
-        self.assertEqual(rule.valid_to(lambda x: 1.05, lambda x: 1.0, places, 0.02), (None, False))
-        self.assertEqual(rule.valid_to(lambda x: 1.0, lambda x: 1.0, places, 0.02), (4.0, True))
-        self.assertEqual(rule.valid_to(lambda x: 1.0 if x < 3.5 else None, lambda x: 1.0, places, 0.02), (3.0, True))
+        self.assertEqual(rule.valid_to(lambda x: 1.0 + (0.03 if x == 3.0 else 0.0), lambda x: 1.0, places, 0.02, False), (2.0, False))
+        self.assertEqual(rule.valid_to(lambda x: 1.05, lambda x: 1.0, places, 0.02, False), (None, False))
+        self.assertEqual(rule.valid_to(lambda x: 1.0, lambda x: 1.0, places, 0.02, True), (4.0, True))
+        for lost in (False, True):
+            self.assertEqual(rule.valid_to(lambda x: 1.0 if x < 3.5 else None, lambda x: 1.0, places, 0.02, lost), (3.0, not lost))
 
     def test_the_window_ends_at_pressure_compression_or_the_last_measurement(self):
         def steel(up):
@@ -86,6 +87,13 @@ class Curves(unittest.TestCase):
         store.isotherm = [(0.1 * ratio, (140.0 + 200.0 * rule.strain(ratio)) * rule.birch_factor(ratio)) for ratio in (1.0, 0.96, 0.8, 0.7)]
         self.assertAlmostEqual(store.isotherm_curve()(0.75), (140.0 + 200.0 * rule.strain(0.75)) * rule.birch_factor(0.75))
         self.assertIsNone(store.isotherm_curve()(0.65))
+
+    def test_a_curve_ends_by_itself_where_its_crystal_is_lost(self):
+        store = potential_ranking.Store.__new__(potential_ranking.Store)
+        store.volumes = {"hugoniot": [0.09, 0.08], "isotherm": [0.09, 0.07]}
+        store.lost = {"hugoniot": [0.07], "isotherm": [0.08]}
+        self.assertTrue(store.ends_by_itself("hugoniot"))
+        self.assertFalse(store.ends_by_itself("isotherm"))
 
     def test_volume_of_an_isotherm_of_birch(self):
         volumes = [11.7, 11.0, 10.0, 9.0, 8.0]
@@ -126,6 +134,9 @@ class Inputs(unittest.TestCase):
         self.assertEqual([line.split(" | ")[1] for line in lines], ["first", "second", "far", "none"])
         self.assertIn("out: V0 more than 3 % off", lines[2])
         self.assertEqual({line.count("|") for line in lines}, {13})
+
+    def test_a_metal_without_a_qualified_potential_is_named(self):
+        self.assertIn("| lead | none qualified |", potential_ranking.summary([("lead", [])]))
 
 
 if __name__ == "__main__":
