@@ -57,7 +57,8 @@ std::string instability(const State& s) {
   if (squared_sound_speed(s) <= 0) {
     return fmt::format("c^2 = {:.4g} m^2/s^2 is not positive", squared_sound_speed(s));
   }
-  if (s.isothermal_bulk_modulus <= 0 && !(s.melted_fraction > 0 && s.melted_fraction < 1)) {
+  // Mixtures of two phases have none, K_T = 0.
+  if (s.isothermal_bulk_modulus < 0 && !(s.melted_fraction > 0 && s.melted_fraction < 1)) {
     return fmt::format(
         "K_T = {:.4g} GPa is not positive (rho c^2 = {:.4g} GPa, Gamma^2 C_v T rho = {:.4g} GPa)",
         s.isothermal_bulk_modulus / GPa, s.isentropic_bulk_modulus / GPa,
@@ -194,7 +195,8 @@ class Auditor {
     ValidRange& range = result_.range;
     range.strongest_shock.state = result_.reference;
     range.strongest_shock.shock_velocity = result_.reference.sound_speed;
-    double spreads_to = 0;
+    double spreads_to = 0, splits_to = 0;
+    double greatest_entropy = result_.reference.specific_entropy;
     const auto fault_at = [&](double up) -> std::string {
       ShockState s;
       try {
@@ -207,12 +209,19 @@ class Auditor {
       if (!fault.empty())
         return fmt::format("{} ({:.5g} kg/m^3, {:.4g} K)", fault, s.state.density, s.state.temperature);
       if (!(s.state.pressure > before.state.pressure)) return "the pressure does not rise with the velocity";
-      const double entropy = s.state.specific_entropy, entropy_before = before.state.specific_entropy;
-      if (entropy < entropy_before - 1e-6 * (std::abs(entropy) + std::abs(entropy_before))) {
-        // Where the pressure does not depend on the energy, the shock is a ramp and nothing else is wrong.
-        if (s.state.gruneisen != 0) return "the entropy falls";
-        spreads_to = s.state.pressure;
+      const double entropy = s.state.specific_entropy;
+      if (entropy < greatest_entropy - 1e-6 * (std::abs(entropy) + std::abs(greatest_entropy))) {
+        // Across a transition one shock would be slower than the one to its beginning: it splits in two. Where the
+        // pressure does not depend on the energy, the shock is a ramp and nothing else is wrong.
+        if (s.state.phase != result_.reference.phase && s.state.melted_fraction == 0) {
+          splits_to = s.state.pressure;
+        } else if (s.state.gruneisen != 0) {
+          return "the entropy falls";
+        } else {
+          spreads_to = s.state.pressure;
+        }
       }
+      greatest_entropy = std::max(greatest_entropy, entropy);
       range.strongest_shock = s;
       return {};
     };
@@ -236,6 +245,11 @@ class Auditor {
     if (spreads_to > 0) {
       object(Verdict::reservations, "shocks up to {:.4g} GPa spread into ramps: the entropy would fall",
              spreads_to / GPa);
+    }
+    if (splits_to > 0) {
+      object(Verdict::reservations,
+             "shocks into the next phase, up to {:.4g} GPa, are two waves: one of them would lose entropy",
+             splits_to / GPa);
     }
     const double strength = range.strongest_shock.state.pressure / stiffness();
     if (range.end_of_shocks.empty() || strength > modest_strength) return;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "eos/model_equation_of_state.hpp"
+#include "eos/models/corrected_gray.hpp"
 #include "eos/models/debye_gruneisen.hpp"
 #include "eos/models/gray.hpp"
 #include "eos/models/gray_71.hpp"
@@ -15,6 +16,7 @@
 #include "eos/models/mie_gruneisen.hpp"
 #include "eos/models/murnaghan.hpp"
 #include "eos/models/polynomial.hpp"
+#include "eos/models/solid_transition.hpp"
 #include "eos/models/stiffened_gas.hpp"
 #include "eos/models/tait.hpp"
 #include "eos/models/tillotson.hpp"
@@ -57,8 +59,10 @@ const Catalogue<ModelEntry>& catalogue() {
                                          {
                                              // Condensed material with its phases.
                                              entry<Gray>(),
+                                             entry<CorrectedGray>(),
                                              entry<Gray71>(),
                                              entry<DebyeGruneisen>(),
+                                             entry<SolidTransition>(),
                                              entry<Tillotson>(),
                                              // Condensed material without phases.
                                              entry<MieGruneisen>(),

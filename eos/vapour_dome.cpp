@@ -111,6 +111,11 @@ Saturation saturation(const VapourDome::Search& search, double T, double volume_
   const double liquid_spinodal = spinodal(search.dense_volume);
   const double vapour_spinodal = spinodal(search.dilute_volume);
   const double highest = pressure(vapour_spinodal);
+  if (!(highest > 0)) {
+    throw InputError(fmt::format(
+        "the vapour of {:.0f} K has its largest pressure, {:.3g} Pa, at {:.4g} m^3/kg: no saturated vapour",
+        T, highest, vapour_spinodal));
+  }
   const double spinodal_pressure = pressure(liquid_spinodal);
 
   const auto liquid_volume = [&](double p) {

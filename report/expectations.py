@@ -76,7 +76,7 @@ class Expectation:
 
     # Keys that belong to the measures of one kind, and to these always.
     OF_KIND = {"place": ("wall_speed.", "run_distance.", "peak_stress.", "shear_strength.", "height."),
-               "travel": ("wall_speed.", "shear_strength.", "shear_stroke."), "table": ("profile_error.", "history_error."),
+               "travel": ("wall_speed.", "shear_strength.", "shear_stroke."), "table": ("profile_error.", "history_error.", "change_error."),
                "fraction": ("jet_speed.", "jet_gap.", "reach."), "speed": ("jet_fraction.",)}
     KEYS = {"name", "measure", "time", *OF_KIND, "value", "tolerance", "kind", "source", "known", "unit", "class"}
 

@@ -130,6 +130,43 @@ PANELS = {
     "liquid_density": plot_against("liquid_density", 1e3, "g/cm$^3$", "saturated melt", 1.0, "temperature (K)"),
     "vapour_density": plot_against("vapour_density", 1e3, "g/cm$^3$", "saturated vapour", 1.0, "temperature (K)"),
 }
+
+def plot_correction(name, kinds, unit, abscissa, abscissa_label):
+    """Data less model, before (upper panel) and after the correction of the free energy."""
+    def draw(data, top, bottom):
+        v0 = data["reference_volume"]
+        for kind in sorted({row["kind"] for row in chosen(data, kinds)}):
+            table = [row for row in chosen(data, kinds) if row["kind"] == kind]
+            x = [row["volume"] / v0 if abscissa == "volume" else row["temperature"] for row in table]
+            top.plot(x, [100 * row["gray"] for row in table], "o", ms=3.5, fillstyle="none", label=kind)
+            bottom.errorbar(x, [100 * row["corrected"] for row in table], yerr=[100 * row["error"] for row in table], fmt="o",
+                            ms=3, lw=0.8, capsize=2)
+        top.axhline(0.0, color="0.4", lw=0.8)
+        bottom.axhline(0.0, color="0.4", lw=0.8)
+        top.set_ylabel(f"{name}: simulated less GRAY\n({unit})")
+        top.legend(frameon=False, fontsize=7)
+        bottom.set_ylabel("less corrected")
+        bottom.set_xlabel(abscissa_label)
+
+    return draw
+
+
+def chosen(data, kinds):
+    return [row for row in data.get("correction", []) if any(kind in row["kind"] for kind in kinds)]
+
+
+def of_states(quantity):
+    return tuple(f"{kind}, {quantity}" for kind in ("isotherm", "isochore", "shock", "melt"))
+
+
+# Panels of a correction: what is drawn, kinds of data, unit, abscissa.
+CORRECTIONS = [
+    ("pressure", (*of_states("pressure"), "zero pressure"), "% of $\\rho_0 C^2$", "volume", "$V/V_0$"),
+    ("energy", of_states("energy"), "% of 3RT", "volume", "$V/V_0$"),
+    ("melting", ("coexistence, Gibbs", "coexistence, heat", "melting line"), "% of $T_m$ and of the heat", "temperature",
+     "temperature (K)"),
+    ("films", ("film",), "% of $RT$ and of $RT/V$", "temperature", "temperature (K)"),
+]
 MOST_COLUMNS = 3  # of panels: more cannot be read at the width of a page
 
 
@@ -140,6 +177,7 @@ def main():
         data = json.load(file)
     plt.rcParams.update({"font.size": 9, "axes.spines.top": False, "axes.spines.right": False})
     panels = [draw for quantity, draw in PANELS.items() if rows(data, quantity) is not None]
+    panels += [plot_correction(*panel) for panel in CORRECTIONS if chosen(data, panel[1])]
     columns = min(len(panels), MOST_COLUMNS)
     lines = -(-len(panels) // columns)
     figure = plt.figure(figsize=(4.2 * columns, 5.2 * lines), layout="constrained")

@@ -37,7 +37,7 @@ done
 case_file=cases/copper_disk_on_aluminium/case.toml
 store=$output/copper_mishin$length.md.h5       # the potential whose material flies
 second=$output/copper_u3$length.md.h5           # a second one, beside it in the table
-simulated=$output/copper_simulated.toml         # fitted to the simulations alone
+simulated=$output/copper_simulated.toml         # corrected to follow the simulations alone
 material=$output/copper_fitted.toml             # to simulations and measurements: the one that flies
 measured=(eos/data/cu_hugoniot_marsh1980.csv eos/data/cu_isotherm_298K_dewaele2004.csv eos/data/cu_melting.csv
   eos/data/cu_thermal_expansion_nist_hahn1.csv)
@@ -95,13 +95,14 @@ if up_to_date fit "${inputs[@]}"; then
   echo "up to date: $material"
 else
   "$whipple" fit "$store" "$second" >"$output/fit_both.txt"
-  "$whipple" fit "$store" -o "$simulated" --density "8.9445 g/cm^3" --plot "$output/fit.png" --force \
+  "$whipple" fit "$store" -o "$simulated" --density "8.9445 g/cm^3" --correct --plot "$output/fit.png" --force \
     >"$output/fit_simulated.txt"
   "$whipple" fit "$store" -o "$material" --density "8.9445 g/cm^3" --with "${measured[@]}" --check "$unseen" --force \
     >"$output/fit.txt"
   finished fit "${inputs[@]}"
 fi
 sed '/^published rows/q' "$output/fit_both.txt"
+sed -n '/^correction of the free energy/,/^sizes/p' "$output/fit_simulated.txt"
 sed -n '/^fit to simulations and measurements/,/^sizes of the deviations/{/^sizes/!p}' "$output/fit.txt"
 echo "written: $material ($simulated without the measurements; all about the fits: $output/fit.txt,"
 echo "  $output/fit_simulated.txt, $output/fit_both.txt)"

@@ -14,6 +14,8 @@ whipple_test(test_solver STARTS_MPI
 whipple_test(test_run STARTS_MPI
   SOURCES parallel/run_restart_test.cpp unit/run_signal_control_test.cpp unit/run_history_columns_test.cpp property/run_forecast_test.cpp property/run_gauges_test.cpp property/solver_plausibility_test.cpp verification/run_steering_test.cpp
   DEPENDS whipple_run nlohmann_json::nlohmann_json GTest::gmock LABELS fast)
+whipple_test(test_force_gauges STARTS_MPI SOURCES property/run_force_gauges_test.cpp DEPENDS whipple_run LABELS fast)
+whipple_test(test_damping STARTS_MPI SOURCES verification/solver_damping_test.cpp DEPENDS whipple_solver LABELS fast)
 whipple_test(test_contact STARTS_MPI SOURCES property/contact_pressing_test.cpp verification/solver_gap_test.cpp verification/solver_first_touch_test.cpp verification/solver_conduction_test.cpp
              DEPENDS whipple_run LABELS fast)
 whipple_test(test_cracks STARTS_MPI SOURCES verification/solver_cracks_test.cpp verification/solver_fragment_size_test.cpp DEPENDS whipple_run LABELS fast)

@@ -45,7 +45,8 @@ ColdCurve cold_curve(const EquationOfState& eos) {
   for (int i = 1; i <= steps_to_limit; ++i) {
     const double density = rho0 * std::pow(last / rho0, static_cast<double>(i) / steps_to_limit);
     const State s = cold_state(eos, density);
-    if (!(s.pressure > curve.compression_limit.pressure)) {
+    // A mixture of two phases has one pressure.
+    if (!(s.pressure > curve.compression_limit.pressure) && s.isothermal_bulk_modulus != 0) {
       curve.compression_limit = turning_point(eos, last_density, density, 1);
       break;
     }

@@ -19,11 +19,9 @@ constexpr double least_volume_ratio = 0.2;
 
 }  // namespace
 
-ParameterTable<DebyeGruneisenConstants> DebyeGruneisen::parameters() {
+ParameterTable<DebyeGruneisenConstants> DebyeGruneisen::phase_parameters() {
   using C = DebyeGruneisenConstants;
   return {
-      real("molar_mass", &C::molar_mass, "kg/mol", range::positive(),
-           "mass of a mole of atoms (compounds: the mean over the atoms)"),
       real("reference_density", &C::reference_density, "kg/m^3", range::positive(),
            "rho0, density at the reference temperature and zero pressure"),
       choice("isotherm", &C::isotherm,
@@ -45,14 +43,22 @@ ParameterTable<DebyeGruneisenConstants> DebyeGruneisen::parameters() {
           .optional(),
       real("electronic_gruneisen", &C::electronic_gruneisen, "", range::any(),
            "gamma_e of the electrons: g_e (V/V0)^gamma_e")
-          .optional(),
-      real("reference_temperature", &C::reference_temperature, "K", range::positive(),
-           "T0, temperature of the isotherm")
-          .optional(),
-      real("melting_temperature", &C::melting_temperature, "K", range::positive(),
-           "T_m0, melting temperature on the isochore of rho0 (not at zero pressure), for Lindemann's law")
-          .optional("none: never melts"),
-  };
+          .optional()};
+}
+
+ParameterTable<DebyeGruneisenConstants> DebyeGruneisen::parameters() {
+  using C = DebyeGruneisenConstants;
+  ParameterTable<C> table = {real("molar_mass", &C::molar_mass, "kg/mol", range::positive(),
+                                  "mass of a mole of atoms (compounds: the mean over the atoms)")};
+  table.append(phase_parameters());
+  table.append(
+      {real("reference_temperature", &C::reference_temperature, "K", range::positive(),
+            "T0, temperature of the isotherm")
+           .optional(),
+       real("melting_temperature", &C::melting_temperature, "K", range::positive(),
+            "T_m0, melting temperature on the isochore of rho0 (not at zero pressure), for Lindemann's law")
+           .optional("none: never melts")});
+  return table;
 }
 
 /// Holds quantities that depend on the volume alone.

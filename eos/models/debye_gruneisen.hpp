@@ -64,6 +64,8 @@ class DebyeGruneisen {
   static constexpr double least_temperature = 1.0;         ///< K
   static constexpr double least_sound_speed_ratio = 0.01;  ///< of sqrt(K0 V0)
   static ParameterTable<Constants> parameters();
+  /// Returns the constants of one solid phase: all but the molar mass, the reference temperature and melting.
+  static ParameterTable<Constants> phase_parameters();
 
   /// @throws InputError naming the constants that contradict each other
   explicit DebyeGruneisen(const Constants& constants);

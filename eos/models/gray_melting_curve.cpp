@@ -22,51 +22,32 @@ constexpr double least_reach = 1.05;
 /// each other the slope is unbounded, and a table across that end would contain arbitrary pressures.
 constexpr double most_bending = 1.0;
 
-/// Holds the common tangent at one temperature, with its derivatives along the curve.
-struct Node {
-  double T = 0, Vs = 0, Vl = 0, P = 0, g = 0;
-  double Vs1 = 0, Vl1 = 0;  // dV/dT
-  double P1 = 0, P2 = 0;    // dP/dT, d^2P/dT^2
-  double g1 = 0, g2 = 0;
-};
+using Node = CommonTangent;
 
-/// Solves P_s = P_l and G_s = G_l by Newton's method from a close guess; nothing if it leaves the stable branches.
-std::optional<Node> tangent(const GrayFreeEnergy& f, double T, double Vs, double Vl) {
-  for (int i = 0; i < 40; ++i) {
-    const GrayPoint s = f.solid(Vs, T), l = f.liquid(Vl, T);
-    // d(P_s - P_l) = Q_s dV_s - Q_l dV_l,  d(G_s - G_l) = V_s Q_s dV_s - V_l Q_l dV_l,  Q = (dP/dV)_T
-    const double dP = s.pressure - l.pressure, dG = s.gibbs(Vs, T) - l.gibbs(Vl, T);
-    const double width = Vl - Vs;
-    if (!(width > 0) || !(s.pressure_by_volume < 0) || !(l.pressure_by_volume < 0)) return std::nullopt;
-    const double step_s = -(Vl * dP - dG) / (s.pressure_by_volume * width);
-    const double step_l = -(Vs * dP - dG) / (l.pressure_by_volume * width);
-    Vs += step_s;
-    Vl += step_l;
-    if (!(Vs > 0.5 * f.least_volume()) || !(Vl < 2 * f.join_volume())) return std::nullopt;
-    if (std::abs(step_s) + std::abs(step_l) > 1e-12 * Vs) continue;
+/// Solves P_s = P_l and G_s = G_l from a close guess.
+std::optional<Node> tangent(const SolidLiquidSurfaces& f, double T, double Vs, double Vl) {
+  return common_tangent(f.solid, f.liquid, T, Vs, Vl, {0.5 * f.least_volume, 2 * f.join_volume});
+}
 
-    const GrayPoint solid = f.solid(Vs, T), liquid = f.liquid(Vl, T);
-    Node n{.T = T, .Vs = Vs, .Vl = Vl, .P = solid.pressure, .g = solid.gibbs(Vs, T)};
-    n.P1 = (liquid.entropy - solid.entropy) / (Vl - Vs);  // Clausius and Clapeyron
-    n.Vs1 = (n.P1 - solid.pressure_by_temperature) / solid.pressure_by_volume;
-    n.Vl1 = (n.P1 - liquid.pressure_by_temperature) / liquid.pressure_by_volume;
-    const double solid_slope = solid.heat_capacity / T + solid.pressure_by_temperature * n.Vs1;  // dS/dT
-    const double liquid_slope = liquid.heat_capacity / T + liquid.pressure_by_temperature * n.Vl1;
-    n.P2 = (liquid_slope - solid_slope - n.P1 * (n.Vl1 - n.Vs1)) / (Vl - Vs);
-    n.g1 = Vs * n.P1 - solid.entropy;
-    n.g2 = n.Vs1 * n.P1 + Vs * n.P2 - solid_slope;
-    return n;
+/// Follows the curve from a node to a nearby temperature.
+std::optional<Node> follow(const SolidLiquidSurfaces& f, const Node& from, double T) {
+  return tangent(f, T, from.dense + from.dense1 * (T - from.T), from.thin + from.thin1 * (T - from.T));
+}
+
+/// Follows the curve in tension, where it bends, by halved steps if one is too long.
+std::optional<Node> follow_closely(const SolidLiquidSurfaces& f, const Node& from, double T) {
+  for (int steps = 1; steps <= 64; steps *= 2) {
+    std::optional<Node> at = from;
+    for (int i = 1; i <= steps && at; ++i)
+      at = follow(f, *at, i == steps ? T : from.T + (T - from.T) * i / steps);
+    if (at) return at;
   }
   return std::nullopt;
 }
 
-/// Follows the curve from a node to a nearby temperature.
-std::optional<Node> follow(const GrayFreeEnergy& f, const Node& from, double T) {
-  return tangent(f, T, from.Vs + from.Vs1 * (T - from.T), from.Vl + from.Vl1 * (T - from.T));
-}
-
 /// Marches from a node by steps of a factor in T until `past` holds; returns the last point before it, to 1e-12 in T.
-Node march(const GrayFreeEnergy& f, Node at, double factor, const std::function<bool(const Node&)>& past) {
+Node march(const SolidLiquidSurfaces& f, Node at, double factor,
+           const std::function<bool(const Node&)>& past) {
   constexpr int most_steps = 10000;  // 2 % each: longer than the curve of any material
   for (int i = 0; i < most_steps && std::abs(factor - 1) > 1e-12; ++i) {
     const std::optional<Node> next = follow(f, at, at.T * factor);
@@ -77,24 +58,6 @@ Node march(const GrayFreeEnergy& f, Node at, double factor, const std::function<
     }
   }
   return at;
-}
-
-/// Computes curvatures from exact slopes on a uniform grid, by fourth-order differences.
-void add_curvatures(std::vector<HermiteTable::Node>& nodes, double step) {
-  const std::size_t n = nodes.size();
-  const auto slope = [&](std::size_t i) { return nodes[i].slope; };
-  for (std::size_t i = 0; i < n; ++i) {
-    // Centre of the five-point stencil, and the position of the point in it.
-    const std::size_t centre = std::clamp<std::size_t>(i, 2, n - 3);
-    static constexpr double weights[5][5] = {{-25, 48, -36, 16, -3},
-                                             {-3, -10, 18, -6, 1},
-                                             {1, -8, 0, 8, -1},
-                                             {-1, 6, -18, 10, 3},
-                                             {3, -16, 36, -48, 25}};
-    double sum = 0;
-    for (std::size_t k = 0; k < 5; ++k) sum += weights[i + 2 - centre][k] * slope(centre - 2 + k);
-    nodes[i].curvature = sum / (12 * step);
-  }
 }
 
 /// Inverts a decreasing volume table V(T) to T(V) at uniform volumes.
@@ -120,11 +83,23 @@ HermiteTable inverse(const HermiteTable& volume, double T_low, double T_high, do
   return HermiteTable(V_low, step, std::move(nodes));
 }
 
+SolidLiquidSurfaces melting_surfaces(const GrayFreeEnergy& surface) {
+  const GrayConstants& c = surface.constants();
+  return {.solid = [&surface](double V, double T) { return surface.solid(V, T); },
+          .liquid = [&surface](double V, double T) { return surface.liquid(V, T); },
+          .start_volume = c.reference_specific_volume,
+          .start_temperature = c.melting_temperature,
+          .least_volume = surface.least_volume(),
+          .join_volume = surface.join_volume()};
+}
+
 }  // namespace
 
-GrayMeltingCurve::GrayMeltingCurve(const GrayFreeEnergy& f) {
-  const GrayConstants& c = f.constants();
-  const double T0 = c.melting_temperature, V0 = c.reference_specific_volume;
+GrayMeltingCurve::GrayMeltingCurve(const GrayFreeEnergy& surface)
+    : GrayMeltingCurve(melting_surfaces(surface)) {}
+
+GrayMeltingCurve::GrayMeltingCurve(const SolidLiquidSurfaces& f) {
+  const double T0 = f.start_temperature, V0 = f.start_volume;
   // Solid and liquid are on opposite sides of the isochore on which their free energies are equal.
   std::optional<Node> start;
   for (const double width : {0.02, 0.04, 0.08, 0.01}) {
@@ -136,10 +111,10 @@ GrayMeltingCurve::GrayMeltingCurve(const GrayFreeEnergy& f) {
         "({} K); check melting_entropy, melting_gruneisen and gruneisen",
         T0));
   }
-  const Node first = march(f, *start, 0.98, [&](const Node& n) { return n.Vl > f.join_volume(); });
+  const Node first = march(f, *start, 0.98, [&](const Node& n) { return n.thin > f.join_volume; });
   Node last = march(f, *start, 1.02, [&](const Node& n) {
     const double step = (n.T - first.T) / intervals;
-    return n.Vs < f.least_volume() || !(std::abs(n.P2) * step < most_bending * std::abs(n.P1));
+    return n.dense < f.least_volume || !(std::abs(n.P2) * step < most_bending * std::abs(n.P1));
   });
   // The curve ends where the common tangent is lost before the compression limit of the solid.
   std::vector<Node> curve;
@@ -147,7 +122,9 @@ GrayMeltingCurve::GrayMeltingCurve(const GrayFreeEnergy& f) {
     curve.assign(1, first);
     const double step = (last.T - first.T) / intervals;
     for (int i = 1; i <= intervals; ++i) {
-      const std::optional<Node> next = follow(f, curve.back(), i == intervals ? last.T : first.T + i * step);
+      const double T = i == intervals ? last.T : first.T + i * step;
+      const std::optional<Node> next =
+          T < start->T ? follow_closely(f, curve.back(), T) : follow(f, curve.back(), T);
       if (!next) break;
       curve.push_back(*next);
     }
@@ -161,13 +138,18 @@ GrayMeltingCurve::GrayMeltingCurve(const GrayFreeEnergy& f) {
     }
   }
 
+  for (const Node& n : curve) {
+    if (n.dense1 < 0 && n.thin1 < 0) continue;
+    throw InputError(
+        fmt::format("melting curve: the volume of a phase grows along it at {:.6g} K, {:.6g} Pa", n.T, n.P));
+  }
   const double step = (last.T - first.T) / intervals;
   std::vector<HermiteTable::Node> pressure, gibbs, solid, liquid;
   for (const Node& n : curve) {
     pressure.push_back({n.P, n.P1, n.P2});
     gibbs.push_back({n.g, n.g1, n.g2});
-    solid.push_back({n.Vs, n.Vs1, 0});
-    liquid.push_back({n.Vl, n.Vl1, 0});
+    solid.push_back({n.dense, n.dense1, 0});
+    liquid.push_back({n.thin, n.thin1, 0});
   }
   add_curvatures(solid, step);
   add_curvatures(liquid, step);
@@ -175,10 +157,10 @@ GrayMeltingCurve::GrayMeltingCurve(const GrayFreeEnergy& f) {
   gibbs_ = HermiteTable(first.T, step, std::move(gibbs));
   solid_volume_ = HermiteTable(first.T, step, std::move(solid));
   liquid_volume_ = HermiteTable(first.T, step, std::move(liquid));
-  coldest_ = {first.T, first.P, first.Vs, first.Vl};
-  hottest_ = {last.T, last.P, last.Vs, last.Vl};
-  solidus_ = inverse(solid_volume_, first.T, last.T, last.Vl, first.Vs);
-  liquidus_ = inverse(liquid_volume_, first.T, last.T, last.Vl, first.Vl);
+  coldest_ = {first.T, first.P, first.dense, first.thin};
+  hottest_ = {last.T, last.P, last.dense, last.thin};
+  solidus_ = inverse(solid_volume_, first.T, last.T, last.thin, first.dense);
+  liquidus_ = inverse(liquid_volume_, first.T, last.T, last.thin, first.thin);
 }
 
 GrayMeltingCurve::Tangent GrayMeltingCurve::at_temperature(double T) const {
@@ -190,12 +172,8 @@ GrayMeltingCurve::Tangent GrayMeltingCurve::at_pressure(double pressure) const {
                                   hottest_.temperature, "melting temperature at the pressure"));
 }
 
-GrayMeltingCurve::Mixture GrayMeltingCurve::mixture(double V, double T) const {
-  // F = g - P V, hence S = P' V - g', E = F + T S, C_v = T S'.
-  const HermiteTable::Node P = pressure_.at(T), g = gibbs_.at(T);
-  const double entropy = V * P.slope - g.slope;
-  return {P.value, g.value - V * P.value + T * entropy, entropy, T * (V * P.curvature - g.curvature),
-          P.slope};
+PhaseMixture GrayMeltingCurve::mixture(double V, double T) const {
+  return phase_mixture(pressure_.at(T), gibbs_.at(T), V, T);
 }
 
 double GrayMeltingCurve::liquid_fraction(double V, double T) const {
@@ -208,7 +186,7 @@ double GrayMeltingCurve::temperature(double V, double E, const GrayBand& edges) 
   const double T1 = edges.T1, T2 = edges.T2, E1 = edges.E1, E2 = edges.E2;
   double T = std::clamp(T1 + (T2 - T1) * (E - E1) / (E2 - E1), T1, T2);
   for (int i = 0; i < 20; ++i) {
-    const Mixture m = mixture(V, T);
+    const PhaseMixture m = mixture(V, T);
     const double next = std::clamp(T - (m.energy - E) / m.heat_capacity, T1, T2);
     const double change = std::abs(next - T);
     T = next;

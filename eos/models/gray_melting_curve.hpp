@@ -3,8 +3,17 @@
 
 #include "eos/hermite_table.hpp"
 #include "eos/models/gray_free_energy.hpp"
+#include "eos/models/phase_equilibrium.hpp"
 
 namespace whipple::eos {
+
+/// Provides the states of solid and liquid, stable or not, to the search of their equilibrium. SI per unit mass.
+struct SolidLiquidSurfaces {
+  PhaseSurfaceFunction solid, liquid;
+  double start_volume = 0, start_temperature = 0;  ///< at which both have equal free energies
+  double least_volume = 0;                         ///< of the solid: the compression limit
+  double join_volume = 0;                          ///< V_J, of the liquid where the search ends
+};
 
 /// Tabulates solid and liquid of GRAY in equilibrium: the common tangent of their free energies on a grid of
 /// temperatures (G27), docs/theory/gray.md, section 3. It extends from the state where the liquid reaches V_J, far
@@ -20,14 +29,10 @@ class GrayMeltingCurve {
     double temperature = 0, pressure = 0;
     double solid_volume = 0, liquid_volume = 0;
   };
-  /// Holds the mixture at (V, T).
-  struct Mixture {
-    double pressure = 0, energy = 0, entropy = 0;
-    double heat_capacity = 0;            ///< at constant volume
-    double pressure_by_temperature = 0;  ///< dP/dT; (dP/dV)_T = 0
-  };
+  using Mixture = PhaseMixture;
 
-  /// @throws InputError if the tangent does not exist on the isochore V0
+  /// @throws InputError if the tangent does not exist at the start
+  explicit GrayMeltingCurve(const SolidLiquidSurfaces& surfaces);
   explicit GrayMeltingCurve(const GrayFreeEnergy& surface);
 
   [[nodiscard]] const Tangent& coldest() const { return coldest_; }

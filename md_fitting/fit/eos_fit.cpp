@@ -43,6 +43,7 @@ struct Options {
   std::string density;
   std::optional<std::string> electrons;
   std::string defaults;
+  bool correct = false;
   int bootstrap = 0;
   int samples = 0;
   std::uint64_t seed = 1;
@@ -104,6 +105,14 @@ FitSettings settings(const Options& options) {
     throw InputError("--with: measurements take part in the fit of --model gray only");
   if (!settings.measured.empty() && options.bootstrap > 0)
     throw InputError("--with: --bootstrap draws replicates of simulations alone: leave one of both out");
+  settings.correction = options.correct;
+  settings.seed = options.seed;
+  if (options.correct) {
+    if (model_of(options.model) != FitModel::gray ||
+        options.melting != word_of(eos::MeltingTransition::equilibrium))
+      throw InputError("--correct: corrects the phases of --model gray with --melting equilibrium only");
+    settings.correction_samples = options.samples;
+  }
   if (!options.density.empty()) {
     settings.density = option_quantity("--density", options.density, "kg/m^3", range::positive());
     if (!(*settings.density > 0.0))
@@ -171,8 +180,9 @@ void write_samples(const Fit& fit, const StoreOrigin& origin,
                    const std::optional<std::filesystem::path>& template_file,
                    const std::filesystem::path& material, const std::optional<PotentialSpread>& spread,
                    const Options& options) {
-  const FitSamples samples =
-      sample_fit(fit, options.samples, options.seed, value_of<ErrorTier>(options.tier).value(), spread);
+  const FitSamples samples = fit.correction ? correction_samples(fit)
+                                            : sample_fit(fit, options.samples, options.seed,
+                                                         value_of<ErrorTier>(options.tier).value(), spread);
   const std::string name = material.stem().string();
   const std::filesystem::path folder = material.parent_path() / (name + "_samples");
   const std::size_t digits = std::to_string(options.samples).size();
@@ -339,6 +349,9 @@ int main_program(int argc, char** argv) {
          "Tables of measurements of the metal (docs/manual/equations_of_state.md), or names of those that "
          "come with the program: fitted together with the simulations")
       ->allow_extra_args(true);
+  app.add_flag("--correct", options.correct,
+               "Add smooth corrections to the free energies of GRAY, so that the material follows isotherm, "
+               "isochores, shocks, melting and films of the simulation: model gray_corrected");
   app.add_option("--check", options.checked,
                  "With --with: tables that take no part in the fit and are predicted by it")
       ->allow_extra_args(true);

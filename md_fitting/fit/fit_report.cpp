@@ -297,6 +297,7 @@ std::string fit_details(const Fit& fit) {
   }
 
   if (fit.joint) text += joint_text(*fit.joint);
+  if (fit.correction) text += "\n" + correction_text(*fit.correction);
   text += unknown_to_classical_nuclei(fit);
   text += nuclei_text(fit);
   text += "\nnot from the simulations\n";
@@ -337,6 +338,16 @@ std::string plot_data(const NamedFit& named) {
                                  {"datum", row.datum},
                                  {"fitted", row.fitted},
                                  {"sigma", row.sigma}});
+  }
+  if (fit.correction) {
+    for (const CorrectionRow& row : fit.correction->rows) {
+      data["correction"].push_back({{"kind", row.kind},
+                                    {"volume", row.volume},
+                                    {"temperature", row.temperature},
+                                    {"gray", row.gray},
+                                    {"corrected", row.corrected},
+                                    {"error", row.error}});
+    }
   }
   for (const IsochoreGruneisen& isochore : fit.isochores) {
     data["isochores"].push_back(

@@ -11,6 +11,7 @@
 #include "md_fitting/elements/element_defaults.hpp"
 #include "md_fitting/elements/needs.hpp"
 #include "md_fitting/fit/bootstrap.hpp"
+#include "md_fitting/fit/correction/correction_fit.hpp"
 #include "md_fitting/fit/cross_validation.hpp"
 #include "md_fitting/fit/fit_settings.hpp"
 #include "md_fitting/fit/joint/joint_result.hpp"
@@ -105,6 +106,7 @@ struct Fit {
   std::optional<BootstrapResult> bootstrap;
   std::optional<JointResult>
       joint;  ///< with measurements in the fit; chi^2 and residuals are of the simulations alone
+  std::optional<CorrectionResult> correction;  ///< of the free energies of GRAY
   /// T_m0 for isochoric melting: T_m where the solid at volume V0 coexists with liquid.
   std::optional<double> isochoric_melting_temperature;
   std::vector<Residual> residuals;

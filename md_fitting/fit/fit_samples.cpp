@@ -78,6 +78,18 @@ Drawn drawn_from(const Fit& fit, ErrorTier tier, const std::optional<PotentialSp
 
 }  // namespace
 
+FitSamples correction_samples(const Fit& fit) {
+  FitSamples samples;
+  for (const eos::CorrectedGrayConstants& drawn : fit.correction.value().samples) {
+    Fit sample = fit;
+    sample.correction->common = drawn.common;
+    sample.correction->fluid = drawn.fluid;
+    sample.fitted_names.clear();
+    samples.fits.push_back(std::move(sample));
+  }
+  return samples;
+}
+
 FitSamples sample_fit(const Fit& fit, int count, std::uint64_t seed, ErrorTier tier,
                       const std::optional<PotentialSpread>& spread) {
   if (over_potentials(tier) && !spread) {

@@ -26,4 +26,7 @@ struct FitSamples {
 FitSamples sample_fit(const Fit& fit, int count, std::uint64_t seed, ErrorTier tier = ErrorTier::fit,
                       const std::optional<PotentialSpread>& spread = std::nullopt);
 
+/// Returns fits with the corrections drawn together with a corrected fit; their constants are its own.
+FitSamples correction_samples(const Fit& fit);
+
 }  // namespace whipple::fit

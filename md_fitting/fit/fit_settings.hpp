@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -83,6 +84,9 @@ struct FitSettings {
   std::optional<std::string> electrons;
   std::optional<std::filesystem::path> defaults{};  ///< file of the user with constants of elements
   int bootstrap = 0;                                ///< replicates; 0: none
+  bool correction = false;        ///< correct the free energies of GRAY to the simulated states
+  int correction_samples = 0;     ///< number of corrections drawn from their posterior distribution
+  std::uint64_t seed = 1;         ///< of the draws
   std::optional<double> density;  ///< kg/m^3: replaces the fitted reference volume by a measured one
   std::vector<std::filesystem::path> measured{};  ///< tables of measurements that take part in the fit
   std::vector<std::filesystem::path> checked{};   ///< tables that the fit with `measured` predicts

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <exception>
+#include <iterator>
 #include <stdexcept>
 
 #include "md_fitting/elements/element_defaults.hpp"
@@ -246,7 +247,14 @@ GrayFit fit_with_join(std::span<const md::PointRecord> points, const FitSettings
                     store_name, 1e3 * fit.gray.electronic_heat_coefficient, error.what()));
   }
   if (settings.bootstrap > 0) fit.bootstrap = bootstrap_gray(points, solid, settings, store_name);
+  const GrayConstants simulated = fit.gray;
   if (settings.density) replace_volume(fit, *settings.density, sources);
+  if (settings.correction) {
+    std::vector<MeasuredCurve> measured;
+    std::ranges::copy_if(curves, std::back_inserter(measured), &MeasuredCurve::fitted);
+    fit.correction =
+        fit_correction({points, simulated, fit.gray, measured}, settings.correction_samples, settings.seed);
+  }
   list_constants(fit, whipple::bind(eos::gray_parameters(), fit.gray), sources);
   return fit;
 }

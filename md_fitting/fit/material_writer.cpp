@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "eos/models/corrected_gray.hpp"
 #include "md_fitting/elements/element_defaults.hpp"
 #include "md_fitting/fit/constant_list.hpp"
 #include "md_fitting/fit/fit_report.hpp"
@@ -34,6 +35,19 @@ std::string_view opened_table(std::string_view line) {
   const std::size_t begin = line.find_first_not_of(" \t[");
   if (begin == std::string_view::npos || line[line.find_first_not_of(" \t")] != '[') return {};
   return line.substr(begin, line.find_first_of("]. \t", begin) - begin);
+}
+
+/// Writes the constants of one correction, ten coefficients a line.
+std::string correction_lines(const eos::CorrectionConstants& correction, const char* prefix) {
+  std::string text = fmt::format(
+      "{0}_least_volume_ratio = {1:.8g}\n{0}_greatest_volume_ratio = {2:.8g}\n{0}_temperature = \"{3:.8g} "
+      "K\"\n{0}_temperatures = {4}\n{0}_coefficients = [",
+      prefix, correction.least_volume_ratio, correction.greatest_volume_ratio, correction.temperature,
+      correction.temperatures);
+  constexpr std::size_t per_line = 10;
+  for (std::size_t i = 0; i < correction.coefficients.size(); ++i)
+    text += fmt::format("{}{:.9g},", i % per_line == 0 ? "\n  " : " ", correction.coefficients[i]);
+  return text + "\n]\n";
 }
 
 std::string constant_line(const Constant& constant) {
@@ -343,7 +357,8 @@ std::string material_text(const Fit& fit, const StoreOrigin& origin,
       gray ? "electrons, liquid and vapour from the named defaults as far as not fitted; " : "",
       template_file ? "strength and failure as in " + template_file->filename().string()
                     : "without strength and failure: a fluid");
-  text += fmt::format("[eos]\nmodel = \"{}\"\n", name_of(fit.model));
+  text +=
+      fmt::format("[eos]\nmodel = \"{}\"\n", fit.correction ? eos::CorrectedGray::name : name_of(fit.model));
   text +=
       fmt::format("source = {}\n",
                   toml_string(fmt::format(
@@ -351,6 +366,9 @@ std::string material_text(const Fit& fit, const StoreOrigin& origin,
                       origin.name)));
   for (const Constant& constant : fit.constants) text += constant_line(constant);
   for (const auto& [name, word] : fit.words) text += fmt::format("{} = {}\n", name, toml_string(word));
+  if (fit.correction)
+    text +=
+        correction_lines(fit.correction->common, "common") + correction_lines(fit.correction->fluid, "fluid");
   text += "\n";
   text += template_file ? strength_and_failure(*template_file)
                         : fmt::format(
@@ -358,7 +376,8 @@ std::string material_text(const Fit& fit, const StoreOrigin& origin,
                               "take strength and "
                               "failure from; whipple fit --template FILE names one\"\n",
                               fit.element);
-  const std::string covariance = covariance_table(fit);
+  // Constants of corrected free energies are not varied alone: their errors are those of the correction.
+  const std::string covariance = fit.correction ? "" : covariance_table(fit);
   text += fmt::format("\n{}{}\n{}", covariance.empty() ? covariance : covariance + "\n",
                       provenance_table(fit, origin), defaults_table(fit));
   if (fit.joint && !covariance.empty()) text += coverage_tables(*fit.joint);

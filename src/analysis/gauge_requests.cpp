@@ -170,6 +170,18 @@ double integral(const std::vector<double>& time, const Value& value) {
   return sum;
 }
 
+/// Integrates the absolute difference of a history from a given one over that of its absolute value, at its times.
+/// Before it begins nothing has happened yet: it is 0.
+double relative_difference(const History& given, const History& history) {
+  const auto difference = [&](std::size_t i) {
+    const double t = given.time[i];
+    const double found = t < history.time.front() ? 0.0 : value_at(t, history.time, history.value);
+    return std::abs(found - given.value[i]);
+  };
+  return integral(given.time, difference) /
+         integral(given.time, [&](std::size_t i) { return std::abs(given.value[i]); });
+}
+
 }  // namespace
 
 double wall_speed(const Request& request) {
@@ -244,14 +256,17 @@ double history_error(const Request& request) {
   const double moved = shift(history, measured);
   for (double& time : history.time) time += moved;
   if (!std::isfinite(moved) || history.time.back() < measured.time.back()) return nan;
-  const auto difference = [&](std::size_t i) {
-    // A record may begin before the simulation: there nothing has happened yet.
-    const double t = measured.time[i];
-    const double found = t < history.time.front() ? 0.0 : value_at(t, history.time, history.value);
-    return std::abs(found - measured.value[i]);
-  };
-  return integral(measured.time, difference) /
-         integral(measured.time, [&](std::size_t i) { return std::abs(measured.value[i]); });
+  return relative_difference(measured, history);
+}
+
+double change_error(const Request& request) {
+  History history = of_gauge(request);
+  if (history.value.size() < 2) return nan;
+  const History given = measured_history(request);
+  if (history.time.back() < given.time.back()) return nan;
+  const double start = history.value.front();
+  for (double& value : history.value) value -= start;
+  return relative_difference(given, history);
 }
 
 }  // namespace whipple::analysis

@@ -35,6 +35,7 @@ std::span<const Section<Case>> Case::sections() {
       section<&Case::heat>("heat"),
       section<&Case::contact>("contact"),
       section<&Case::gravity>("gravity"),
+      section<&Case::damping>("damping", ", local: for states of rest"),
       section<&Case::burn>("burn", ", of explosives", [](const Case& setup) { return setup.has_burn(); }),
       section<&Case::output>("output"),
       section<&Case::bodies>("body"),
@@ -42,6 +43,7 @@ std::span<const Section<Case>> Case::sections() {
       section<&Case::detonations>("detonation"),
       section<&Case::gauges>("gauge"),
       section<&Case::tracers>("tracers"),
+      section<&Case::force_gauges>("force_gauge", ", a force on a body or a face over time"),
       section<&Case::stops>("stop", ", ends the run before time.end")};
   return all;
 }
@@ -213,6 +215,7 @@ std::vector<InputFault> settle(Case& setup) {
   for (const PlacementFault& fault : placement_faults(setup))
     bodies.in(fault.body).add("shape", fault.message);
   check_places_of_gauges(setup, faults);
+  check_bodies_of_force_gauges(setup, faults);
   check_places_of_loads(setup, faults);
   check_lithostatic(setup, faults);
   return list;
@@ -241,11 +244,13 @@ Case read(input::Document document, const std::vector<std::pair<std::string, std
   if (section.is_planar()) {
     setup.domain.boundary =
         setup.domain.boundary.in_section(static_cast<std::size_t>(index_of(section.axis)));
-    for (AppliedLoad& load : setup.loads) {
-      if (load.face == Face::none) continue;
-      load.face = static_cast<Face>(
-          (static_cast<int>(load.face) + 6 - 2 * static_cast<int>(index_of(section.axis))) % 6);
-    }
+    const auto turn = [&](Face& face) {
+      if (face == Face::none) return;
+      face =
+          static_cast<Face>((static_cast<int>(face) + 6 - 2 * static_cast<int>(index_of(section.axis))) % 6);
+    };
+    for (AppliedLoad& load : setup.loads) turn(load.face);
+    for (ForceGauge& gauge : setup.force_gauges) turn(gauge.face);
     setup.domain.axis = Axis::x;
   }
   document.add(settle(setup));

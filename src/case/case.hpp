@@ -12,9 +12,11 @@
 #include "src/case/body.hpp"
 #include "src/case/build/contact_fields.hpp"
 #include "src/case/contact.hpp"
+#include "src/case/damping.hpp"
 #include "src/case/detonation.hpp"
 #include "src/case/dissipation.hpp"
 #include "src/case/domain.hpp"
+#include "src/case/force_gauge.hpp"
 #include "src/case/gauges.hpp"
 #include "src/case/gravity.hpp"
 #include "src/case/heat.hpp"
@@ -41,6 +43,7 @@ struct Case {
   HeatControl heat;
   ContactControl contact;
   Gravity gravity;
+  Damping damping;
   BurnControl burn;
   OutputControl output;
   std::vector<Body> bodies;
@@ -48,6 +51,7 @@ struct Case {
   std::vector<Detonation> detonations;
   std::vector<Gauge> gauges;
   std::vector<Tracers> tracers;
+  std::vector<ForceGauge> force_gauges;
   std::vector<Stop> stops;
 
   std::filesystem::path file;  ///< the case file; materials are searched for in its folder

@@ -35,9 +35,7 @@ std::vector<Gauge> Tracers::gauges() const {
   return gauges;
 }
 
-namespace {
-
-void check_name(const std::string& name, const Faults& faults) {
+void check_name_of_gauge(const std::string& name, const Faults& faults) {
   const auto allowed = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
   if (name.empty()) faults.add("name", "'name' is empty: it names columns");
   if (!std::ranges::all_of(name, allowed)) {
@@ -45,6 +43,8 @@ void check_name(const std::string& name, const Faults& faults) {
                fmt::format("'name' is \"{}\": letters, digits, '_' and '-' only, it names columns", name));
   }
 }
+
+namespace {
 
 /// Adds a fault if the name is used by one of the preceding gauges.
 void check_twice(const std::string& name, std::span<const Gauge> before, const Faults& faults) {
@@ -55,12 +55,12 @@ void check_twice(const std::string& name, std::span<const Gauge> before, const F
 }  // namespace
 
 void Gauge::check(const Case& setup, const Faults& faults) const {
-  check_name(name, faults);
+  check_name_of_gauge(name, faults);
   check_twice(name, {setup.gauges.data(), this}, faults);
 }
 
 void Tracers::check(const Case& setup, const Faults& faults) const {
-  check_name(name, faults);
+  check_name_of_gauge(name, faults);
   std::vector<Gauge> before = setup.gauges;
   for (const Tracers* line = setup.tracers.data(); line != this; ++line) {
     for (Gauge& gauge : line->gauges()) before.push_back(std::move(gauge));

@@ -45,6 +45,9 @@ struct Tracers {
   [[nodiscard]] std::vector<Gauge> gauges() const;
 };
 
+/// Adds a fault for a name that cannot be that of columns.
+void check_name_of_gauge(const std::string& name, const Faults& faults);
+
 /// Projects gauges and tracers of a case written in three dimensions onto its section: to z = 0, in axisymmetry to
 /// their distance from the axis.
 void lay_into_section(std::vector<Gauge>& gauges, std::vector<Tracers>& tracers, grid::Dimension dimension);

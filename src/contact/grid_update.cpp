@@ -24,6 +24,16 @@ void GridUpdate::meet_images_again(BlockGrid& grid, Nodes which) {
   transfer::MirrorPlanes::copy_back(grid, which);
 }
 
+/// Returns the impulse of planes and walls in the step, after telling that of every node.
+Vector3 GridUpdate::impulse(const BlockGrid& grid, Nodes which) const {
+  if (watch_) {
+    planes_.for_each_impulse(grid, which, dt_, [&](std::uint32_t node, Lanes impulse) {
+      watch_(node, {impulse[0], impulse[1], impulse[2]});
+    });
+  }
+  return planes_.impulse(grid, which, dt_);
+}
+
 void GridUpdate::send(BlockGrid& grid, BlockGrid::Part part) {
   if (part == BlockGrid::Part::both) planes_.remember(grid, Nodes::awaited);
   if (grid.awaits()) transfer::MirrorPlanes::fold(grid, Nodes::awaited, part);
@@ -41,14 +51,29 @@ void GridUpdate::complete_sums(BlockGrid& grid, BlockGrid::Part part) {
   grid.finish_sum_to_owners(part);
 }
 
-void GridUpdate::solve_momentum(BlockGrid& grid, double dt, const transfer::Relaxation& relaxation) {
+void GridUpdate::solve_momentum(BlockGrid& grid, double dt, const transfer::Relaxation& relaxation,
+                                double damping) {
   dt_ = dt;
   complete_sums(grid, BlockGrid::Part::both);
+  damping_.clear();
+  if (damping > 0.0) damping_.find(grid, damping, dt);
+  planes_.set_damping(damping_.increments());
   mirror_contact_.lay_out(grid);
   transfer::solve_momentum(grid, dt, relaxation, [&](std::size_t block) {
     return grid.is_contact_block(block) || mirror_contact_.concerns_block(block);
   });
+  if (damping > 0.0) damping_.add(grid);
   mirror_contact_.remember(grid);
+}
+
+GridUpdate::Damped GridUpdate::take_damping(const BlockGrid& grid) {
+  if (damping_.increments().empty()) return {};
+  const Damped damped{.impulse = damping_.impulse() + planes_.damping_impulse(grid, Nodes::others) +
+                                 planes_.damping_impulse(grid, Nodes::awaited),
+                      .work = damping_.work(grid)};
+  damping_.clear();
+  planes_.set_damping({});
+  return damped;
 }
 
 Vector3 GridUpdate::share_step(BlockGrid& grid) {
@@ -56,7 +81,7 @@ Vector3 GridUpdate::share_step(BlockGrid& grid) {
   grid.begin_borrow_from_owners(BlockGrid::Part::both);
   awaiting_ = Awaiting::step;
   meet_images(grid, Nodes::others);
-  return planes_.impulse(grid, Nodes::others, dt_);
+  return impulse(grid, Nodes::others);
 }
 
 void GridUpdate::solve_velocity(BlockGrid& grid) {
@@ -79,7 +104,7 @@ Vector3 GridUpdate::receive(BlockGrid& grid) {
     return Vector3::Zero();
   }
   meet_images(grid, Nodes::awaited);
-  return planes_.impulse(grid, Nodes::awaited, dt_);
+  return impulse(grid, Nodes::awaited);
 }
 
 }  // namespace whipple::contact

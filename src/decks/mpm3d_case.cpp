@@ -16,6 +16,7 @@
 #include "src/core/base/text.hpp"
 #include "src/decks/mpm3d_bodies.hpp"
 #include "src/decks/mpm3d_grid.hpp"
+#include "src/decks/mpm3d_loads.hpp"
 #include "src/decks/mpm3d_material.hpp"
 #include "src/decks/toml_text.hpp"
 
@@ -48,7 +49,7 @@ class CaseBuilder {
     transfer();
     viscosity();
     contact();
-    loads();
+    write_loads(deck_, bodies_, units_, toml_, import_, faults_);
     for (const CaseBody& body : bodies_) add(body, materials.at(body.material));
     detonation(std::ranges::any_of(bodies_, [&](const CaseBody& body) {
       return !body.shape.empty() && materials.at(body.material).explosive;
@@ -311,52 +312,6 @@ class CaseBuilder {
     remark(Outcome::converted, *contact, "contact of the components; normals by this program's own rule");
   }
 
-  void loads() {
-    std::map<std::size_t, std::pair<const Statement*, Vector3>> gravity, force;  // the last of each body
-    const Statement* on_particles = nullptr;
-    for (const Statement* load : deck_.all(Keyword::load)) {
-      if (load->kind == "node") fault(load->line, "MPM3D-F90 has no loads of nodes");
-      if (load->kind == "part" && on_particles == nullptr) on_particles = load;
-      if (load->kind != "grav" && load->kind != "body") continue;
-      const std::vector<double>& n = load->numbers;
-      const auto body = static_cast<std::size_t>(std::max(whole(n[0]), 0));
-      if (body < 1 || body > bodies_.size()) {
-        fault(load->line, fmt::format("there is no body {}", whole(n[0])));
-        continue;
-      }
-      (load->kind == "grav" ? gravity : force)[body - 1] = {load, Vector3(n[1], n[2], n[3])};
-    }
-    if (on_particles != nullptr) remark(Outcome::missing, *on_particles, "forces on single particles");
-    for (const auto& [index, entry] : force) {
-      const double particles = bodies_[index].particles;
-      add_load(bodies_[index], *entry.first, "force", entry.second * particles, dimension::force);
-      remark(Outcome::converted, *entry.first,
-             fmt::format("force on each of {} particles: their sum, distributed by mass", number(particles)));
-    }
-    if (gravity.empty()) return;
-    const auto& [first, common] = gravity.begin()->second;
-    const bool one_for_all =
-        gravity.size() == bodies_.size() &&
-        std::ranges::all_of(gravity, [&](const auto& each) { return each.second.second == common; });
-    if (one_for_all) {
-      toml_.table("[gravity]", line_of(*first));
-      toml_.entry("acceleration", vector(common, dimension::acceleration));
-      return remark(Outcome::exact, *first, "gravity");
-    }
-    for (const auto& [index, entry] : gravity)
-      add_load(bodies_[index], *entry.first, "acceleration", entry.second, dimension::acceleration);
-    remark(Outcome::exact, *first, "gravity of single bodies: loads of these");
-  }
-
-  /// Writes a load of a body that the case has, unless it is zero.
-  void add_load(const CaseBody& body, const Statement& statement, const char* key, const Vector3& value,
-                const Dimension& dimension) {
-    if (body.shape.empty() || value.isZero(0.0)) return;
-    toml_.table("[[load]]", line_of(statement));
-    toml_.text_entry("body", body.name);
-    toml_.entry(key, vector(value, dimension));
-  }
-
   void add(const CaseBody& body, const CaseMaterial& material) {
     if (body.shape.empty()) return;
     toml_.table("[[body]]", fmt::format("{}, {}", line_of(*body.statement), body.description));
@@ -467,12 +422,8 @@ class CaseBuilder {
         case Keyword::staggered_grid:
           remark(Outcome::missing, statement, "staggered grid against volumetric locking");
           break;
-        case Keyword::quasi_static:
-          remark(Outcome::missing, statement, "loads that grow over a time");
-          break;
-        case Keyword::damping:
         case Keyword::dynamic_relaxation:
-          remark(Outcome::missing, statement, "damping of all motion");
+          remark(Outcome::missing, statement, "dynamic relaxation: damping that the code adapts");
           break;
         default:
           break;  // the others already have remarks

@@ -56,6 +56,14 @@ void NodeStore::bond_at_planes(const std::array<std::uint64_t, 6>& fields) {
   lay_out_nodes();
 }
 
+std::array<std::int32_t, 3> NodeStore::place_of_node(std::size_t node) const {
+  const BlockCoordinate& block = coordinate(slot_of_block(node / nodes_per_block));
+  const std::array<int, 3> inside_block = block_shape().place(static_cast<int>(node % nodes_per_block));
+  std::array<std::int32_t, 3> place{};
+  for (std::size_t a = 0; a < 3; ++a) place[a] = block[a] * block_shape().along(a) + inside_block[a];
+  return place;
+}
+
 void NodeStore::find_mirror_nodes() {
   if (planes_.empty()) return;
   outside_.assign(nodes_.size(), 0);
@@ -83,8 +91,7 @@ void NodeStore::find_mirror_nodes() {
         if (inside > 0 && inside <= mirror_reach) mirror.near.push_back(index);
         if (inside >= 0) continue;
         if (bonded) outside_[index] = 1;
-        std::array<std::int32_t, 3> place{};
-        for (std::size_t a = 0; a < 3; ++a) place[a] = block[a] * block_shape().along(a) + inside_block[a];
+        std::array<std::int32_t, 3> place = place_of_node(index);
         place[axis] = 2 * at - along;
         const std::uint32_t image = active_node(place, field);
         // Without an active image no particle reaches this far beyond the plane, since its stencil is symmetric.

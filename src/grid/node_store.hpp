@@ -23,6 +23,9 @@ class NodeStore : public VelocityFields {
   }
   [[nodiscard]] std::span<Node> all_nodes() { return nodes_; }
   [[nodiscard]] std::span<const Node> all_nodes() const { return nodes_; }
+  /// Returns the number of a node along each direction, from the lower corner of the domain; its position is the corner
+  /// plus this times the cell size.
+  [[nodiscard]] std::array<std::int32_t, 3> place_of_node(std::size_t node) const;
   /// Sets every node to zero.
   void clear();
   /// Returns a number that changes whenever nodes change their position in all_nodes().

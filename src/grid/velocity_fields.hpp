@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -80,6 +81,10 @@ class VelocityFields : public PointBins {
   }
   [[nodiscard]] std::size_t node_block(std::size_t slot, std::size_t i) const {
     return i == 0 ? slot : further_begin_[static_cast<std::size_t>(contact_number_[slot])] + i - 1;
+  }
+  /// Returns the undivided field of the nodes of a block; 0 where fields are not distinguished.
+  [[nodiscard]] unsigned whole_of_block(std::size_t block) const {
+    return whole(static_cast<unsigned>(std::max(field_of_block(block), 0)));
   }
   /// Returns one bit per field that reaches a slot, since `separate_fields`.
   [[nodiscard]] std::uint64_t fields(std::size_t slot) const { return fields_[slot]; }

@@ -74,6 +74,10 @@ io::CheckpointValues to_checkpoint(const solver::RunState& state) {
     }
     driven.push_back(body.time_step);
   }
+  std::vector<double>& gauged = values.arrays["gauged_impulses"];
+  for (const solver::GaugedImpulse& of : state.gauged) {
+    for (const Vector3& v : {of.impulse, of.moment}) gauged.insert(gauged.end(), v.begin(), v.end());
+  }
   for_each_real(state, [&](const std::string& name, double value) { values.reals[name] = value; });
   return values;
 }
@@ -89,6 +93,9 @@ solver::RunState from_checkpoint(const io::CheckpointValues& values) {
   for_each_row(values, "driven_bodies", 13, [&](auto n) {
     const auto vector = [&](std::size_t at) { return Vector3(n[at], n[at + 1], n[at + 2]); };
     state.driven.push_back({vector(0), vector(3), vector(6), vector(9), n[12]});
+  });
+  for_each_row(values, "gauged_impulses", 6, [&](auto n) {
+    state.gauged.push_back({Vector3(n[0], n[1], n[2]), Vector3(n[3], n[4], n[5])});
   });
   for_each_real(state, [&](const std::string& name, double& value) { value = values.real(name); });
   return state;

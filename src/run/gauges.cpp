@@ -84,6 +84,9 @@ double spline(double x) {
   return r < 1.5 ? 0.5 * (1.5 - r) * (1.5 - r) : 0.0;
 }
 
+constexpr const char* last_time_name = "force_gauges_time";
+constexpr const char* last_impulses_name = "force_gauges_written";
+
 std::string checkpoint_name(const cases::Gauge& gauge) { return "gauge_particle." + gauge.name; }
 
 /// Finds the particle nearest to each moving gauge; of several, the one with the lowest number. Collective.
@@ -118,8 +121,12 @@ std::vector<std::uint64_t> nearest(const std::vector<cases::Gauge>& gauges,
 
 }  // namespace
 
-GaugeRecorder::GaugeRecorder(const std::vector<cases::Gauge>& gauges, const solver::Simulation& simulation)
-    : gauges_(gauges), particle_(nearest(gauges, simulation)) {}
+GaugeRecorder::GaugeRecorder(const std::vector<cases::Gauge>& gauges,
+                             const std::vector<cases::ForceGauge>& forces,
+                             const solver::Simulation& simulation)
+    : gauges_(gauges), particle_(nearest(gauges, simulation)), forces_(forces) {
+  row_written(simulation);
+}
 
 std::vector<GaugeColumn> gauge_columns(const cases::Gauge& gauge) {
   std::vector<GaugeColumn> columns;
@@ -131,8 +138,30 @@ std::vector<GaugeColumn> gauge_columns(const cases::Gauge& gauge) {
   return columns;
 }
 
-GaugeRecorder::GaugeRecorder(const std::vector<cases::Gauge>& gauges, const io::CheckpointValues& values)
-    : gauges_(gauges), particle_(gauges.size(), 0) {
+std::vector<GaugeColumn> gauge_columns(const cases::ForceGauge& gauge) {
+  std::vector<GaugeColumn> columns;
+  for (const char axis : {'x', 'y', 'z'})
+    columns.push_back({fmt::format("{}.force_{}", gauge.name, axis), "N"});
+  for (const char axis : {'x', 'y', 'z'})
+    columns.push_back({fmt::format("{}.moment_{}", gauge.name, axis), "N m"});
+  return columns;
+}
+
+GaugeRecorder::GaugeRecorder(const std::vector<cases::Gauge>& gauges,
+                             const std::vector<cases::ForceGauge>& forces, const io::CheckpointValues& values)
+    : gauges_(gauges), particle_(gauges.size(), 0), forces_(forces), last_impulse_(forces.size()) {
+  if (!forces_.empty()) {
+    last_time_ = values.real(last_time_name);
+    const std::vector<double>& numbers = values.array(last_impulses_name);
+    if (numbers.size() != 6 * forces_.size()) {
+      throw InputError(fmt::format("the checkpoint has {} numbers in \"{}\": expected {}", numbers.size(),
+                                   last_impulses_name, 6 * forces_.size()));
+    }
+    for (std::size_t g = 0; g < forces_.size(); ++g) {
+      const double* const n = &numbers[6 * g];
+      last_impulse_[g] = {Vector3(n[0], n[1], n[2]), Vector3(n[3], n[4], n[5])};
+    }
+  }
   for (std::size_t g = 0; g < gauges_.size(); ++g) {
     if (gauges_[g].moving()) {
       particle_[g] = static_cast<std::uint64_t>(values.integer(checkpoint_name(gauges_[g])));
@@ -146,9 +175,48 @@ void GaugeRecorder::to_checkpoint(io::CheckpointValues& values) const {
       values.integers[checkpoint_name(gauges_[g])] = static_cast<std::int64_t>(particle_[g]);
     }
   }
+  if (forces_.empty()) return;
+  values.reals[last_time_name] = last_time_;
+  std::vector<double>& numbers = values.arrays[last_impulses_name];
+  for (const solver::GaugedImpulse& of : last_impulse_) {
+    for (const Vector3& v : {of.impulse, of.moment}) numbers.insert(numbers.end(), v.begin(), v.end());
+  }
+}
+
+void GaugeRecorder::row_written(const solver::Simulation& simulation) {
+  last_time_ = simulation.state().time;
+  last_impulse_ = simulation.state().gauged;
 }
 
 std::vector<io::HistoryValue> GaugeRecorder::row(const solver::Simulation& simulation) const {
+  std::vector<io::HistoryValue> row = {{"step", "", static_cast<double>(simulation.state().step)},
+                                       {"time", "s", simulation.state().time}};
+  if (!gauges_.empty()) add_states(simulation, row);
+  add_forces(simulation, row);
+  return row;
+}
+
+/// Adds impulses over times, (3.6a); 0 in the first row, before which no time has passed.
+void GaugeRecorder::add_forces(const solver::Simulation& simulation,
+                               std::vector<io::HistoryValue>& row) const {
+  const double interval = simulation.state().time - last_time_;
+  for (std::size_t g = 0; g < forces_.size(); ++g) {
+    const solver::GaugedImpulse& now = simulation.state().gauged[g];
+    const std::vector<GaugeColumn> columns = gauge_columns(forces_[g]);
+    std::array<double, 6> gained{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto i = static_cast<Eigen::Index>(c);
+      gained[c] = now.impulse[i] - last_impulse_[g].impulse[i];
+      gained[c + 3] = now.moment[i] - last_impulse_[g].moment[i];
+    }
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      row.push_back({columns[c].name, columns[c].unit, interval > 0.0 ? gained[c] / interval : 0.0});
+    }
+  }
+}
+
+void GaugeRecorder::add_states(const solver::Simulation& simulation,
+                               std::vector<io::HistoryValue>& row) const {
   const double per_cell = 1.0 / simulation.setup().domain.cell_size;
   std::vector<Sums> sums(gauges_.size());
   std::unordered_multimap<std::uint64_t, std::size_t> gauge_of;
@@ -181,8 +249,6 @@ std::vector<io::HistoryValue> GaugeRecorder::row(const solver::Simulation& simul
   parallel::sum(simulation.communicator(), std::span(reinterpret_cast<double*>(sums.data()),
                                                      sums.size() * sizeof(Sums) / sizeof(double)));
 
-  std::vector<io::HistoryValue> row = {{"step", "", static_cast<double>(simulation.state().step)},
-                                       {"time", "s", simulation.state().time}};
   for (std::size_t g = 0; g < gauges_.size(); ++g) {
     const Sums& s = sums[g];
     const std::vector<GaugeColumn> columns = gauge_columns(gauges_[g]);
@@ -199,7 +265,6 @@ std::vector<io::HistoryValue> GaugeRecorder::row(const solver::Simulation& simul
       add(s.value[q] / (quantities[q].by_volume ? s.volume : s.mass));  // 0/0 without material
     }
   }
-  return row;
 }
 
 }  // namespace whipple::run

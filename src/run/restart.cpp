@@ -28,7 +28,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Lists the tables whose keys determine the particles and elements.
-constexpr std::array<std::string_view, 4> fixed_tables = {"domain", "body", "gauge", "tracers"};
+constexpr std::array<std::string_view, 5> fixed_tables = {"domain", "body", "gauge", "tracers",
+                                                          "force_gauge"};
 
 /// Computes digests of the material and mesh files of every body. The material files of a run are copies that include
 /// the values from their base files.
@@ -256,6 +257,11 @@ solver::Simulation resume(const cases::Case& setup, io::Checkpoint& checkpoint, 
     throw InputError(
         fmt::format("{}: holds \"loaded_mass\" of {} loads: expected those of the {} of the case",
                     checkpoint.path.string(), state.loaded_mass.size(), setup.loads.size()));
+  }
+  if (state.gauged.size() != setup.force_gauges.size()) {
+    throw InputError(
+        fmt::format("{}: holds \"gauged_impulses\" of {} force gauges: expected those of the {} of the case",
+                    checkpoint.path.string(), state.gauged.size(), setup.force_gauges.size()));
   }
   if (setup.time.end < state.time) {
     throw InputError(

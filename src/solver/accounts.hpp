@@ -16,6 +16,7 @@ enum class Shown {
   nowhere,
   always,       ///< a column of history.csv
   of_elements,  ///< a column of history.csv in cases with elements
+  of_damping,   ///< a column of history.csv in cases with local damping
   limiter       ///< a column of history.csv: how often a bound of the material or the time step took effect
 };
 
@@ -38,6 +39,7 @@ inline constexpr auto accounts = [] {
   using enum Shown;
   return std::to_array<Account>({
     {"external_work", "J", &S::external_work, nowhere, "work of external accelerations and of nodes with prescribed velocities", {}, {}, {}},
+    {"damping_work", "J", &S::damping_work, of_damping, "work of local damping, which takes energy away: not positive", {}, {}, {}},
     {"work", "J", &S::work, nowhere, "work of the stress on the strain, into internal energy", {}, {}, {}},
     {"viscous_work", "J", &S::viscous_work, always, "work of the artificial viscosity, part of that of the stress",
      "artificial viscosity", "internal energy", {}},

@@ -150,9 +150,10 @@ double Ledger::energy_error(const Totals& now) const {
   so_far.observe(now);
   const double scale = std::max(
       std::max(so_far.largest_kinetic_energy, moving_energy(initial)) + so_far.largest_heating +
-          std::abs(external_work),
+          std::abs(external_work) + std::abs(damping_work),
       round_off_of_internal_energy * (std::abs(initial.internal_energy) + std::abs(now.internal_energy)));
-  return (now.energy() + outflow.energy() - initial.energy() - external_work) / std::max(scale, 1e-300);
+  return (now.energy() + outflow.energy() - initial.energy() - external_work - damping_work) /
+         std::max(scale, 1e-300);
 }
 
 double Ledger::momentum_error(const Totals& now) const {

@@ -18,7 +18,9 @@ State::State(const cases::Case& of_run, MPI_Comm of_ranks, const RunState& of_st
       grid(of_run.geometry, of_ranks),
       bodies(of_run.bodies.size()),
       run(of_start),
-      booked_outflow(of_run.bodies.size()) {
+      booked_outflow(of_run.bodies.size()),
+      force_gauges(of_run) {
+  run.gauged.resize(of_run.force_gauges.size());
   run.outflow_of_body.resize(bodies.size());
   run.driven.resize(bodies.size());
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {

@@ -16,6 +16,7 @@
 #include "src/core/parallel/mpi.hpp"
 #include "src/grid/block_grid.hpp"
 #include "src/particles/particles.hpp"
+#include "src/solver/force_gauges.hpp"
 #include "src/solver/ledger.hpp"
 #include "src/solver/profile.hpp"
 #include "src/transfer/shape_function.hpp"
@@ -80,6 +81,7 @@ struct RunState {
   Ledger ledger;
   std::vector<BodyOutflow> outflow_of_body;  ///< of each body, over all ranks
   std::vector<DrivenBody> driven;            ///< of each body
+  std::vector<GaugedImpulse> gauged;         ///< of each force gauge, over all ranks, since the start
   std::vector<double> loaded_mass;  ///< on which the force of each load acts at the start, kg; 0: no force
 };
 
@@ -103,6 +105,7 @@ struct State {
   std::size_t particle_count = 0, element_count = 0;    ///< of all ranks
   Ledger booked;                                        ///< contributions of the current step on this rank
   std::vector<BodyOutflow> booked_outflow;  ///< outflow of each body in the current step on this rank
+  ForceGauges force_gauges;
   /// Maximum rates of the current step, which bound the next one.
   struct Rates {
     double squared_change = 0.0;       ///< squared change of a particle's velocity, m^2/s^2

@@ -25,6 +25,10 @@ std::vector<run::GaugeColumn> columns_of_gauges(const Plan& plan) {
     const std::vector<run::GaugeColumn> own = run::gauge_columns(gauge);
     columns.insert(columns.end(), own.begin(), own.end());
   }
+  for (const cases::ForceGauge& gauge : plan.base.force_gauges) {
+    const std::vector<run::GaugeColumn> own = run::gauge_columns(gauge);
+    columns.insert(columns.end(), own.begin(), own.end());
+  }
   return columns;
 }
 

@@ -39,13 +39,13 @@ void restrict_to_plane(Node& node, Lanes sign, BlockGrid::Part part) {
 }
 
 /// Returns whether the step of a node is exactly that of the contributions of this rank's particles alone.
-bool is_result_of(const Node& node, const Node& brought, double dt) {
+bool is_result_of(const Node& node, const Node& brought, Lanes damping, double dt) {
   const double mass = brought.sums.mass();
   const Lanes velocity = brought.sums.mass_and_momentum / mass,
               increment = brought.sums.sound_and_force * (dt / mass);
   for (int c = 0; c < 3; ++c) {
     if (velocity[c + 1] != node.motion.velocity_and_relaxation[c] ||
-        increment[c + 1] != node.motion.increment_and_heat[c])
+        increment[c + 1] + damping[c] != node.motion.increment_and_heat[c])
       return false;
   }
   return true;
@@ -56,9 +56,10 @@ bool is_result_of(const Node& node, const Node& brought, double dt) {
 void MirrorPlanes::find_nodes(const BlockGrid& grid) {
   if (layout_ == grid.layout()) return;
   layout_ = grid.layout();
-  std::vector<std::uint64_t> nodes;  // twice its number, and 1 if it is only an image
-  const auto add = [&](std::uint32_t node, std::uint64_t only_image) {
-    nodes.push_back(2 * static_cast<std::uint64_t>(node) + only_image);
+  // Four times its number, plus 1 if it is only an image, or 3 if it is only in a contact slot
+  std::vector<std::uint64_t> nodes;
+  const auto add = [&](std::size_t node, std::uint64_t kind) {
+    nodes.push_back(4 * static_cast<std::uint64_t>(node) + kind);
   };
   for (const grid::MirrorPlane& plane : grid.mirror_planes()) {
     // Material in contact with its image as with another body may not touch it yet.
@@ -69,14 +70,19 @@ void MirrorPlanes::find_nodes(const BlockGrid& grid) {
     for (const std::uint32_t near : plane.near) add(near, 1);
     for (const std::uint32_t on_plane : plane.on_plane) add(on_plane, 0);
   }
+  for (std::size_t block = 0; also_contact_ && block < grid.all_nodes().size() / grid::nodes_per_block;
+       ++block) {
+    if (!grid.is_contact_block(block)) continue;
+    for (std::size_t i = 0; i < grid::nodes_per_block; ++i) add(block * grid::nodes_per_block + i, 3);
+  }
   std::ranges::sort(nodes);  // nodes that are more than an image come first
   nodes_.clear();
-  may_be_unchanged_.clear();
+  kind_.clear();
   for (const std::uint64_t entry : nodes) {
-    const auto node = static_cast<std::uint32_t>(entry / 2);
+    const auto node = static_cast<std::uint32_t>(entry / 4);
     if (!nodes_.empty() && nodes_.back() == node) continue;
     nodes_.push_back(node);
-    may_be_unchanged_.push_back(static_cast<std::uint8_t>(entry % 2));
+    kind_.push_back({.at_plane = entry % 4 < 3, .may_be_unchanged = entry % 4 > 0});
   }
 }
 
@@ -125,21 +131,50 @@ void MirrorPlanes::copy_back(BlockGrid& grid, Nodes which) {
   }
 }
 
-/// Momentum that the planes gave to the real particles: equation 3.6 of docs/theory/mpm.md.
+/// In reverse order, as `copy_back`.
+void MirrorPlanes::copy_to_images(const BlockGrid& grid, std::span<Lanes> of_node) {
+  const auto planes = grid.mirror_planes();
+  for (std::size_t n = planes.size(); n-- > 0;) {
+    const Lanes sign = reflection(planes[n], 0);
+    for (const grid::MirrorPair& pair : planes[n].pairs) of_node[pair.outside] = sign * of_node[pair.image];
+  }
+}
+
+/// Returns the increment of the velocity of a remembered node by local damping, m/s.
+Lanes MirrorPlanes::damping_at(std::size_t i) const {
+  return damping_.empty() ? broadcast(0.0) : damping_[nodes_[i]];
+}
+
+Vector3 MirrorPlanes::damping_impulse(const BlockGrid& grid, Nodes which) const {
+  Lanes impulse = broadcast(0.0);
+  for (std::size_t i = 0; !damping_.empty() && i < nodes_.size(); ++i) {
+    if (kind_[i].at_plane && is_among(grid, nodes_[i], which))
+      impulse += before_[i].sums.mass() * damping_[nodes_[i]];
+  }
+  return {impulse[0], impulse[1], impulse[2]};
+}
+
+/// Returns the momentum that planes and contact gave to the real particles at a node: equation 3.6 of
+/// docs/theory/mpm.md.
+Lanes MirrorPlanes::impulse_at(const BlockGrid& grid, std::size_t i, double dt) const {
+  const Node& real = before_[i];
+  const Node& node = grid.all_nodes()[nodes_[i]];
+  const double mass = real.sums.mass();
+  // A node that received nothing in the fold is not changed by the planes: only its round-off would count.
+  // (What arrives may be a force without any mass to speak of, at the edge of a kernel.)
+  if (kind_[i].may_be_unchanged && is_result_of(node, real, damping_at(i), dt)) return broadcast(0.0);
+  const Vector3 momentum = real.sums.momentum(), force = real.sums.force();
+  const Lanes p = {momentum[0], momentum[1], momentum[2], 0.0}, f = {force[0], force[1], force[2], 0.0};
+  const Lanes v = node.motion.velocity_and_relaxation;
+  return mass * (node.motion.increment_and_heat - damping_at(i)) - dt * f -
+         node.motion.relaxation() * (p - mass * v);
+}
+
 Vector3 MirrorPlanes::impulse(const BlockGrid& grid, Nodes which, double dt) const {
   Lanes impulse = broadcast(0.0);
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    if (!is_among(grid, nodes_[i], which)) continue;
-    const Node& real = before_[i];
-    const Node& node = grid.all_nodes()[nodes_[i]];
-    const double mass = real.sums.mass();
-    // A node that received nothing in the fold is not changed by the planes: only its round-off would count.
-    // (What arrives may be a force without any mass to speak of, at the edge of a kernel.)
-    if (may_be_unchanged_[i] != 0 && is_result_of(node, real, dt)) continue;
-    const Vector3 momentum = real.sums.momentum(), force = real.sums.force();
-    const Lanes p = {momentum[0], momentum[1], momentum[2], 0.0}, f = {force[0], force[1], force[2], 0.0};
-    const Lanes v = node.motion.velocity_and_relaxation;
-    impulse += mass * node.motion.increment_and_heat - dt * f - node.motion.relaxation() * (p - mass * v);
+    if (!kind_[i].at_plane || !is_among(grid, nodes_[i], which)) continue;
+    impulse += impulse_at(grid, i, dt);
   }
   return {impulse[0], impulse[1], impulse[2]};
 }

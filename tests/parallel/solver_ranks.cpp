@@ -322,8 +322,8 @@ TEST_F(SolverRanks, GaugesAgreeWithOneRankAndFollowTheSameParticles) {
                                             {"disk", cases::GaugeKind::moving, {0.0, 0.0, -3e-3}},
                                             {"empty", cases::GaugeKind::fixed, {11e-3, 11e-3, 7e-3}}};
   Simulation together(read(), MPI_COMM_WORLD), alone(read(), MPI_COMM_SELF);
-  const run::GaugeRecorder all(gauges, together);
-  const run::GaugeRecorder one(gauges, alone);
+  const run::GaugeRecorder all(gauges, {}, together);
+  const run::GaugeRecorder one(gauges, {}, alone);
   io::CheckpointValues of_all, of_one;
   all.to_checkpoint(of_all);
   one.to_checkpoint(of_one);
@@ -332,7 +332,7 @@ TEST_F(SolverRanks, GaugesAgreeWithOneRankAndFollowTheSameParticles) {
   advance_to(together, 0.5e-6);
   advance_on_root(alone, 0.5e-6);
   const std::vector<io::HistoryValue> a = all.row(together),
-                                      b = run::GaugeRecorder(gauges, of_one).row(alone);
+                                      b = run::GaugeRecorder(gauges, {}, of_one).row(alone);
   if (!is_root()) return;
   ASSERT_EQ(a.size(), b.size());
   std::map<std::string, double> value;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "src/case/case.hpp"
 #include "tests/parallel/solver_ranks.hpp"
@@ -34,6 +35,13 @@ cases::Case blocks_into_corner(const Corner& corner) {
           "boundary = { x_lower = \"symmetry\", y_lower = \"" + corner.wall +
           "\", z_lower = \"no_slip\" }\n" + block("first", {0.4, 0.9, 0.7}, 6, {-700, -1500, -800}) +
           block("second", {0.3, 7.6, 0.7}, 5, {-900, -2500, -300}) +
+          "[[force_gauge]]\nname = \"base\"\nface = \"z_lower\"\nabout = [0.001, 0.002, 0]\n"
+          "[[force_gauge]]\nname = \"part\"\nface = \"y_lower\"\nbox = { lower = [0.0023, -1, 0], upper = "
+          "[1, 1, "
+          "0.0091] }\n" +
+          (std::string(corner.contact).find("none") == std::string::npos
+               ? "[[force_gauge]]\nname = \"third\"\nbody = \"third\"\n"
+               : "") +
           block("third", {0.5, 1.1, 8.0}, 6, {-900, -800, -1900}),
       "corner.toml");
 }
@@ -50,6 +58,14 @@ TEST_P(WallRanks, AgreeWithOneRank) {
   const Ledger &a = together.state().ledger, &b = alone.state().ledger;
   EXPECT_GT(b.contact_heat, 1e-4 * b.initial.energy());
   EXPECT_NEAR(a.contact_heat, b.contact_heat, 1e-11 * b.initial.energy());
+  const std::vector<GaugedImpulse>&of_all = together.state().gauged, &of_one = alone.state().gauged;
+  ASSERT_EQ(of_all.size(), of_one.size());
+  const double scale = b.initial.momentum_scale, length = 0.024;
+  for (std::size_t g = 0; g < of_one.size(); ++g) {
+    EXPECT_GT(of_one[g].impulse.norm(), 1e-3 * scale) << g;
+    EXPECT_LE((of_all[g].impulse - of_one[g].impulse).norm(), 1e-11 * scale) << g;
+    EXPECT_LE((of_all[g].moment - of_one[g].moment).norm(), 1e-11 * scale * length) << g;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Contact, WallRanks,
@@ -58,8 +74,52 @@ INSTANTIATE_TEST_SUITE_P(Contact, WallRanks,
                                                 "separating", ""},
                                          Corner{"[contact]\nmethod = \"multi_field\"\nfriction = 0.2\n"
                                                 "[[load]]\nbody = \"second\"\nforce = [3e4, 1e4, -2e4]\n"
-                                                "times = [0, 1e-6, 2e-6]\nfactors = [0, 1, -1]\n",
+                                                "times = [0, 1e-6, 2e-6]\nfactors = [0, 1, -1]\n"
+                                                "[damping]\ncoefficient = 0.4\n",
                                                 "friction", "friction = 0.3\n"}));
+
+/// A block on a base and against a side, to both of which it is bonded, under its weight with local damping.
+class DampedRanks : public testing::TestWithParam<const char*> {};
+
+TEST_P(DampedRanks, AgreeWithOneRank) {
+  using namespace verification;
+  constexpr double end = 8e-6;
+  const cases::Case setup = cases::read_case_text(
+      Method{}.time_toml(end) + Method{}.toml() +
+          "[domain]\nlower = [0, 0, 0]\nupper = [0.02, 0.02, 0.02]\ncell_size = 0.001\n"
+          "boundary = { x_lower = \"symmetry\", z_lower = \"no_slip\" }\n"
+          "[gravity]\nacceleration = [3e5, 1e5, -1e6]\n[damping]\ncoefficient = 0.6\n" +
+          BodyOptions{"block", elastic_aluminium(), box({0, 0.003, 0}, {0.011, 0.012, 0.012}),
+                      Vector3::Zero(), GetParam()}
+              .toml() +
+          "[[force_gauge]]\nname = \"base\"\nface = \"z_lower\"\n[[force_gauge]]\nname = \"block\"\nbody = "
+          "\"block\"\n",
+      "damped.toml");
+  Simulation together(setup, MPI_COMM_WORLD), alone(setup, MPI_COMM_SELF);
+  advance_to(together, end);
+  advance_on_root(alone, end);
+  expect_same_on_all_ranks(together);
+  if (!is_root()) return;
+  const Ledger &a = together.state().ledger, &b = alone.state().ledger;
+  const double work = b.external_work, momentum = b.external_impulse.norm();
+  EXPECT_LT(b.damping_work, -0.01 * work);
+  EXPECT_NEAR(a.damping_work, b.damping_work, 1e-10 * work);
+  EXPECT_LE((a.external_impulse - b.external_impulse).norm(), 1e-10 * momentum);
+  EXPECT_LE(std::abs(a.energy_error(together.totals())), 1e-12);
+  EXPECT_LE(a.momentum_error(together.totals()), 1e-12);
+  for (std::size_t g = 0; g < 2; ++g) {
+    const GaugedImpulse &of_all = together.state().gauged[g], &of_one = alone.state().gauged[g];
+    EXPECT_GT(of_one.impulse.norm(), 0.01 * momentum);
+    EXPECT_LE((of_all.impulse - of_one.impulse).norm(), 1e-10 * momentum);
+    EXPECT_LE((of_all.moment - of_one.moment).norm(), 1e-10 * momentum * 0.02);
+  }
+  // What the block has gained is the impulse of loads and damping and that of the faces.
+  const Vector3 gained = together.totals().momentum;
+  EXPECT_LE((gained - a.external_impulse - together.state().gauged[1].impulse).norm(), 1e-12 * momentum);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, DampedRanks,
+                         testing::Values("", "discretization = { method = \"finite_elements\" }\n"));
 
 /// Tests a bar between two grips that move apart, one of them driven, the other held by a separating plane.
 TEST(DrivenRanks, AgreeWithOneRank) {

@@ -14,6 +14,7 @@
 #include "src/core/base/error.hpp"
 #include "src/core/base/linear_algebra.hpp"
 #include "src/core/base/normal_samples.hpp"
+#include "tests/property/fit_measured.hpp"
 #include "tests/property/fit_recovery.hpp"
 
 namespace whipple::fit {
@@ -22,8 +23,9 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using eos::experiments::Experiment;
 using eos::experiments::ExperimentKind;
+using testing::measured;
+using testing::steps;
 using testing::SyntheticStore;
 using testing::true_constants;
 
@@ -79,37 +81,6 @@ TEST(VarianceComponents, UndeterminedParametersAreRefused) {
   LinearSystem system = line_with_deviation(1.0, 0.1, 1);
   system.jacobian.col(1) = 2.0 * system.jacobian.col(0);
   EXPECT_THROW(estimate(system, VectorXd::Zero(1)), StateError);
-}
-
-/// A measured curve of the metal with given constants, with normal errors relative to the ordinate.
-MeasuredCurve measured(const eos::GrayConstants& constants, ExperimentKind kind, const char* name,
-                       const std::vector<double>& abscissa, double error, unsigned seed) {
-  MeasuredCurve curve;
-  Experiment& e = curve.experiment;
-  e.name = name;
-  e.kind = kind;
-  e.volume_temperature = e.temperature = 293.0;
-  e.abscissa = abscissa;
-  const std::size_t n = abscissa.size();
-  e.initial_density.assign(n, std::nan(""));
-  e.porosity.assign(n, std::nan(""));
-  e.temperatures.assign(n, 293.0);
-  e.ordinate.assign(n, 1.0);
-  e.ordinate = CurveModel(constants).values(e);
-  std::mt19937_64 generator(seed);
-  std::normal_distribution<double> normal;
-  for (double& value : e.ordinate) {
-    curve.error.push_back(error * value);
-    value *= 1.0 + error * normal(generator);
-  }
-  curve.stated = true;
-  return curve;
-}
-
-std::vector<double> steps(double from, double to, int count) {
-  std::vector<double> values;
-  for (int i = 0; i < count; ++i) values.push_back(from + (to - from) * i / (count - 1));
-  return values;
 }
 
 /// Fits the simulations of a potential, with or without coexistence.

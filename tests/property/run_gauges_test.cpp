@@ -54,7 +54,7 @@ std::map<std::string, double> values(const GaugeRecorder& recorder, const solver
 TEST(Gauges, SeeElements) {
   const cases::Case setup = cases::read_case_text(text("finite_elements", "100 m/s", "1 us"), "case.toml");
   solver::Simulation simulation(setup, parallel::world());
-  const GaugeRecorder recorder(setup.all_gauges(), simulation);
+  const GaugeRecorder recorder(setup.all_gauges(), {}, simulation);
   const double density = setup.materials[0]->reference.density;
   auto now = values(recorder, simulation);
   EXPECT_NEAR(now["place.density"], density, 1e-9 * density);
@@ -67,7 +67,7 @@ TEST(Gauges, SeeElements) {
 TEST(Gauges, FollowMatterThroughItsConversion) {
   const cases::Case setup = cases::read_case_text(text("adaptive", "-250 m/s", "4 us"), "case.toml");
   solver::Simulation simulation(setup, parallel::world());
-  const GaugeRecorder recorder(setup.all_gauges(), simulation);
+  const GaugeRecorder recorder(setup.all_gauges(), {}, simulation);
   const std::size_t elements = simulation.element_count();
   double before = values(recorder, simulation)["material.z"];
   while (simulation.state().time < setup.time.end) {

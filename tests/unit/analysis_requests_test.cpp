@@ -257,6 +257,15 @@ TEST_F(Requests, HistoriesAreComparedWithMeasuredOnesWhateverTheirShift) {
   }
 }
 
+TEST_F(Requests, ADisplacementIsComparedWithACurveAtItsTimes) {
+  file("gauges.csv") << "time [s],tip.x [m]\n0,2\n1,2\n2,2.5\n3,3\n4,3\n";
+  file("curve.csv") << "time [s],displacement [mm]\n1,0\n2,400\n3,1000\n4,1200\n";
+  EXPECT_NEAR(take("change_error.tip.x table=" + path("curve.csv")), (0.05 + 0.05 + 0.1) / (0.2 + 0.7 + 1.1),
+              1e-12);
+  file("curve.csv") << "time [s],displacement [mm]\n1,0\n2,400\n5,1000\n";
+  EXPECT_TRUE(std::isnan(take("change_error.tip.x table=" + path("curve.csv")))) << "the run ends before";
+}
+
 /// A run with a body without particles and one with some.
 class Jets : public Requests {
  protected:

@@ -62,6 +62,36 @@ TEST_F(SoilDeck, DilationBeginsAsInTheDeck) {
               testing::HasSubstr("q_psi must be >= 0 and not above q_phi"));
 }
 
+TEST_F(SoilDeck, ForcesGrowAndMotionIsDampedAsInTheDeck) {
+  const Import import = with("endtime", "qulo 0.25\ndamp 30\nendtime");
+  EXPECT_EQ(import.count(Outcome::missing), 0U) << import.report();
+  const CaseFolder written(import, folder_ / "case");
+  const cases::Case setup = cases::read_case(written.case_file(), {});
+  ASSERT_EQ(setup.loads.size(), 4U);
+  const cases::AppliedLoad *damping = nullptr, *force = nullptr;
+  for (const cases::AppliedLoad& load : setup.loads) {
+    if (load.is_damping()) damping = &load;
+    if (load.is_force()) force = &load;
+    if (!load.acceleration.isZero(0.0)) {
+      EXPECT_TRUE(load.table.is_default()) << "gravity does not grow";
+    }
+  }
+  ASSERT_NE(damping, nullptr);
+  EXPECT_NEAR(damping->damping, 30.0, 1e-12);
+  EXPECT_TRUE(damping->body.empty() && !damping->box) << "of all material";
+  ASSERT_NE(force, nullptr);
+  EXPECT_NEAR(force->force[0], 0.5 * 64, 1e-9);
+  EXPECT_EQ(force->table.times, (std::vector<double>{0.0, 0.25}));
+  EXPECT_EQ(force->table.factors, (std::vector<double>{0.0, 1.0}));
+}
+
+TEST_F(SoilDeck, DampingThatDrivesAndTimesThatEndBeforeTheyBeginAreRefused) {
+  EXPECT_THAT(message_of<InputError>([&] { (void)with("endtime", "damp -1\nendtime"); }),
+              testing::HasSubstr("'damp' must be >= 0: it would drive the motion"));
+  EXPECT_THAT(message_of<InputError>([&] { (void)with("endtime", "qulo 0\nendtime"); }),
+              testing::HasSubstr("'qulo' must be > 0: the time over which forces grow"));
+}
+
 TEST_F(SoilDeck, ForcesOnParticlesAreMissing) {
   EXPECT_THAT(with("body 2 0.5", "part 2 0.5").report(), testing::HasSubstr("forces on single particles"));
 }

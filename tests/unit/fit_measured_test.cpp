@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "eos/equation_of_state.hpp"
 #include "md_fitting/data_set/data_set.hpp"
 #include "src/core/base/files.hpp"
 #include "src/material/material_coverage.hpp"
@@ -66,6 +67,33 @@ TEST_F(FitMeasured, MeasurementsInTheFitAreNamedWithTheirCoverage) {
   EXPECT_THAT(output(), HasSubstr("no experiment 'nothing'"));
   EXPECT_EQ(run(command + " --force --model mie_gruneisen --with cu_hugoniot_marsh1980"), 2);
   EXPECT_THAT(output(), HasSubstr("--model gray only"));
+}
+
+TEST_F(FitMeasured, FreeEnergiesAreCorrected) {
+  const std::filesystem::path target = folder.path() / "corrected.toml", figure = folder.path() / "fit.png";
+  ASSERT_EQ(run(fmt::format("'{}' --correct --samples 2 --density '8.93 g/cm^3' -o '{}' --plot '{}'",
+                            file.string(), target.string(), figure.string())),
+            0)
+      << output();
+  EXPECT_THAT(output(), HasSubstr("correction of the free energy"));
+  EXPECT_EQ(read_text(figure).substr(1, 3), "PNG");
+  const std::string text = read_text(target);
+  EXPECT_THAT(text, HasSubstr("model = \"gray_corrected\""));
+  EXPECT_THAT(text, ::testing::Not(HasSubstr("[covariance]")));
+  const auto reference = [](const std::filesystem::path& path) {
+    const auto eos = read_material(path).eos;
+    EXPECT_EQ(eos->model(), "gray_corrected");
+    EXPECT_NEAR(eos->reference_density(), 8930.0, 1e-3);
+    return eos->state_at_temperature(1.2 * eos->reference_density(), 800.0).pressure;
+  };
+  const double pressure = reference(target);
+  for (const char* sample : {"corrected_1.toml", "corrected_2.toml"}) {
+    const double drawn = reference(folder.path() / "corrected_samples" / sample);
+    EXPECT_NE(drawn, pressure);
+    EXPECT_NEAR(drawn, pressure, 0.02 * pressure);
+  }
+  EXPECT_EQ(run(fmt::format("'{}' --correct --melting band", file.string())), 2);
+  EXPECT_THAT(output(), HasSubstr("--melting equilibrium only"));
 }
 
 }  // namespace

@@ -18,13 +18,13 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// Holds the factors of Sigma and of J^T Sigma^-1 J.
-struct Factors {
+struct SystemFactors {
   Cholesky sigma, normal;
   MatrixXd weighted;  ///< Sigma^-1 J
 };
 
-Factors factors_of(const LinearSystem& system, const VectorXd& log_factors) {
-  Factors factors{Cholesky(system.covariance(log_factors)), {}, {}};
+SystemFactors factors_of(const LinearSystem& system, const VectorXd& log_factors) {
+  SystemFactors factors{Cholesky(system.covariance(log_factors)), {}, {}};
   if (!factors.sigma.is_positive())
     throw StateError("joint fit: the covariance of the data is not positive definite");
   factors.weighted = factors.sigma.solve(system.jacobian);
@@ -44,7 +44,7 @@ struct Objective {
 };
 
 Objective objective(const LinearSystem& system, const VectorXd& log_factors) {
-  const Factors factors = factors_of(system, log_factors);
+  const SystemFactors factors = factors_of(system, log_factors);
   const VectorXd weighted = factors.sigma.solve(system.residuals);
   const VectorXd rest =
       weighted - factors.weighted * factors.normal.solve(system.jacobian.transpose() * weighted);  // P r
@@ -115,7 +115,7 @@ MatrixXd LinearSystem::covariance(const VectorXd& log_factors) const {
 }
 
 LinearEstimate estimate(const LinearSystem& system, const VectorXd& log_factors) {
-  const Factors factors = factors_of(system, log_factors);
+  const SystemFactors factors = factors_of(system, log_factors);
   const Index count = system.jacobian.cols();
   LinearEstimate result;
   result.covariance = factors.normal.solve(MatrixXd::Identity(count, count));

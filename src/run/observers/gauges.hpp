@@ -9,18 +9,19 @@
 
 namespace whipple::run {
 
-/// Writes gauges.csv: the state at the gauges and tracers of a case.
+/// Writes gauges.csv: the state at the gauges and tracers of a case, and its forces.
 class GaugeTable : public Table {
  public:
   using Table::Table;
 
   void begin(const Moment& moment) override {
     const solver::Simulation& simulation = moment.simulation;
-    recorder_.emplace(simulation.setup().all_gauges(), simulation);
+    recorder_.emplace(simulation.setup().all_gauges(), simulation.setup().force_gauges, simulation);
     Table::begin(moment);
   }
   void resume(const Moment& moment, const io::CheckpointValues& values) override {
-    recorder_.emplace(moment.simulation.setup().all_gauges(), values);
+    const cases::Case& setup = moment.simulation.setup();
+    recorder_.emplace(setup.all_gauges(), setup.force_gauges, values);
     Table::resume(moment, values);
   }
   void remember(io::CheckpointValues& values) override {
@@ -32,6 +33,7 @@ class GaugeTable : public Table {
   [[nodiscard]] std::vector<io::HistoryValue> row(const solver::Simulation& simulation) override {
     return recorder_->empty() ? std::vector<io::HistoryValue>() : recorder_->row(simulation);
   }
+  void row_written(const solver::Simulation& simulation) override { recorder_->row_written(simulation); }
 
  private:
   std::optional<GaugeRecorder> recorder_;

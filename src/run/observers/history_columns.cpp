@@ -162,7 +162,8 @@ constexpr std::string_view limits_are =
 
 /// Holds the components of a run that determine the columns of its file.
 struct Parts {
-  bool elements = false, cold_work = false, explosives = false, retired = false, bars = false;
+  bool elements = false, cold_work = false, explosives = false, retired = false, bars = false,
+       damping = false;
   std::vector<std::string> bodies;
 };
 
@@ -192,6 +193,7 @@ std::vector<HistoryColumn> columns_of(const Parts& parts) {
   };
   add(always);
   add_accounts(solver::Shown::always);
+  if (parts.damping) add_accounts(solver::Shown::of_damping);
   add(of_border_and_phases);
   add_accounts(solver::Shown::limiter);
   if (parts.elements) {
@@ -248,6 +250,7 @@ std::vector<HistoryColumn> history_columns(const cases::Case& setup) {
               .explosives = setup.has_burn(),
               .retired = setup.burn.retire_below > 0.0,
               .bars = setup.has_bars(),
+              .damping = setup.damping.coefficient > 0.0,
               .bodies = {}};
   for (const cases::Body& body : setup.bodies) parts.bodies.push_back(body.name);
   return columns_of(parts);
@@ -255,7 +258,7 @@ std::vector<HistoryColumn> history_columns(const cases::Case& setup) {
 
 std::string history_columns_as_markdown() {
   std::string text;
-  for (const HistoryColumn& column : columns_of({true, true, true, true, true, {"BODY"}})) {
+  for (const HistoryColumn& column : columns_of({true, true, true, true, true, true, {"BODY"}})) {
     text += fmt::format("| `{}` | {} | {} |\n", column.name, column.unit, column.meaning);
   }
   return text;

@@ -35,6 +35,7 @@ void Table::append(const Moment& moment) {
   if (moment.step() == last_step_) return;
   const std::vector<io::HistoryValue> numbers = row(moment.simulation);
   if (!numbers.empty()) ranks_.on_root([&] { table_->append(numbers); });
+  row_written(moment.simulation);
   last_step_ = moment.step();
 }
 

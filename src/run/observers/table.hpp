@@ -34,6 +34,8 @@ class Table : public RunObserver {
  protected:
   /// Returns the current values, on every rank; empty: no row is written. Collective.
   [[nodiscard]] virtual std::vector<io::HistoryValue> row(const solver::Simulation& simulation) = 0;
+  /// Learns that the row of the current state was written.
+  virtual void row_written(const solver::Simulation& /*simulation*/) {}
 
  private:
   void append(const Moment& moment);

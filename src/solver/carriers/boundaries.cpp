@@ -81,7 +81,8 @@ void ParticleCarrier::remove_outside() {
       double& x = state_.particles.position[p][a];
       if (x >= g.lower[a] && x <= g.upper(a)) continue;
       const bool low = x < g.lower[a];
-      const grid::Boundary boundary = g.boundary[static_cast<std::size_t>(2 * a + (low ? 0 : 1))];
+      const auto face = static_cast<std::size_t>(2 * a + (low ? 0 : 1));
+      const grid::Boundary boundary = g.boundary[face];
       if (boundary == grid::Boundary::outflow) {
         leaves = true;
         continue;
@@ -94,7 +95,9 @@ void ParticleCarrier::remove_outside() {
       // At a no-slip wall all components of the image's velocity are reversed, but its position along one axis only.
       const Matrix3 image = boundary == grid::Boundary::no_slip ? Matrix3(-Matrix3::Identity()) : mirror;
       const Vector3 velocity = image * state_.particles.velocity[p];
-      state_.booked.wall_impulse += state_.particles.mass[p] * (velocity - state_.particles.velocity[p]);
+      const Vector3 impulse = state_.particles.mass[p] * (velocity - state_.particles.velocity[p]);
+      state_.booked.wall_impulse += impulse;
+      state_.force_gauges.book_point(state_.particles.body[p], face, state_.particles.position[p], impulse);
       state_.particles.velocity[p] = velocity;
       if (state_.carries_affine_fields()) {
         state_.particles.affine_velocity[p] = image * state_.particles.affine_velocity[p] * mirror;

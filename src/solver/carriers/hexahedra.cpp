@@ -97,12 +97,16 @@ std::string Hexahedra::advance_mesh(std::size_t m, SqueezedPoints& squeezed) {
   fem::Mesh& mesh = meshes_[m];
   Ledger& booked = state_.booked;
   const double dt = state_.run.time_step;
+  damp_nodes(m);
+  const bool gauged = state_.force_gauges.any();
+  const std::vector<Vector3> unconstrained = gauged ? unconstrained_velocities(m) : std::vector<Vector3>();
   fem::ConstraintBalance balance = advance_free_nodes(m);
   balance += tools_[m];
   booked.wall_impulse += balance.impulse;
   booked.external_work += balance.work;
   booked.wall_impulse +=
       afemp::stop_at_faces(mesh.nodes, state_.setup.geometry, dt, motions_[m], node_heat_[m]);
+  if (gauged) book_faces(m, unconstrained);
   Lanes heat{};
   bool heated = false;
   for (std::size_t a = 0; a < mesh.nodes.size(); a += 4) {
@@ -112,6 +116,7 @@ std::string Hexahedra::advance_mesh(std::size_t m, SqueezedPoints& squeezed) {
   }
   booked.transfer_heat += sum4(heat);
   book_loads(of_mesh_[m].acceleration, mesh.nodes, motions_[m], dt, booked);
+  book_damping(m);
   std::string error = deform(m, heated, squeezed);
   fem::move_nodes(mesh, motions_[m], dt);
   return error;

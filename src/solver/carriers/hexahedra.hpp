@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "src/fem/distribution.hpp"
@@ -66,6 +67,10 @@ class Hexahedra : public Carrier {
  private:
   [[nodiscard]] double path_factor(const fem::Mesh& mesh) const;
   [[nodiscard]] fem::ConstraintBalance advance_free_nodes(std::size_t mesh);
+  void damp_nodes(std::size_t mesh);
+  void book_damping(std::size_t mesh);
+  [[nodiscard]] std::vector<Vector3> unconstrained_velocities(std::size_t mesh) const;
+  void book_faces(std::size_t mesh, std::span<const Vector3> unconstrained);
   [[nodiscard]] std::string advance_mesh(std::size_t mesh, SqueezedPoints& squeezed);
   [[nodiscard]] std::string deform(std::size_t mesh, bool heated, SqueezedPoints& squeezed);
   [[nodiscard]] std::string describe(const fem::Mesh& mesh, std::size_t point,
@@ -86,6 +91,7 @@ class Hexahedra : public Carrier {
   std::size_t first_ = 0, count_ = 0;   // of the nodes in State::transition
   struct Motion {                       // of each mesh
     std::vector<Vector3> acceleration;  // of the nodes by loads, m/s^2
+    std::vector<Vector3> damping;       // impulses of local damping on the nodes, N s; empty: none
     fem::VelocityGradients gradient;
   };
   std::vector<Motion> of_mesh_;

@@ -13,6 +13,7 @@
 #include "src/solver/carriers/hexahedra.hpp"
 #include "src/solver/carriers/share_out.hpp"
 #include "src/solver/work.hpp"
+#include "src/transfer/local_damping.hpp"
 
 namespace whipple::solver {
 
@@ -106,6 +107,88 @@ fem::ConstraintBalance Hexahedra::advance_free_nodes(std::size_t m) {
                                      motions_[m], path);
   }
   return balance;
+}
+
+/// Applies local damping (3.5e) to the nodes of a mesh that are no interface nodes, which the grid damps.
+void Hexahedra::damp_nodes(std::size_t m) {
+  fem::Nodes& nodes = meshes_[m].nodes;
+  std::vector<Vector3>& impulses = of_mesh_[m].damping;
+  const double dt = state_.run.time_step, alpha = state_.setup.damping.mean(state_.run.time, dt);
+  impulses.clear();
+  if (alpha == 0.0) return;
+  impulses.assign(nodes.size(), Vector3::Zero());
+  std::vector<Vector3> increment(nodes.size());
+  for (std::size_t a = 0; a < nodes.size(); ++a) increment[a] = dt / nodes.mass[a] * nodes.force[a];
+  const std::span<const fem::SharedNodes::Place> places = shared_nodes_.places();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const std::array<double, 5>& sum = shared_[i];
+    if (places[i].mesh == m) increment[places[i].node] = dt / sum[3] * Vector3(sum[0], sum[1], sum[2]);
+  }
+  const auto lanes = [](const Vector3& v) { return Lanes{v[0], v[1], v[2], 0.0}; };
+  const auto factor = [&](std::size_t a) {
+    const Lanes of_node = transfer::damping_factor(alpha, lanes(nodes.velocity[a]), lanes(increment[a]));
+    return Vector3(of_node[0], of_node[1], of_node[2]);
+  };
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (places[i].mesh != m || nodes.in_transition[places[i].node] != 0) continue;
+    const Vector3 of_node = factor(places[i].node);
+    for (std::size_t c = 0; c < 3; ++c) shared_[i][c] *= of_node[static_cast<Eigen::Index>(c)];
+  }
+  for (std::size_t a = 0; a < nodes.size(); ++a) {
+    if (nodes.in_transition[a] != 0) continue;
+    const Vector3 damped = factor(a).cwiseProduct(nodes.force[a]);
+    impulses[a] = dt * (damped - nodes.force[a]);
+    nodes.force[a] = damped;
+  }
+}
+
+/// Accumulates impulse and work of local damping on a mesh, when the motion of its nodes is complete.
+void Hexahedra::book_damping(std::size_t m) {
+  const std::vector<Vector3>& impulses = of_mesh_[m].damping;
+  for (std::size_t a = 0; a < impulses.size(); ++a) {
+    state_.booked.external_impulse += impulses[a];
+    state_.booked.damping_work += impulses[a].dot(motions_[m].mean[a]);
+  }
+}
+
+/// Returns the velocities that the nodes of a mesh would have after the step without faces and prescribed velocities;
+/// those of interface nodes are not used.
+std::vector<Vector3> Hexahedra::unconstrained_velocities(std::size_t m) const {
+  const fem::Nodes& nodes = meshes_[m].nodes;
+  const double dt = state_.run.time_step;
+  std::vector<Vector3> velocity(nodes.size());
+  for (std::size_t a = 0; a < nodes.size(); ++a) {
+    velocity[a] = nodes.velocity[a] + dt / nodes.mass[a] * nodes.force[a];
+  }
+  const std::span<const fem::SharedNodes::Place> places = shared_nodes_.places();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (places[i].mesh != m) continue;
+    const std::array<double, 5>& sum = shared_[i];
+    velocity[places[i].node] = nodes.velocity[places[i].node] + dt / sum[3] * Vector3(sum[0], sum[1], sum[2]);
+  }
+  return velocity;
+}
+
+/// Books the impulses of the faces of the domain on the nodes of a mesh for the force gauges: those across a face at
+/// which a node ends the step, all at a no-slip wall. The grid has those on interface nodes.
+void Hexahedra::book_faces(std::size_t m, std::span<const Vector3> unconstrained) {
+  const fem::Mesh& mesh = meshes_[m];
+  const fem::Nodes& nodes = mesh.nodes;
+  const grid::Geometry& geometry = state_.setup.geometry;
+  for (std::size_t a = 0; a < nodes.size(); ++a) {
+    if (nodes.in_transition[a] != 0) continue;
+    Vector3 impulse = nodes.mass[a] * (nodes.velocity[a] - unconstrained[a]);
+    if (impulse.isZero(0.0)) continue;
+    const Vector3 end = nodes.position[a] + state_.run.time_step * motions_[m].end[a];
+    for (std::size_t face = 0; face < 6; ++face) {
+      const auto axis = static_cast<int>(face / 2);
+      if (geometry.boundary[face] == grid::Boundary::outflow || !geometry.is_in_plane(face, end)) continue;
+      const bool all = geometry.boundary[face] == grid::Boundary::no_slip;
+      const Vector3 of_face = all ? impulse : Vector3(impulse[axis] * Vector3::Unit(axis));
+      state_.force_gauges.book_point(mesh.body, face, end, of_face);
+      impulse -= of_face;
+    }
+  }
 }
 
 void Hexahedra::add_work(std::vector<Vector3>& centres, std::vector<double>& work) const {

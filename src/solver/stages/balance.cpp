@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "src/core/base/error.hpp"
@@ -24,6 +25,12 @@ void Balance::sum() {
   for (const BodyOutflow& out : state_.booked_outflow) {
     counts.insert(counts.end(), {out.mass, out.momentum[0], out.momentum[1], out.momentum[2], out.energy});
   }
+  const std::span<GaugedImpulse> gauged = state_.force_gauges.booked();
+  const std::size_t of_gauges = counts.size();
+  for (const GaugedImpulse& of : gauged) {
+    counts.insert(counts.end(), of.impulse.begin(), of.impulse.end());
+    counts.insert(counts.end(), of.moment.begin(), of.moment.end());
+  }
   sum_over_ranks(state_.communicator, state_.totals, state_.booked);
   parallel::sum(state_.communicator, counts);
   for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
@@ -34,6 +41,11 @@ void Balance::sum() {
     out.energy += number[4];
   }
   std::ranges::fill(state_.booked_outflow, BodyOutflow{});
+  for (std::size_t g = 0; g < gauged.size(); ++g) {
+    const double* const n = &counts[of_gauges + 6 * g];
+    state_.run.gauged[g] += {Vector3(n[0], n[1], n[2]), Vector3(n[3], n[4], n[5])};
+    gauged[g] = {};
+  }
   state_.particle_count = static_cast<std::size_t>(counts[0]);
   state_.element_count = static_cast<std::size_t>(counts[1]);
   state_.run.ledger.add(state_.booked);

@@ -51,6 +51,13 @@ Transfers::Transfers(State& state, const Loads& loads, const Activity& activity)
       activity_(activity),
       drive_(state.setup),
       averaged_(averaged_bodies(state.setup)) {
+  if (state_.force_gauges.any()) {
+    grid_update_.watch_impulses(
+        [this](std::uint32_t node, const Vector3& impulse) {
+          state_.force_gauges.book_node(state_.grid, node, impulse);
+        },
+        state_.force_gauges.any_of_body());
+  }
   const cases::Dissipation& control = state_.setup.dissipation;
   for (std::size_t b = 0; b < state_.setup.bodies.size(); ++b) {
     const cases::ArtificialViscosity& viscosity = state_.setup.viscosity_of(b);
@@ -167,7 +174,9 @@ void Transfers::momentum_to_grid(transfer::Region region) {
 }
 
 void Transfers::solve_momentum() {
-  grid_update_.solve_momentum(state_.grid, state_.run.time_step, relaxation(state_.setup.transfer));
+  const double dt = state_.run.time_step;
+  grid_update_.solve_momentum(state_.grid, dt, relaxation(state_.setup.transfer),
+                              state_.setup.damping.mean(state_.run.time, dt));
 }
 
 void Transfers::share_step() { state_.booked.wall_impulse += grid_update_.share_step(state_.grid); }
@@ -185,6 +194,9 @@ void Transfers::apply_full_mass_matrix() {
 void Transfers::receive() {
   state_.booked.wall_impulse += grid_update_.receive(state_.grid);
   state_.booked.contact_heat += grid_update_.take_contact_heat();
+  const contact::GridUpdate::Damped damped = grid_update_.take_damping(state_.grid);
+  state_.booked.external_impulse += damped.impulse;
+  state_.booked.damping_work += damped.work;
 }
 
 void Transfers::to_particles(const transfer::Stretch& stretch) {
