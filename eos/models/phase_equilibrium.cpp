@@ -55,10 +55,4 @@ void add_curvatures(std::vector<HermiteTable::Node>& nodes, double step) {
   }
 }
 
-PhaseMixture phase_mixture(const HermiteTable::Node& P, const HermiteTable::Node& g, double V, double T) {
-  const double entropy = V * P.slope - g.slope;
-  return {P.value, g.value - V * P.value + T * entropy, entropy, T * (V * P.curvature - g.curvature),
-          P.slope};
-}
-
 }  // namespace whipple::eos

@@ -44,7 +44,11 @@ struct PhaseMixture {
 };
 
 /// Returns the mixture whose free energy is F = g(T) - P(T) V: S = P' V - g', E = F + T S, C_v = T S'  (G35).
-PhaseMixture phase_mixture(const HermiteTable::Node& pressure, const HermiteTable::Node& gibbs, double V,
-                           double T);
+inline PhaseMixture phase_mixture(const HermiteTable::Node& P, const HermiteTable::Node& g, double V,
+                                  double T) {
+  const double entropy = V * P.slope - g.slope;
+  return {P.value, g.value - V * P.value + T * entropy, entropy, T * (V * P.curvature - g.curvature),
+          P.slope};
+}
 
 }  // namespace whipple::eos

@@ -11,7 +11,6 @@
 namespace whipple::fit {
 namespace {
 
-using eos::FreeEnergyTerms;
 using eos::GrayPoint;
 using md::Estimate;
 
