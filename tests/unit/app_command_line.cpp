@@ -326,7 +326,7 @@ TEST_F(CommandLine, WhatADeckMakesMissingIsRefused) {
   const Result refused = whipple("import " + deck + " -o case");
   EXPECT_EQ(refused.code, 2);
   EXPECT_THAT(refused.out, HasSubstr("missing ("));
-  EXPECT_THAT(refused.err, HasSubstr("missing.mpm:16:1: error: missing: qulo: loads that grow"));
+  EXPECT_THAT(refused.err, HasSubstr("missing.mpm:16:1: error: missing: drda: dynamic relaxation"));
   EXPECT_THAT(refused.err, HasSubstr("--allow-missing"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "case"));
   EXPECT_EQ(whipple("import " + deck + " -o case --allow-missing").code, 0);
