@@ -2,10 +2,6 @@
 #include "md_fitting/fit/correction/potential_rows.hpp"
 
 #include <cmath>
-#include <utility>
-#include <vector>
-
-#include "md_fitting/fit/discrepancy.hpp"
 
 namespace whipple::fit {
 namespace {
@@ -15,28 +11,6 @@ using Eigen::Index;
 constexpr double same_isochore = 1e-6;  // relative, of the volume
 /// Standard deviations of the cold pressure and energy of a volume, in units of rho0 C^2 and C^2: not known.
 constexpr double free_pressure = 0.1, free_energy = 0.1;
-
-/// Collects the rows of one deviation with its size and place at each of them.
-struct DeviatingRows {
-  std::vector<Index> rows;
-  std::vector<double> size, place;
-
-  void add(Index row, double deviation, double where) {
-    rows.push_back(row);
-    size.push_back(deviation);
-    place.push_back(where);
-  }
-  void finish(const char* name, const PotentialErrors& errors, CorrectionData& data) const {
-    if (rows.empty()) return;
-    const auto count = static_cast<Index>(rows.size());
-    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(count, count);
-    add_discrepancy(smooth(size, place, errors.volume_ratio), rows_from(0, rows.size()), covariance);
-    data.deviations.push_back({.name = std::string("potential, ") + name,
-                               .rows = rows,
-                               .covariance = std::move(covariance),
-                               .spread = errors.spread});
-  }
-};
 
 }  // namespace
 
@@ -80,10 +54,10 @@ void add_potential_errors(CorrectionData& data, const eos::GrayFreeEnergy& simul
         break;  // with errors of their own
     }
   }
-  thermal.finish("thermal pressure", errors, data);
-  anharmonic.finish("anharmonic heat", errors, data);
-  melting.finish("melting temperature", errors, data);
-  fusion.finish("heat of fusion", errors, data);
+  thermal.finish("thermal pressure", errors.volume_ratio, errors.spread, data.deviations);
+  anharmonic.finish("anharmonic heat", errors.volume_ratio, errors.spread, data.deviations);
+  melting.finish("melting temperature", errors.volume_ratio, errors.spread, data.deviations);
+  fusion.finish("heat of fusion", errors.volume_ratio, errors.spread, data.deviations);
 }
 
 void move_to(CorrectionData& data, double ratio) {

@@ -5,41 +5,32 @@
 #include "md_fitting/fit/laws.hpp"
 
 namespace whipple::fit {
-namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// Collects the rows of one deviation with its size and place at each of them.
-struct Along {
-  std::vector<Index> rows;
-  std::vector<double> size, place;
+void DeviatingRows::add(Index row, double deviation, double where) {
+  rows.push_back(row);
+  size.push_back(deviation);
+  place.push_back(where);
+}
 
-  void add(Index row, double deviation, double where) {
-    rows.push_back(row);
-    size.push_back(deviation);
-    place.push_back(where);
-  }
-  /// Appends the component, unless it has no rows.
-  void finish(const char* name, double length, double spread,
-              std::vector<VarianceComponent>& components) const {
-    if (rows.empty()) return;
-    const auto count = static_cast<Index>(rows.size());
-    MatrixXd covariance = MatrixXd::Zero(count, count);
-    add_discrepancy(smooth(size, place, length), rows_from(0, rows.size()), covariance);
-    components.push_back(
-        {std::string("potential, ") + name, Deviation::potential, 0, rows, std::move(covariance), spread});
-  }
-};
-
-}  // namespace
+void DeviatingRows::finish(const char* name, double length, double spread,
+                           std::vector<VarianceComponent>& components) const {
+  if (rows.empty()) return;
+  const auto count = static_cast<Index>(rows.size());
+  MatrixXd covariance = MatrixXd::Zero(count, count);
+  add_discrepancy(smooth(size, place, length), rows_from(0, rows.size()), covariance);
+  components.push_back(
+      {std::string("potential, ") + name, Deviation::potential, 0, rows, std::move(covariance), spread});
+}
 
 std::vector<VarianceComponent> potential_deviations(const SolidProblem& problem, const Observations& data,
                                                     const SolidConstants& constants,
                                                     const PotentialErrors& errors) {
   const eos::GrayConstants& gray = constants.gray;
   const double v0 = gray.reference_specific_volume;
-  Along shock, gruneisen, anharmonic, melting, fusion;
+  DeviatingRows shock, gruneisen, anharmonic, melting, fusion;
   std::size_t window = 0, isochore = 0, state = 0, melt = 0, latent = 0;
   for (const Datum& datum : problem.data()) {
     switch (datum.kind) {

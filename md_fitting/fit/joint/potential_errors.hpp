@@ -23,6 +23,17 @@ struct PotentialErrors {
   double spread = 1.1;                ///< of the logarithm of a size: a factor of three either way
 };
 
+/// Collects the rows of one deviation with its size and place at each of them.
+struct DeviatingRows {
+  std::vector<Eigen::Index> rows;
+  std::vector<double> size, place;
+
+  void add(Eigen::Index row, double deviation, double where);
+  /// Appends the component "potential, NAME", smooth over a length of the places, unless it has no rows.
+  void finish(const char* name, double length, double spread,
+              std::vector<VarianceComponent>& components) const;
+};
+
 /// Returns the deviations of the simulated rows: one for each kind of data.
 /// @param constants  about which the problem is linearised
 std::vector<VarianceComponent> potential_deviations(const SolidProblem& problem, const Observations& data,
