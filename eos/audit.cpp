@@ -26,7 +26,9 @@ constexpr double modest_compression = 1.2;         ///< compression limit suffic
 constexpr double least_strength = 0.01;            ///< of rho c^2: smallest useful strongest shock
 constexpr double modest_strength = 0.5;            ///< of rho c^2
 constexpr double greatest_velocity = 20e3;         ///< m/s: particle velocity at the end of the search
-constexpr double hottest = 1e5;                    ///< K: temperature at the end of the search
+constexpr double greatest_wide_velocity = 60e3;    ///< m/s: of models of a wide range
+constexpr double hottest_of_grid = 3e4;            ///< K: of states that are visited, unless of a wide range
+constexpr double greatest_compression = 3;         ///< of those states
 constexpr double modest_temperature = 3000;        ///< K
 constexpr double greatest_melting_point = 5000;    ///< K at zero pressure: exceeds all known materials
 constexpr double greatest_critical_point = 25000;  ///< K: exceeds all known materials
@@ -158,6 +160,11 @@ class Auditor {
            1e-3 * velocity, 1e-3 * slowest_detonation, 1e-3 * fastest_detonation);
   }
 
+  /// Returns whether the model is meant for plasma and terapascals.
+  [[nodiscard]] bool wide() const {
+    return eos_.intended_temperature() > EquationOfState::usual_intended_temperature;
+  }
+
   void check_cold_curve() {
     const double rho0 = eos_.reference_density();
     double& limit = result_.range.greatest_density;
@@ -189,7 +196,7 @@ class Auditor {
     }
   }
 
-  /// Checks the principal Hugoniot up to 20 km/s: stable states, increasing pressure and entropy.
+  /// Checks the principal Hugoniot up to 20 km/s, of models of a wide range to 60 km/s: stable states, increasing pressure and entropy.
   void check_hugoniot() {
     const Hugoniot hugoniot(eos_);
     ValidRange& range = result_.range;
@@ -227,8 +234,9 @@ class Auditor {
     };
     double last = 0, up = 0.01 * result_.reference.sound_speed;
     const double growth = full_ ? 1.1 : 1.5;
-    while (last < greatest_velocity) {
-      up = std::min(up, greatest_velocity);
+    const double end = wide() ? greatest_wide_velocity : greatest_velocity;
+    while (last < end) {
+      up = std::min(up, end);
       range.end_of_shocks = fault_at(up);
       if (!range.end_of_shocks.empty()) break;
       last = up;
@@ -262,6 +270,7 @@ class Auditor {
   /// Checks heating at the reference density.
   void check_temperatures() {
     double& last = result_.range.greatest_temperature;
+    const double hottest = eos_.intended_temperature();
     while (last < hottest) {
       const double T = std::clamp(1.1 * last, 1.0, hottest);
       std::string fault;
@@ -334,18 +343,20 @@ class Auditor {
   }
 
   /// Visits a grid of densities (from the largest: linear in compression, logarithmic down to one thirtieth of the
-  /// reference density) and temperatures from 200 to 30,000 K.
+  /// reference density) and temperatures from 200 to 30,000 K; models of a wide range in all of it.
   template <class Visit>
   void over_the_range(const Visit& visit) const {
     constexpr int compressed = 20, expanded = 21, temperatures = 31;
     const double rho0 = eos_.reference_density();
-    const double densest = std::min(result_.range.greatest_density * 0.999, 3 * rho0);
+    const double limit = result_.range.greatest_density * 0.999;
+    const double densest = wide() ? limit : std::min(limit, greatest_compression * rho0);
+    const double hottest = wide() ? eos_.intended_temperature() : hottest_of_grid;
     const double coldest = std::max(200.0, eos_.least_temperature());
     for (int i = 0; i < compressed + expanded; ++i) {
       const double density = i < compressed ? densest + (rho0 - densest) * i / compressed
                                             : rho0 * std::pow(thinned, (i - compressed + 0.5) / expanded);
       for (int k = 0; k < temperatures; ++k) {
-        const double T = coldest * std::pow(3e4 / coldest, static_cast<double>(k) / (temperatures - 1));
+        const double T = coldest * std::pow(hottest / coldest, static_cast<double>(k) / (temperatures - 1));
         try {
           visit(eos_.state_at_temperature(density, T));
         } catch (const StateError&) {

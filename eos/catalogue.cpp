@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "eos/model_equation_of_state.hpp"
-#include "eos/models/corrected_gray.hpp"
+#include "eos/models/three_phase_model.hpp"
 #include "eos/models/debye_gruneisen.hpp"
 #include "eos/models/gray.hpp"
 #include "eos/models/gray_71.hpp"
@@ -60,6 +60,7 @@ const Catalogue<ModelEntry>& catalogue() {
                                              // Condensed material with its phases.
                                              entry<Gray>(),
                                              entry<CorrectedGray>(),
+                                             entry<WideGray>(),
                                              entry<Gray71>(),
                                              entry<DebyeGruneisen>(),
                                              entry<SolidTransition>(),

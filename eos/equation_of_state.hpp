@@ -82,6 +82,9 @@ class EquationOfState {
   [[nodiscard]] virtual double minimum_energy(double density) const = 0;
   /// Returns the lowest temperature described by the model (K); points with less energy are limited to it.
   [[nodiscard]] virtual double least_temperature() const = 0;
+  /// Returns the temperature up to which the model is meant to hold (K): audits go as far.
+  [[nodiscard]] virtual double intended_temperature() const { return usual_intended_temperature; }
+  static constexpr double usual_intended_temperature = 1e5;  ///< K
 
   /// Evaluates p, T, c (and phase fractions) from density and specific internal energy. Does not throw and does not
   /// allocate.

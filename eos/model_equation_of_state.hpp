@@ -78,6 +78,13 @@ class ModelEquationOfState final : public EquationOfState {
     return model_.minimum_energy(density);
   }
   [[nodiscard]] double least_temperature() const override { return M::least_temperature; }
+  [[nodiscard]] double intended_temperature() const override {
+    if constexpr (requires { M::intended_temperature; }) {
+      return M::intended_temperature;
+    } else {
+      return EquationOfState::intended_temperature();
+    }
+  }
   RangeReport evaluate(const Batch& batch) const override { return model_.evaluate(batch); }
   RangeReport integrate(const Batch& batch, std::span<double> energy,
                         std::span<const double> half_change) const override {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "eos/models/free_energy_spline.hpp"
@@ -42,9 +43,22 @@ class CorrectedGraySurfaces {
   /// @throws InputError if the constants contradict each other
   explicit CorrectedGraySurfaces(const CorrectedGrayConstants& constants);
 
+  using Constants = CorrectedGrayConstants;
+  static constexpr std::string_view name = "gray_corrected";
+  static constexpr std::string_view summary =
+      "GRAY with smooth corrections of its free energies, fitted to simulations";
+  static constexpr double relative_cost = 80.0;
+  static constexpr double intended_temperature = 1e5;  ///< K
+
   [[nodiscard]] const GrayFreeEnergy& gray() const { return gray_; }
-  [[nodiscard]] GrayPoint solid(double V, double T) const;  ///< V <= V_J, stable or not
-  [[nodiscard]] GrayPoint fluid(double V, double T) const;  ///< liquid and vapour
+  /// Returns the volume of the densest liquid on the melting curve: at the limit of the solid, that in equilibrium with
+  /// it.
+  [[nodiscard]] static double least_volume(const GrayMeltingCurve& curve) {
+    return curve.hottest().liquid_volume;
+  }
+  [[nodiscard]] static double greatest_temperature() { return 1e7; }  ///< K, of the search for a temperature
+  [[nodiscard]] GrayPoint solid(double V, double T) const;            ///< V <= V_J, stable or not
+  [[nodiscard]] GrayPoint fluid(double V, double T) const;            ///< liquid and vapour
   /// Returns the temperature at which solid and liquid of one volume have equal free energies, V <= V_J.
   /// @throws InputError if there is none near that of GRAY
   [[nodiscard]] double isochoric_melting_temperature(double V) const;

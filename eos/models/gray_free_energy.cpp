@@ -118,7 +118,7 @@ void GrayFreeEnergy::tabulate_cold_curve() {
 }
 
 template <class Number>
-BasicGrayIsochore<Number> GrayFreeEnergy::isochore(Number V) const {
+BasicGrayIsochore<Number> GrayFreeEnergy::with_cold_curve(Number V, const Cold<Number>& cold_state) const {
   using std::exp;
   using whipple::exp;
   const GrayConstants& c = constants_;
@@ -136,7 +136,6 @@ BasicGrayIsochore<Number> GrayFreeEnergy::isochore(Number V) const {
       exp(2 * c.melting_gruneisen_slope * x -
           2 * (c.melting_gruneisen - 1.0 / 3.0 - c.melting_gruneisen_slope) * result.log_ratio);  // (G11)
 
-  const Cold<Number> cold_state = cold_from_energy(x, table_(x));
   const Number g = result.heat_coefficient, gamma = result.gruneisen;
   const double gamma_e = c.electronic_gruneisen;
   result.cold_curvature = cold_state.p2 * (1 / (V0 * V0));
@@ -151,6 +150,19 @@ BasicGrayIsochore<Number> GrayFreeEnergy::isochore(Number V) const {
   s.q1 = lattice_ * (c.gruneisen_slope / V0 - gamma * density) * density;
   s.q2 = (gamma_e - 1) * s.p2 * density;
   return result;
+}
+
+template <class Number>
+BasicGrayIsochore<Number> GrayFreeEnergy::isochore(Number V) const {
+  const Number x = 1 - V * (1 / constants_.reference_specific_volume);
+  return with_cold_curve(V, cold_from_energy(x, table_(x)));
+}
+
+GrayIsochore GrayFreeEnergy::isochore_of_cold_curve(double V, double energy, double pressure,
+                                                    double pressure_by_volume) const {
+  const Cold<double> cold{energy - constants_.reference_energy, pressure,
+                          -pressure_by_volume * constants_.reference_specific_volume, 0.0};
+  return with_cold_curve(V, cold);
 }
 
 template <class Number>
@@ -291,8 +303,9 @@ template GrayBandSlopes GrayFreeEnergy::band_slopes(const GrayIsochore&, const G
 template BasicGrayBandSlopes<Lanes> GrayFreeEnergy::band_slopes(const BasicGrayIsochore<Lanes>&,
                                                                 const BasicGrayBand<Lanes>&) const;
 
-GrayPoint GrayFreeEnergy::solid(double V, double T) const {
-  const GrayIsochore iso = isochore(V);
+GrayPoint GrayFreeEnergy::solid(double V, double T) const { return solid(isochore(V), T); }
+
+GrayPoint GrayFreeEnergy::solid(const GrayIsochore& iso, double T) const {
   const GrayBranch& b = iso.solid;
   return {b.pressure(T),
           b.energy(T),
@@ -302,8 +315,9 @@ GrayPoint GrayFreeEnergy::solid(double V, double T) const {
           b.pressure_by_volume(T)};
 }
 
-GrayPoint GrayFreeEnergy::liquid(double V, double T) const {
-  const GrayIsochore iso = isochore(V);
+GrayPoint GrayFreeEnergy::liquid(double V, double T) const { return liquid(isochore(V), T); }
+
+GrayPoint GrayFreeEnergy::liquid(const GrayIsochore& iso, double T) const {
   const double tau = T / iso.melting_temperature;
   const GrayBranch b = tau > constants_.hot_liquid_ratio ? hot_liquid_branch(iso) : liquid_branch(iso);
   return {b.pressure(T),
@@ -318,7 +332,9 @@ double GrayFreeEnergy::cold_pressure(double V) const { return isochore(V).solid.
 double GrayFreeEnergy::gamma(double V) const {
   return constants_.gruneisen - constants_.gruneisen_slope * (1 - V / constants_.reference_specific_volume);
 }
-double GrayFreeEnergy::melting_temperature(double V) const { return isochore(V).melting_temperature; }
+double GrayFreeEnergy::melting_temperature(double V) const {
+  return with_cold_curve(V, Cold<double>{}).melting_temperature;
+}
 
 void GrayFreeEnergy::check_heat_capacity() const {
   const auto refuse = [&](const char* phase, double V, double T, double value) {

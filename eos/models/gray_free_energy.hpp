@@ -133,6 +133,8 @@ class GrayFreeEnergy {
   [[nodiscard]] GrayPoint solid(double V, double T) const;   ///< V <= V_J
   [[nodiscard]] GrayPoint liquid(double V, double T) const;  ///< V <= V_J; Grover's and the hot liquid
   [[nodiscard]] GrayPoint vapour(double V, double T) const;  ///< V >= V_J
+  [[nodiscard]] GrayPoint solid(const GrayIsochore& isochore, double T) const;
+  [[nodiscard]] GrayPoint liquid(const GrayIsochore& isochore, double T) const;
   /// Returns liquid() or vapour(), depending on V: the surface whose loop contains the liquid-vapour dome.
   [[nodiscard]] GrayPoint fluid(double V, double T) const {
     return V > join_volume_ ? vapour(V, T) : liquid(V, T);
@@ -144,6 +146,10 @@ class GrayFreeEnergy {
   // Building blocks of the evaluation.
   template <class Number>
   [[nodiscard]] BasicGrayIsochore<Number> isochore(Number V) const;
+  /// Returns the isochore with the given energy, pressure and its slope dP/dV at T = 0, for the continuation of the
+  /// cold curve beyond least_volume(). The curvature of the cold pressure is not set.
+  [[nodiscard]] GrayIsochore isochore_of_cold_curve(double V, double energy, double pressure,
+                                                    double pressure_by_volume) const;
   /// Returns the branch for T_m <= T <= T_G  (G16, G18).
   template <class Number>
   [[nodiscard]] BasicGrayBranch<Number> liquid_branch(const BasicGrayIsochore<Number>& isochore) const;
@@ -178,6 +184,8 @@ class GrayFreeEnergy {
   struct Cold {
     Number e, p, p1, p2;  ///< E_c - E_0H, P_c, dP_c/dx, d^2P_c/dx^2
   };
+  template <class Number>
+  [[nodiscard]] BasicGrayIsochore<Number> with_cold_curve(Number V, const Cold<Number>& cold) const;
   template <class Number>
   [[nodiscard]] Cold<Number> cold_from_energy(Number x, Number energy) const;
   [[nodiscard]] double lattice_factor(double x) const;  ///< h(x)  (G10)

@@ -173,7 +173,8 @@ GrayMeltingCurve::Tangent GrayMeltingCurve::at_pressure(double pressure) const {
 }
 
 PhaseMixture GrayMeltingCurve::mixture(double V, double T) const {
-  return phase_mixture(pressure_.at(T), gibbs_.at(T), V, T);
+  const HermiteTable::Node P = pressure_.at(T), g = gibbs_.at(T);
+  return phase_mixture(P, g, V, T);
 }
 
 double GrayMeltingCurve::liquid_fraction(double V, double T) const {

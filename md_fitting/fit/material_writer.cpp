@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "eos/models/corrected_gray.hpp"
+#include "eos/models/three_phase_model.hpp"
 #include "md_fitting/elements/element_defaults.hpp"
 #include "md_fitting/fit/constant_list.hpp"
 #include "md_fitting/fit/fit_report.hpp"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "eos/identities.hpp"
-#include "eos/models/corrected_gray.hpp"
+#include "eos/models/three_phase_model.hpp"
 #include "src/core/base/error.hpp"
 #include "tests/unit/eos_support.hpp"
 

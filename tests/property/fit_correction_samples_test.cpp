@@ -9,7 +9,7 @@
 
 #include "eos/identities.hpp"
 #include "eos/model_equation_of_state.hpp"
-#include "eos/models/corrected_gray.hpp"
+#include "eos/models/three_phase_model.hpp"
 #include "md_fitting/fit/correction/correction_fit.hpp"
 #include "tests/property/fit_correction.hpp"
 

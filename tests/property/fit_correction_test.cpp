@@ -12,7 +12,7 @@
 
 #include "eos/experiments/comparison.hpp"
 #include "eos/model_equation_of_state.hpp"
-#include "eos/models/corrected_gray.hpp"
+#include "eos/models/three_phase_model.hpp"
 #include "md_fitting/fit/correction/correction_fit.hpp"
 #include "md_fitting/fit/vapour_fit.hpp"
 #include "src/core/base/error.hpp"

@@ -8,7 +8,7 @@
 #include <map>
 #include <random>
 
-#include "eos/models/corrected_gray.hpp"
+#include "eos/models/three_phase_model.hpp"
 #include "md_fitting/data_set/points.hpp"
 #include "md_fitting/fit/correction/correction_prior.hpp"
 #include "md_fitting/fit/correction/measured_rows.hpp"

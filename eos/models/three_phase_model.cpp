@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Evaluation of the corrected GRAY. Equation numbers: docs/theory/gray.md.
-#include "eos/models/corrected_gray.hpp"
+// Evaluation of free energies with the phases of GRAY. Equation numbers: docs/theory/gray.md.
+#include "eos/models/three_phase_model.hpp"
 
 #include <fmt/core.h>
 
@@ -14,8 +14,6 @@
 
 namespace whipple::eos {
 namespace {
-
-constexpr double hottest = 1e7;  ///< K, of the search for a temperature
 
 /// Holds the outcome of a search for the temperature of an energy.
 struct Found {
@@ -43,7 +41,8 @@ std::optional<Found> temperature_of(const Surface& surface, double E, double low
 
 }  // namespace
 
-struct CorrectedGray::Point {
+template <class Surfaces>
+struct ThreePhaseModel<Surfaces>::Point {
   double V = 0, E = 0, T = 0, P = 0, S = 0;
   double squared_sound_speed = 0, heat_capacity = 0, gruneisen = 0, bulk_modulus = State::unknown;
   double melted_fraction = 0;
@@ -52,20 +51,29 @@ struct CorrectedGray::Point {
   std::string_view broken;  ///< bound violated by the state; empty: none
 };
 
-/// Holds the edges of melting on an isochore V <= V_J.
-struct CorrectedGray::Edges {
-  bool tie = false;                  ///< the lower edge is the last tie line, below it melting is isochoric
-  double solidus = 0, liquidus = 0;  ///< K, of the phases in equilibrium
-  double isochoric = 0;              ///< K, of equal free energies; with `tie`
+/// Specifies how an isochore V <= V_J melts.
+enum class Melting : std::uint8_t {
+  equilibrium,  ///< along the melting curve
+  tie,          ///< beyond the last tie line in tension: isochorically below it, in equilibrium above
+  isochoric,    ///< beyond the curve in compression
 };
 
-CorrectedGray::CorrectedGray(const Constants& constants)
+/// Holds the edges of melting on an isochore.
+template <class Surfaces>
+struct ThreePhaseModel<Surfaces>::Edges {
+  Melting melting = Melting::equilibrium;
+  double solidus = 0, liquidus = 0;  ///< K, of the phases in equilibrium; equal if melting is isochoric
+  double isochoric = 0;              ///< K, of equal free energies, unless in equilibrium
+  [[nodiscard]] bool tie() const { return melting == Melting::tie; }
+};
+
+template <class Surfaces>
+ThreePhaseModel<Surfaces>::ThreePhaseModel(const Constants& constants)
     : constants_(constants),
       surfaces_(constants),
       melting_curve_(surfaces_.melting_surfaces()),
       dome_(surfaces_.dome_search()),
-      // At the limit of the solid, the liquid in equilibrium with it is the densest on the curve.
-      least_volume_(melting_curve_.hottest().liquid_volume),
+      least_volume_(surfaces_.least_volume(melting_curve_)),
       least_squared_sound_speed_(std::pow(least_sound_speed_ratio * constants.gray.hugoniot_intercept, 2)),
       join_melting_temperature_(surfaces_.isochoric_melting_temperature(surfaces_.gray().join_volume())) {
   constants_.gray = surfaces_.gray().constants();
@@ -73,20 +81,40 @@ CorrectedGray::CorrectedGray(const Constants& constants)
       surfaces_.solid(constants_.gray.reference_specific_volume, reference_temperature()).energy;
 }
 
-double CorrectedGray::sound_speed(double squared) const {
+template <class Surfaces>
+std::vector<double> ThreePhaseModel<Surfaces>::kinks() const {
+  std::vector<double> all = {1.0 / melting_curve_.coldest().solid_volume};
+  if (least_volume_ < melting_curve_.hottest().liquid_volume)
+    all.push_back(1.0 / melting_curve_.hottest().liquid_volume);
+  return all;
+}
+
+template <class Surfaces>
+double ThreePhaseModel<Surfaces>::sound_speed(double squared) const {
   return std::sqrt(std::max(squared, least_squared_sound_speed_));
 }
 
-CorrectedGray::Edges CorrectedGray::melting_edges(double V) const {
+template <class Surfaces>
+auto ThreePhaseModel<Surfaces>::melting_edges(double V) const -> Edges {
   Edges e;
+  if (V < melting_curve_.hottest().liquid_volume) {
+    e.melting = Melting::isochoric;
+    e.solidus = e.liquidus = e.isochoric = surfaces_.isochoric_melting_temperature(V);
+    return e;
+  }
   e.liquidus = melting_curve_.liquidus(V);
-  e.tie = V > melting_curve_.coldest().solid_volume;
-  e.solidus = e.tie ? melting_curve_.coldest().temperature : melting_curve_.solidus(V);
-  if (e.tie) e.isochoric = surfaces_.isochoric_melting_temperature(V);
+  if (V > melting_curve_.coldest().solid_volume) {
+    e.melting = Melting::tie;
+    e.solidus = melting_curve_.coldest().temperature;
+    e.isochoric = surfaces_.isochoric_melting_temperature(V);
+  } else {
+    e.solidus = melting_curve_.solidus(V);
+  }
   return e;
 }
 
-void CorrectedGray::fill(Point& p, const GrayPoint& s, Phase phase) const {
+template <class Surfaces>
+void ThreePhaseModel<Surfaces>::fill(Point& p, const GrayPoint& s, Phase phase) const {
   p.phase = phase;
   p.P = s.pressure;
   p.S = s.entropy;
@@ -98,7 +126,8 @@ void CorrectedGray::fill(Point& p, const GrayPoint& s, Phase phase) const {
       (p.T * s.pressure_by_temperature * s.pressure_by_temperature / s.heat_capacity - s.pressure_by_volume);
 }
 
-void CorrectedGray::fill_fluid(Point& p, const GrayPoint& s) const {
+template <class Surfaces>
+void ThreePhaseModel<Surfaces>::fill_fluid(Point& p, const GrayPoint& s) const {
   const GrayFreeEnergy& gray = surfaces_.gray();
   if (p.V > gray.join_volume()) {
     fill(p, s, p.T > gray.vapour_branch_temperature() ? Phase::hot_vapour : Phase::vapour);
@@ -111,8 +140,9 @@ void CorrectedGray::fill_fluid(Point& p, const GrayPoint& s) const {
 }
 
 /// Computes a state of solid and liquid in equilibrium: (dP/dV)_T = 0, hence c^2 = V^2 T P'^2/C_v  (G35).
-void CorrectedGray::fill_mixture(Point& p) const {
-  const GrayMeltingCurve::Mixture m = melting_curve_.mixture(p.V, p.T);
+template <class Surfaces>
+void ThreePhaseModel<Surfaces>::fill_mixture(Point& p) const {
+  const PhaseMixture m = melting_curve_.mixture(p.V, p.T);
   fill(p, {m.pressure, m.energy, m.entropy, m.heat_capacity, m.pressure_by_temperature, 0.0}, Phase::melting);
   p.melted_fraction = melting_curve_.liquid_fraction(p.V, p.T);
 }
@@ -120,8 +150,9 @@ void CorrectedGray::fill_mixture(Point& p) const {
 /// Computes a state between solid and liquid of one volume at the temperature of equal free energies (G26): with
 /// n = dT/dV and dE = E_l - E_s, dP = P_l - P_s of (G34) for equal volumes, P = P_s + nu dP and
 /// Gamma = V dP/dE, c^2 = V^2 [P Gamma/V - (dP/dV)_E].
-void CorrectedGray::fill_isochoric(Point& p, const Edges& e) const {
-  const double T = e.isochoric, V = p.V;
+template <class Surfaces>
+void ThreePhaseModel<Surfaces>::fill_isochoric(Point& p, double T) const {
+  const double V = p.V;
   const auto along = [&](double volume) {  // both phases at the temperature of that volume
     const double at = surfaces_.isochoric_melting_temperature(volume);
     return std::pair(surfaces_.solid(volume, at), surfaces_.fluid(volume, at));
@@ -147,7 +178,8 @@ void CorrectedGray::fill_isochoric(Point& p, const Edges& e) const {
   p.squared_sound_speed = V * V * (p.P * dP / dE - by_volume);
 }
 
-CorrectedGray::Point CorrectedGray::at_energy(double V, double E) const {
+template <class Surfaces>
+auto ThreePhaseModel<Surfaces>::at_energy(double V, double E) const -> Point {
   Point p;
   p.V = V;
   p.E = E;
@@ -164,7 +196,7 @@ CorrectedGray::Point CorrectedGray::at_energy(double V, double E) const {
   const auto search = [&](const auto& surface, double low, double high, double guess) {
     const std::optional<Found> found = temperature_of(surface, E, low, high, guess);
     if (!found) {
-      p.broken = "energy above that at which the heat capacity vanishes";
+      p.broken = "energy above that of the highest temperature, or at which the heat capacity vanishes";
     } else {
       p.T = found->temperature;
     }
@@ -179,7 +211,8 @@ CorrectedGray::Point CorrectedGray::at_energy(double V, double E) const {
     return p;
   }
   if (thin) {
-    if (const auto found = search(fluid, least_temperature, hottest, join_melting_temperature_))
+    if (const auto found =
+            search(fluid, least_temperature, surfaces_.greatest_temperature(), join_melting_temperature_))
       fill_fluid(p, found->state);
     return p;
   }
@@ -187,12 +220,13 @@ CorrectedGray::Point CorrectedGray::at_energy(double V, double E) const {
   const GrayPoint liquidus = fluid(edges.liquidus);
   if (E >= liquidus.energy) {
     const double guess = edges.liquidus + (E - liquidus.energy) / liquidus.heat_capacity;
-    if (const auto found = search(fluid, edges.liquidus, hottest, guess)) fill_fluid(p, found->state);
+    if (const auto found = search(fluid, edges.liquidus, surfaces_.greatest_temperature(), guess))
+      fill_fluid(p, found->state);
     return p;
   }
   const double lower_energy =
-      edges.tie ? melting_curve_.mixture(V, edges.solidus).energy : solid(edges.solidus).energy;
-  if (E > lower_energy) {
+      edges.tie() ? melting_curve_.mixture(V, edges.solidus).energy : solid(edges.solidus).energy;
+  if (edges.melting != Melting::isochoric && E > lower_energy) {
     p.T = melting_curve_.temperature(V, E,
                                      {.T1 = edges.solidus,
                                       .T2 = edges.liquidus,
@@ -203,22 +237,24 @@ CorrectedGray::Point CorrectedGray::at_energy(double V, double E) const {
     fill_mixture(p);
     return p;
   }
-  if (edges.tie && E > solid(edges.isochoric).energy) {
+  if (edges.melting != Melting::equilibrium && E > solid(edges.isochoric).energy) {
     const GrayPoint melted = fluid(edges.isochoric);
     if (E < melted.energy) {
-      fill_isochoric(p, edges);
-    } else if (const auto found = search(fluid, edges.isochoric, hottest, edges.isochoric)) {
+      fill_isochoric(p, edges.isochoric);
+    } else if (const auto found =
+                   search(fluid, edges.isochoric, surfaces_.greatest_temperature(), edges.isochoric)) {
       fill_fluid(p, found->state);
     }
     return p;
   }
-  const double end = edges.tie ? edges.isochoric : edges.solidus;
+  const double end = edges.melting == Melting::equilibrium ? edges.solidus : edges.isochoric;
   const double guess = least_temperature + (E - coldest.energy) / solid(0.5 * end).heat_capacity;
   if (const auto found = search(solid, least_temperature, end, guess)) fill_solid(p, found->state);
   return p;
 }
 
-CorrectedGray::Point CorrectedGray::at_temperature(double V, double T) const {
+template <class Surfaces>
+auto ThreePhaseModel<Surfaces>::at_temperature(double V, double T) const -> Point {
   Point p;
   p.V = V;
   p.T = T;
@@ -226,6 +262,8 @@ CorrectedGray::Point CorrectedGray::at_temperature(double V, double T) const {
     p.broken = "density must be positive and below the compression limit of the cold curve";
   } else if (!(T >= least_temperature) || !std::isfinite(T)) {
     p.broken = "temperature must be finite and not below 1 K";
+  } else if (T > surfaces_.greatest_temperature()) {
+    p.broken = "temperature above the highest of the model";
   }
   if (!p.broken.empty()) return p;
   const auto fill_from = [&](const GrayPoint& state, bool is_fluid) {
@@ -241,7 +279,7 @@ CorrectedGray::Point CorrectedGray::at_temperature(double V, double T) const {
   if (T > edges.solidus && T < edges.liquidus) {
     p.E = melting_curve_.mixture(V, T).energy;
     fill_mixture(p);
-  } else if (T >= edges.liquidus || (edges.tie && T > edges.isochoric)) {
+  } else if (T >= edges.liquidus || (edges.tie() && T > edges.isochoric)) {
     fill_from(surfaces_.fluid(V, T), true);
   } else {
     fill_from(surfaces_.solid(V, T), false);
@@ -249,7 +287,8 @@ CorrectedGray::Point CorrectedGray::at_temperature(double V, double T) const {
   return p;
 }
 
-RangeReport CorrectedGray::evaluate(const Batch& batch) const {
+template <class Surfaces>
+RangeReport ThreePhaseModel<Surfaces>::evaluate(const Batch& batch) const {
   RangeReport report;
   const bool melted = !batch.melted_fraction.empty(), vaporised = !batch.vaporised_fraction.empty();
   for (std::size_t i = 0; i < batch.density.size(); ++i) {
@@ -276,12 +315,13 @@ RangeReport CorrectedGray::evaluate(const Batch& batch) const {
   return report;
 }
 
-State CorrectedGray::full_state(const Point& p) const {
+template <class Surfaces>
+State ThreePhaseModel<Surfaces>::full_state(const Point& p) const {
   if (!p.broken.empty()) {
     throw StateError(
-        fmt::format("gray_corrected: {} (density {:.6g} kg/m^3, compression limit {:.6g} kg/m^3, specific "
+        fmt::format("{}: {} (density {:.6g} kg/m^3, compression limit {:.6g} kg/m^3, specific "
                     "internal energy {:.6g} J/kg, temperature {:.6g} K)",
-                    p.broken, 1 / p.V, maximum_density(), p.E, p.T));
+                    name, p.broken, 1 / p.V, maximum_density(), p.E, p.T));
   }
   static constexpr std::array<std::string_view, 7> names = {
       "solid", "melting", "isochoric melting", "liquid", "hot liquid", "vapour", "hot vapour"};
@@ -301,12 +341,17 @@ State CorrectedGray::full_state(const Point& p) const {
   return s;
 }
 
-State CorrectedGray::state(double density, double specific_internal_energy) const {
+template <class Surfaces>
+State ThreePhaseModel<Surfaces>::state(double density, double specific_internal_energy) const {
   return full_state(at_energy(1.0 / density, specific_internal_energy));
 }
 
-State CorrectedGray::state_at_temperature(double density, double temperature) const {
+template <class Surfaces>
+State ThreePhaseModel<Surfaces>::state_at_temperature(double density, double temperature) const {
   return full_state(at_temperature(1.0 / density, temperature));
 }
+
+template class ThreePhaseModel<CorrectedGraySurfaces>;
+template class ThreePhaseModel<WideGraySurfaces>;
 
 }  // namespace whipple::eos

@@ -9,43 +9,48 @@
 #include "eos/equation_of_state.hpp"
 #include "eos/models/corrected_gray_surfaces.hpp"
 #include "eos/models/gray_melting_curve.hpp"
+#include "eos/models/wide_gray_surfaces.hpp"
 #include "eos/vapour_dome.hpp"
 
 namespace whipple::eos {
 
-/// Implements GRAY with corrected free energies of its phases (docs/theory/gray.md, section 11): solid, equilibrium
-/// melting, liquid, vapour. A point takes microseconds: runs evaluate it by a table.
+/// Implements the phases of GRAY - solid, equilibrium melting, liquid, vapour - for free energies that differ from those
+/// of GRAY: corrected ones (docs/theory/gray.md, section 11) and those of a wide range (section 12). A point takes
+/// microseconds: runs evaluate it by a table.
 ///
 /// Explicit policies at the limits are those of Gray: too cold points are limited and counted, the sound speed has a
 /// least value in the loop of the vapour, states out of range are NaN and counted.
-class CorrectedGray {
+/// @tparam Surfaces  CorrectedGraySurfaces or WideGraySurfaces
+template <class Surfaces>
+class ThreePhaseModel {
  public:
-  using Constants = CorrectedGrayConstants;
-  static constexpr std::string_view name = "gray_corrected";
-  static constexpr std::string_view summary =
-      "GRAY with smooth corrections of its free energies, fitted to simulations";
-  static constexpr double relative_cost = 80.0;
-  static constexpr double least_temperature = 1.0;         ///< K
+  using Constants = typename Surfaces::Constants;
+  static constexpr std::string_view name = Surfaces::name;
+  static constexpr std::string_view summary = Surfaces::summary;
+  static constexpr double relative_cost = Surfaces::relative_cost;
+  static constexpr double least_temperature = 1.0;                                ///< K
+  static constexpr double intended_temperature = Surfaces::intended_temperature;  ///< K
   static constexpr double least_sound_speed_ratio = 0.01;  ///< of the Hugoniot intercept
   static ParameterTable<Constants> parameters() { return Constants::parameters(); }
 
-  /// @throws InputError if the constants contradict each other, or the corrected phases have no equilibrium
-  explicit CorrectedGray(const Constants& constants);
-  CorrectedGray(const CorrectedGray&) = delete;  // melting curve and dome refer to the surfaces
-  CorrectedGray& operator=(const CorrectedGray&) = delete;
+  /// @throws InputError if the constants contradict each other, or the phases have no equilibrium
+  explicit ThreePhaseModel(const Constants& constants);
+  ThreePhaseModel(const ThreePhaseModel&) = delete;  // melting curve and dome refer to the surfaces
+  ThreePhaseModel& operator=(const ThreePhaseModel&) = delete;
 
   [[nodiscard]] const Constants& constants() const { return constants_; }
-  [[nodiscard]] const CorrectedGraySurfaces& surfaces() const { return surfaces_; }
+  [[nodiscard]] const Surfaces& surfaces() const { return surfaces_; }
   [[nodiscard]] const GrayMeltingCurve& melting_curve() const { return melting_curve_; }
   [[nodiscard]] const VapourDome& dome() const { return dome_; }
 
   [[nodiscard]] double reference_density() const { return 1.0 / constants_.gray.reference_specific_volume; }
   [[nodiscard]] double reference_temperature() const { return constants_.gray.reference_temperature; }
-  /// Returns E(V0, T0) with its correction.
+  /// Returns E(V0, T0).
   [[nodiscard]] double reference_energy() const { return reference_energy_; }
   [[nodiscard]] double maximum_density() const { return 1.0 / least_volume_; }
-  /// Returns the density of the solid on the last tie line, where equilibrium melting ends.
-  [[nodiscard]] std::vector<double> kinks() const { return {1.0 / melting_curve_.coldest().solid_volume}; }
+  /// Returns the densities at the ends of equilibrium melting: of the solid on the last tie line in tension and, if the
+  /// model goes beyond it, of the densest liquid on the curve.
+  [[nodiscard]] std::vector<double> kinks() const;
   /// Returns the energy of the coldest state at a density. @throws StateError above the compression limit
   [[nodiscard]] double minimum_energy(double density) const {
     return state_at_temperature(density, least_temperature).specific_internal_energy;
@@ -73,16 +78,21 @@ class CorrectedGray {
   void fill_solid(Point& point, const GrayPoint& state) const { fill(point, state, Phase::solid); }
   void fill_fluid(Point& point, const GrayPoint& state) const;
   void fill_mixture(Point& point) const;
-  void fill_isochoric(Point& point, const Edges& edges) const;
+  void fill_isochoric(Point& point, double temperature) const;
   [[nodiscard]] State full_state(const Point& point) const;
   [[nodiscard]] double sound_speed(double squared) const;
 
   Constants constants_;
-  CorrectedGraySurfaces surfaces_;
+  Surfaces surfaces_;
   GrayMeltingCurve melting_curve_;
   VapourDome dome_;
   double least_volume_ = 0, least_squared_sound_speed_ = 0;
   double join_melting_temperature_ = 0, reference_energy_ = 0;
 };
+
+extern template class ThreePhaseModel<CorrectedGraySurfaces>;
+extern template class ThreePhaseModel<WideGraySurfaces>;
+using CorrectedGray = ThreePhaseModel<CorrectedGraySurfaces>;
+using WideGray = ThreePhaseModel<WideGraySurfaces>;
 
 }  // namespace whipple::eos
