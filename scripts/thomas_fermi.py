@@ -193,7 +193,7 @@ def write(coefficients):
           '#include "eos/models/thomas_fermi.hpp"\n\nnamespace whipple::eos {\n')
     print(f"const ThomasFermiSeries& thomas_fermi_series() {{\n  static const ThomasFermiSeries series{{"
           f"{{{VOLUMES[0]}, {VOLUMES[1]}}}, {{{TEMPERATURES[0]}, {TEMPERATURES[1]}}}, {{")
-    flat = [f"{c:.9e}" for c in coefficients.ravel()]
+    flat = [f"{c:.9e}" for c in coefficients.T.ravel()]
     for i in range(0, len(flat), 6):
         print("      " + ", ".join(flat[i:i + 6]) + ("," if i + 6 < len(flat) else "}};"))
     print("  return series;\n}\n\n}  // namespace whipple::eos")

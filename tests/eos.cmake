@@ -3,7 +3,7 @@ whipple_test(eos_test
   SOURCES unit/eos_gray_test.cpp unit/eos_gray_71_test.cpp verification/eos_gray_melting_test.cpp
           verification/eos_gray_metals_test.cpp unit/eos_mie_gruneisen_test.cpp unit/eos_debye_test.cpp
           unit/eos_modifiers_test.cpp unit/eos_md_test.cpp unit/eos_concrete_test.cpp property/eos_closure_test.cpp property/eos_mixture_of_two_test.cpp
-          property/eos_identities_test.cpp property/eos_corrected_gray_test.cpp property/eos_solid_transition_test.cpp
+          property/eos_identities_test.cpp property/eos_corrected_gray_test.cpp property/eos_wide_gray_test.cpp property/eos_solid_transition_test.cpp
           property/eos_constant_heat_test.cpp verification/eos_loci_test.cpp verification/eos_models_test.cpp
           verification/eos_shock_test.cpp verification/eos_gas_loci_test.cpp validation/eos_copper_test.cpp
           unit/eos_table_test.cpp verification/eos_table_error_test.cpp

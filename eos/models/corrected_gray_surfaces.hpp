@@ -56,6 +56,7 @@ class CorrectedGraySurfaces {
   [[nodiscard]] static double least_volume(const GrayMeltingCurve& curve) {
     return curve.hottest().liquid_volume;
   }
+  [[nodiscard]] static std::vector<double> kinks() { return {}; }
   [[nodiscard]] static double greatest_temperature() { return 1e7; }  ///< K, of the search for a temperature
   [[nodiscard]] GrayPoint solid(double V, double T) const;            ///< V <= V_J, stable or not
   [[nodiscard]] GrayPoint fluid(double V, double T) const;            ///< liquid and vapour

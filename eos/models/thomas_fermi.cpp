@@ -39,22 +39,26 @@ Logarithmic sum(double log_volume, double log_temperature) {
   const Polynomials<ThomasFermiSeries::volume_terms> x(a * (log_volume - std::log(s.volumes[0])) - 1);
   const Polynomials<ThomasFermiSeries::temperature_terms> y(
       b * (log_temperature - std::log(s.temperatures[0])) - 1);
-  Logarithmic g;
-  for (std::size_t i = 0; i < x.value.size(); ++i) {
-    double c = 0, c1 = 0, c2 = 0;
-    for (std::size_t k = 0; k < y.value.size(); ++k) {
-      const double coefficient = s.coefficients[i * y.value.size() + k];
-      c += coefficient * y.value[k];
-      c1 += coefficient * y.first[k];
-      c2 += coefficient * y.second[k];
+  // Sums over the temperature, all terms of the volume at once.
+  constexpr std::size_t terms = ThomasFermiSeries::volume_terms;
+  std::array<double, terms> c{}, c1{}, c2{};
+  for (std::size_t k = 0; k < y.value.size(); ++k) {
+    const double* row = &s.coefficients[k * terms];
+    for (std::size_t i = 0; i < terms; ++i) {
+      c[i] += row[i] * y.value[k];
+      c1[i] += row[i] * y.first[k];
+      c2[i] += row[i] * y.second[k];
     }
-    g.f += x.value[i] * c;
-    g.l += x.first[i] * c;
-    g.m += x.value[i] * c1;
-    g.ll += x.second[i] * c;
-    g.lm += x.first[i] * c1;
-    g.mm += x.value[i] * c2;
-    g.lmm += x.first[i] * c2;
+  }
+  Logarithmic g;
+  for (std::size_t i = 0; i < terms; ++i) {
+    g.f += x.value[i] * c[i];
+    g.l += x.first[i] * c[i];
+    g.m += x.value[i] * c1[i];
+    g.ll += x.second[i] * c[i];
+    g.lm += x.first[i] * c1[i];
+    g.mm += x.value[i] * c2[i];
+    g.lmm += x.first[i] * c2[i];
   }
   return {g.f, a * g.l, b * g.m, a * a * g.ll, a * b * g.lm, b * b * g.mm, a * b * b * g.lmm};
 }

@@ -15,7 +15,8 @@ struct ThomasFermiSeries {
   static constexpr std::size_t volume_terms = 24, temperature_terms = 32;
   std::array<double, 2> volumes;       ///< limits, bohr^3
   std::array<double, 2> temperatures;  ///< limits, hartree
-  std::array<double, volume_terms * temperature_terms> coefficients;
+  std::array<double, volume_terms * temperature_terms>
+      coefficients;  ///< the index of the volume runs fastest
 };
 
 /// Returns the series that scripts/thomas_fermi.py computes: to 3e-4 in entropy, 7e-3 of the pressure.

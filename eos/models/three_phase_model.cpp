@@ -83,7 +83,8 @@ ThreePhaseModel<Surfaces>::ThreePhaseModel(const Constants& constants)
 
 template <class Surfaces>
 std::vector<double> ThreePhaseModel<Surfaces>::kinks() const {
-  std::vector<double> all = {1.0 / melting_curve_.coldest().solid_volume};
+  std::vector<double> all = surfaces_.kinks();
+  all.push_back(1.0 / melting_curve_.coldest().solid_volume);
   if (least_volume_ < melting_curve_.hottest().liquid_volume)
     all.push_back(1.0 / melting_curve_.hottest().liquid_volume);
   return all;

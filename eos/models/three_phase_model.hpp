@@ -48,8 +48,8 @@ class ThreePhaseModel {
   /// Returns E(V0, T0).
   [[nodiscard]] double reference_energy() const { return reference_energy_; }
   [[nodiscard]] double maximum_density() const { return 1.0 / least_volume_; }
-  /// Returns the densities at the ends of equilibrium melting: of the solid on the last tie line in tension and, if the
-  /// model goes beyond it, of the densest liquid on the curve.
+  /// Returns the densities of kinks of the surfaces and at the ends of equilibrium melting: of the solid on the last tie
+  /// line in tension and, if the model goes beyond it, of the densest liquid on the curve.
   [[nodiscard]] std::vector<double> kinks() const;
   /// Returns the energy of the coldest state at a density. @throws StateError above the compression limit
   [[nodiscard]] double minimum_energy(double density) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string_view>
+#include <vector>
 
 #include "eos/models/fermi_cold_curve.hpp"
 #include "eos/models/gray_free_energy.hpp"
@@ -46,6 +47,8 @@ class WideGraySurfaces {
   /// since the electrons of both are the same.
   [[nodiscard]] double isochoric_melting_temperature(double V) const { return gray_.melting_temperature(V); }
   [[nodiscard]] double least_volume(const GrayMeltingCurve&) const { return least_volume_; }
+  /// Returns the density at which the cold curve is continued (its bulk modulus has a kink there).
+  [[nodiscard]] std::vector<double> kinks() const { return {1.0 / cold_.join_volume()}; }
   [[nodiscard]] double greatest_temperature() const { return electrons_.greatest_temperature(); }
   /// Returns the surfaces for the search of the melting curve; the result refers to this object.
   [[nodiscard]] SolidLiquidSurfaces melting_surfaces() const;
