@@ -4,7 +4,7 @@ whipple_test(md_test
           unit/md_lammps_test.cpp unit/md_kim_test.cpp unit/md_tasks_test.cpp unit/md_campaign_test.cpp unit/md_statistics_test.cpp unit/md_bath_test.cpp
           unit/md_hugoniot_test.cpp unit/md_analysis_test.cpp unit/md_refinement_test.cpp unit/md_critical_point_test.cpp
           unit/md_vibrations_test.cpp unit/md_pair_style_test.cpp unit/md_budget_test.cpp
-          validation/md_copper_test.cpp validation/md_static_test.cpp
+          validation/md_copper_test.cpp validation/md_static_test.cpp validation/md_fluid_test.cpp
   DEPENDS whipple_md_protocols LABELS fast)
 whipple_test(md_shock_test TIMEOUT 7200 SOURCES validation/md_shock_test.cpp validation/md_honesty_test.cpp
   DEPENDS whipple_md_protocols LABELS long)

@@ -61,6 +61,34 @@ struct LiquidPoint {
   }
 };
 
+/// Fluid at constant volume and temperature.
+struct FluidPoint {
+  double specific_volume = 0.0, temperature = 0.0;
+  Estimate pressure{}, specific_internal_energy{};
+  double error_correlation = 0.0, crystal_share = 0.0, density_wave = 0.0;
+  bool uniform = false;
+
+  static constexpr std::string_view protocol = "fluid";
+  static constexpr auto conditions() {
+    using P = FluidPoint;
+    return std::array{Quantity<P>{"specific_volume", "m^3/kg", "", &P::specific_volume},
+                      Quantity<P>{"temperature", "K", "", &P::temperature}};
+  }
+  static constexpr auto results() {
+    using P = FluidPoint;
+    return std::array{
+        Quantity<P>{"pressure", "Pa", "", &P::pressure},
+        Quantity<P>{"specific_internal_energy", "J/kg", "", &P::specific_internal_energy},
+        Quantity<P>{"error_correlation", "", "of the errors of pressure and energy, -1 to 1",
+                    &P::error_correlation},
+        Quantity<P>{"crystal_share", "", "fraction of the atoms with the surroundings of a crystal",
+                    &P::crystal_share},
+        Quantity<P>{"density_wave", "", "squared amplitude of the longest waves of the box, of 0 to 1",
+                    &P::density_wave},
+        Quantity<P>{"uniform", "", "1: the fluid neither froze nor separated", &P::uniform}};
+  }
+};
+
 /// Film of melt and its vapour at a temperature.
 struct LiquidVapourPoint {
   double temperature = 0.0;

@@ -21,8 +21,8 @@ void for_each_record(Function&& f) {
         std::type_identity<ColdCurvePoint>{}, std::type_identity<ElasticPoint>{},
         std::type_identity<CoexistencePoint>{}, std::type_identity<HugoniostatPoint>{},
         std::type_identity<PistonPoint>{}, std::type_identity<LiquidPoint>{},
-        std::type_identity<LiquidVapourPoint>{}, std::type_identity<QuantumPoint>{},
-        std::type_identity<SpallPoint>{});
+        std::type_identity<LiquidVapourPoint>{}, std::type_identity<FluidPoint>{},
+        std::type_identity<QuantumPoint>{}, std::type_identity<SpallPoint>{});
 }
 
 template <class Point>

@@ -81,6 +81,8 @@ std::span<const input::Section<Plan, Plan>> Plan::sections() {
       section_of<&Plan::hugoniostat>("hugoniostat",
                                      ": states behind a shock of given pressure, by the Hugoniostat"),
       section_of<&Plan::liquid>("liquid", ": volume and enthalpy of the melt"),
+      section_of<&Plan::fluids>("fluid",
+                                ": pressure and energy of liquid, hot and expanded fluid at one volume"),
       section_of<&Plan::piston>("piston", ": shocks that a piston drives through a crystal along [001]"),
       section_of<&Plan::spall>("spall", ": largest tension of a crystal that expands in all directions"),
       section_of<&Plan::liquid_vapour>("liquid_vapour", ": a film of melt and its vapour"),

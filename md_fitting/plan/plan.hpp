@@ -16,6 +16,7 @@
 #include "md_fitting/plan/hugoniot.hpp"
 #include "md_fitting/plan/isochore.hpp"
 #include "md_fitting/plan/isotherm.hpp"
+#include "md_fitting/plan/fluid.hpp"
 #include "md_fitting/plan/liquid.hpp"
 #include "md_fitting/plan/liquid_vapour.hpp"
 #include "md_fitting/plan/piston.hpp"
@@ -52,6 +53,7 @@ struct Plan {
   std::optional<ElasticPlan> elastic;
   std::optional<HugoniostatPlan> hugoniostat;
   std::optional<LiquidPlan> liquid;
+  std::vector<FluidPlan> fluids;
   std::optional<PistonPlan> piston;
   std::optional<SpallPlan> spall;
   std::optional<QuantumPlan> quantum;

@@ -21,6 +21,7 @@ std::span<const Protocol> protocols() {
       Protocol{"piston", 1, add_piston},
       Protocol{"spall", 2, add_spall},
       Protocol{"liquid_vapour", 3, add_liquid_vapour},
+      Protocol{"fluid", 1, add_fluid},
   };
   return all;
 }

@@ -33,5 +33,6 @@ void add_piston(const Plan& plan, TaskList& list);
 void add_spall(const Plan& plan, TaskList& list);
 void add_quantum(const Plan& plan, TaskList& list);
 void add_liquid_vapour(const Plan& plan, TaskList& list);
+void add_fluid(const Plan& plan, TaskList& list);
 
 }  // namespace whipple::md

@@ -17,7 +17,8 @@ class JointFit(unittest.TestCase):
     def test_every_table_of_the_metal_takes_part(self):
         for prefix, metal in (("cu_", "copper"), ("al_", "aluminium"), ("ni_", "nickel"), ("ta_", "tantalum")):
             *_, tables, checks = study.METALS[metal]
-            found = {path.stem for path in (study.ROOT / "eos/data").glob(f"{prefix}*.csv")}
+            found = {path.stem for path in (study.ROOT / "eos/data").glob(f"{prefix}*.csv")
+                     if "_tpa_" not in path.stem}  # beyond the reach of GRAY: studies/wide_range
             self.assertEqual(found, {name for name in tables + checks if name.startswith(prefix)})
 
     def test_deviations_are_relative_and_within_the_range(self):

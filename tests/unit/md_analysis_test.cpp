@@ -120,6 +120,10 @@ TEST(Plan, SectionsThatCannotBeMeasuredAreRefused) {
   EXPECT_NE(errors_of("[hugoniostat]\npressure = [\"50 GPa\"]\n").find("[hugoniostat] needs the section"),
             std::string::npos);
   EXPECT_NE(errors_of("[liquid]\ntemperature = []\n").find("at least one temperature"), std::string::npos);
+  EXPECT_NE(errors_of("[[fluid]]\nvolume_ratio = [40]\ntemperature = [\"9000 K\"]\n").find("volume_ratio"),
+            std::string::npos);
+  EXPECT_NE(errors_of("[[fluid]]\nvolume_ratio = [2]\ntemperature = []\n").find("at least one temperature"),
+            std::string::npos);
   EXPECT_NE(errors_of("[spall]\nstrain_rate = \"1e14 1/s\"\n").find("strain_rate"), std::string::npos);
   EXPECT_NE(errors_of("[spall]\nreplicas = 1\n").find("replicas"), std::string::npos);
   EXPECT_NE(errors_of("[liquid_vapour]\ntemperature = [\"-5 K\"]\n").find("temperature"), std::string::npos);

@@ -75,8 +75,8 @@ TEST(Plan, DescriptionNamesEveryKey) {
   const std::string text = describe_plan();
   for (const char* key :
        {"element", "potential", "seed", "[zero_pressure_volume]", "[[isotherm]]", "[[isochore]]",
-        "[hugoniot]", "[[coexistence]]", "[cold_curve]", "[hugoniostat]", "[piston]", "[liquid]", "[spall]",
-        "[liquid_vapour]", "[elastic]", "volume_ratio", "first_guess", "equilibration_steps"}) {
+        "[hugoniot]", "[[coexistence]]", "[cold_curve]", "[hugoniostat]", "[piston]", "[liquid]", "[[fluid]]",
+        "[spall]", "[liquid_vapour]", "[elastic]", "volume_ratio", "first_guess", "equilibration_steps"}) {
     EXPECT_NE(text.find(key), std::string::npos) << key << "\n" << text;
   }
 }
@@ -88,7 +88,8 @@ TEST(Plan, ShippedPlansAreValid) {
     ++plans;
     Plan plan;
     EXPECT_NO_THROW(plan = read_plan(entry.path())) << entry.path();
-    EXPECT_TRUE(plan.hugoniot.has_value() || !plan.coexistences.empty()) << entry.path();
+    EXPECT_TRUE(plan.hugoniot.has_value() || !plan.coexistences.empty() || !plan.fluids.empty())
+        << entry.path();
   }
   EXPECT_GE(plans, 4);
 }

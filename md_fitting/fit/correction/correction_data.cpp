@@ -264,6 +264,11 @@ CorrectionData correction_data(std::span<const md::PointRecord> points, const eo
         collector.modulus(PhaseSurface::solid, V, p.temperature) * p.specific_volume.error / V;
     collector.pressure("volume at zero pressure", PhaseSurface::solid, V, p.temperature, p.pressure, error);
   }
+  for (const md::FluidPoint& p : md::select_as<md::FluidPoint>(points)) {
+    if (!p.uniform) continue;
+    collector.state("fluid", PhaseSurface::fluid, p.specific_volume, p.temperature, p.pressure,
+                    p.specific_internal_energy, p.error_correlation);
+  }
   for (const md::LiquidPoint& p : md::select_as<md::LiquidPoint>(points)) {
     if (!p.liquid) continue;
     const double V = p.specific_volume.value;
