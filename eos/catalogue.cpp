@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "eos/model_equation_of_state.hpp"
-#include "eos/models/three_phase_model.hpp"
 #include "eos/models/debye_gruneisen.hpp"
 #include "eos/models/gray.hpp"
 #include "eos/models/gray_71.hpp"
@@ -19,6 +18,7 @@
 #include "eos/models/solid_transition.hpp"
 #include "eos/models/stiffened_gas.hpp"
 #include "eos/models/tait.hpp"
+#include "eos/models/three_phase_model.hpp"
 #include "eos/models/tillotson.hpp"
 #include "eos/modifiers/floor.hpp"
 #include "eos/modifiers/p_alpha.hpp"
