@@ -23,7 +23,7 @@ constexpr double least_fluid_end = 4.0;  ///< V/V0 without dilute data
 /// V/V0: far enough from the solid for the common part to end without bending its pressure.
 constexpr double common_end = 2.0;
 // Lengths over which the corrections change: ln V and u.
-constexpr double common_length = 0.3, fluid_length = 0.5, temperature_length = 0.5;
+constexpr double common_length = 0.3, fluid_length = 0.5, vapour_length = 1.2, temperature_length = 0.5;
 /// Thermal parts fall to zero over these u.
 constexpr double thermal_from = 0.6, thermal_to = 0.9;
 // Standard deviations at f = 1 in units of C^2. A cold part of 0.003 C^2 over 0.3 of ln V is a pressure of 1 % of the
@@ -138,7 +138,8 @@ std::vector<CorrectionPart> correction_parts(const CorrectionGrids& grids, doubl
     return Part{.length = fluid_length, .thermal = thermal, .size = melt_size * energy, .weight = dense};
   };
   const auto of_vapour = [&](bool thermal) {
-    return Part{.length = fluid_length, .thermal = thermal, .size = vapour_size * energy, .weight = expanded};
+    return Part{
+        .length = vapour_length, .thermal = thermal, .size = vapour_size * energy, .weight = expanded};
   };
   const Part of_cohesion{
       .length = everywhere, .size = cohesion_size * energy, .weight = cohesion, .ends = false};

@@ -12,6 +12,8 @@ using eos::GrayPoint;
 
 /// Least heat capacity and bulk modulus in units of those of GRAY.
 constexpr double least_heat_capacity = 0.5, least_modulus = 0.4;
+/// Least bulk modulus of the supercritical fluid in units of R T/V, from this multiple of GRAY's critical temperature on.
+constexpr double least_gas_modulus = 0.05, supercritical = 1.2;
 /// States of which GRAY's bulk modulus is below this fraction of rho0 C^2 are near a spinodal.
 constexpr double near_spinodal = 0.1;
 
@@ -29,6 +31,12 @@ class Limits {
     const double modulus = -V * p.pressure_by_volume;
     if (condensed && modulus > near_spinodal * modulus_)
       push(surface, V, T, {.F_VV = V / modulus}, least_modulus - 1.0);
+  }
+  /// Adds that an isotherm of the supercritical fluid falls.
+  void add_supercritical(double V, double T) {
+    const double gas = gray_.specific_gas_constant() * T / V;
+    const double modulus = -V * gray_.fluid(V, T).pressure_by_volume;
+    push(PhaseSurface::fluid, V, T, {.F_VV = V / gas}, least_gas_modulus - modulus / gas);
   }
   std::vector<StabilityLimit> result() && { return std::move(limits_); }
 
@@ -64,6 +72,15 @@ std::vector<StabilityLimit> stability_limits(const eos::GrayFreeEnergy& gray, co
         join * std::pow(grids.fluid.greatest_volume / join, static_cast<double>(i) / thin_volumes);
     for (const double share : {1.0, 2.0, 4.0, 7.0, 12.0, 25.0})
       limits.add(PhaseSurface::fluid, V, share * melting);
+  }
+  const double critical = eos::critical_point(gray.dome_search()).temperature;
+  constexpr int supercritical_volumes = 80;
+  const double begin = gray.constants().reference_specific_volume;
+  for (int i = 0; i <= supercritical_volumes; ++i) {
+    const double V =
+        begin * std::pow(grids.fluid.greatest_volume / begin, static_cast<double>(i) / supercritical_volumes);
+    for (const double multiple : {1.0, 1.1, 1.2, 1.35, 1.5, 1.8, 2.2, 3.0, 4.0})
+      limits.add_supercritical(V, multiple * supercritical * critical);
   }
   return std::move(limits).result();
 }
