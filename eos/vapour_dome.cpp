@@ -93,23 +93,29 @@ Saturation saturation(const VapourDome::Search& search, double T, double volume_
   const auto pressure = [&](double V) { return search.isotherm(V, T).pressure; };
   // Search from a volume in the loop outwards to the first volume where P decreases again: the spinodals of this
   // loop, even if the join of the model causes another loop elsewhere.
-  const auto spinodal = [&](double outer) {
-    double inside = volume_in_loop;
+  // Where a cold isotherm has further loops at negative pressure, the vapour begins at the first maximum with a positive
+  // one: matter is unstable between them too.
+  const auto spinodal = [&](double outer, bool of_vapour) {
+    double inside = volume_in_loop, last = 0;
     bool in_loop = slope(inside) >= 0;
     for (int i = 1; i <= scan_points; ++i) {
       const double V = spaced(volume_in_loop, outer, i, scan_points);
       const bool rises = slope(V) >= 0;
-      if (in_loop && !rises) return find_root(slope, inside, V, "spinodal");
-      in_loop = in_loop || rises;
+      if (in_loop && !rises) {
+        last = find_root(slope, inside, V, "spinodal");
+        if (!of_vapour || pressure(last) > 0) return last;
+      }
+      in_loop = rises || (in_loop && last == 0);
       inside = V;
     }
+    if (last > 0) return last;
     throw InputError(
         fmt::format("no liquid-vapour loop at {:.0f} K; check the vapour constants (vapour_attraction, "
                     "covolume_ratio, join_volume_ratio)",
                     T));
   };
-  const double liquid_spinodal = spinodal(search.dense_volume);
-  const double vapour_spinodal = spinodal(search.dilute_volume);
+  const double liquid_spinodal = spinodal(search.dense_volume, false);
+  const double vapour_spinodal = spinodal(search.dilute_volume, true);
   const double highest = pressure(vapour_spinodal);
   if (!(highest > 0)) {
     throw InputError(fmt::format(

@@ -26,7 +26,7 @@ POTENTIALS = {
     "copper_mishin": "8.9445 g/cm^3",
     "copper_u3": "8.9445 g/cm^3",
     "aluminium_zhakhovsky": "2.70 g/cm^3",
-    "aluminium_mendelev": "2.70 g/cm^3",
+    "aluminium_zhou": "2.70 g/cm^3",
     "lead_zhou": "11.34 g/cm^3",
     "lead_landa": "11.34 g/cm^3",
 }
