@@ -94,7 +94,7 @@ Saturation saturation(const VapourDome::Search& search, double T, double volume_
   // Search from a volume in the loop outwards to the first volume where P decreases again: the spinodals of this
   // loop, even if the join of the model causes another loop elsewhere.
   // Where a cold isotherm has further loops at negative pressure, the vapour begins at the first maximum with a positive
-  // one: matter is unstable between them too.
+  // one: material is unstable between them too.
   const auto spinodal = [&](double outer, bool of_vapour) {
     double inside = volume_in_loop, last = 0;
     bool in_loop = slope(inside) >= 0;

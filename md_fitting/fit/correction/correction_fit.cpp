@@ -45,6 +45,7 @@ class Problem {
         energy_(constants_.hugoniot_intercept * constants_.hugoniot_intercept),
         parts_(correction_parts(grids_, energy_, constants_.reference_specific_volume)),
         limits_(stability_limits(gray_, grids_)) {
+    require_numbers();
     add_reference();
     const auto count = static_cast<Index>(data_.data.size());
     rows_.matrix = MatrixXd::Zero(count, grids_.size() + 1);
@@ -140,6 +141,18 @@ class Problem {
     return x;
   }
 
+  /// @throws StateError with the state if GRAY or the store gives a datum or an error that is no number
+  void require_numbers() const {
+    for (std::size_t i = 0; i < data_.data.size(); ++i) {
+      const CorrectionDatum& datum = data_.data[i];
+      const double variance = data_.covariance(static_cast<Index>(i), static_cast<Index>(i));
+      if (std::isfinite(datum.residual) && std::isfinite(variance)) continue;
+      const SurfaceTerm& state = datum.terms.front();
+      throw StateError(fmt::format(
+          "correction: {} at V/V0 = {:.4g}, {:.4g} K has no value ({:.4g}, variance {:.4g})", datum.kind,
+          state.volume / constants_.reference_specific_volume, state.temperature, datum.residual, variance));
+    }
+  }
   /// The correction leaves pressure and energy of the reference state as they are.
   void add_reference() {
     const eos::GrayConstants& c = constants_;
