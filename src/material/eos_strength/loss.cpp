@@ -69,16 +69,19 @@ void scale(std::span<Lanes, 6> tensors, const Chunk& chunk) {
   }
 }
 
-/// Returns the elastic energy of the deviator (J) that points lose with their strength.
-double lost_energy(const Chunk& chunk) {
-  double sum = 0.0;
+/// Books the elastic energy of the deviator that points lose with their strength. A part w of the modulus that is left
+/// keeps the part w of the energy, as the stress is that of its part of the material.
+void book_lost_energy(Chunk& chunk) {
+  double sum = 0.0, heat = 0.0;
   for (std::size_t k = 0; k < chunk.size; ++k) {
     const double lost = 1.0 - chunk.kept[k] * chunk.kept[k], modulus = chunk.motion.modulus[k];
     const double energy =
         tensor(chunk.motion.deviator, k).squared_norm() / (4.0 * (modulus > 0.0 ? modulus : 1.0));
     sum += modulus > 0.0 ? lost * energy * chunk.volume[k] : 0.0;
+    heat += modulus > 0.0 ? (1.0 - chunk.kept[k]) * energy * chunk.volume[k] : 0.0;
   }
-  return sum;
+  chunk.report.dissipation += sum;
+  chunk.report.plastic_heat += heat;
 }
 
 /// Computes the sound speed, and the loss of strength where points may lose it.
@@ -95,7 +98,7 @@ inline void lose(const EosStrength& model, const Step& step, Chunk& chunk) {
   chunk.loses = kind != Opening::none || chunk.any_failed || any_positive(chunk.melted, chunk.size);
   if (chunk.loses) {
     lose_strength<kind, viscous>(model, chunk, bulk, least_sound_speed, squared);
-    chunk.report.dissipation += lost_energy(chunk);
+    book_lost_energy(chunk);
     scale(chunk.motion.deviator, chunk);
     chunk.any_void = true;
   }
@@ -135,7 +138,10 @@ void release_cold_work(const EosStrength& model, const Step& in, Chunk& out) {
     const double solid_before =
         shear_bearing_fraction(in.points.melted_fraction[p], in.points.vaporised_fraction[p]);
     const double solid = shear_bearing_fraction(out.melted[k], out.vaporised[k]);
-    if (solid < solid_before) stored[k] *= solid / solid_before;
+    if (!(solid < solid_before)) continue;
+    const double left = stored[k] * (solid / solid_before);
+    out.report.plastic_heat += (stored[k] - left) * out.mass[k];
+    stored[k] = left;
   }
 }
 
