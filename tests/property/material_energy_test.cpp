@@ -53,8 +53,10 @@ struct Law {
 template <class Strength>
 Law law(const std::string& name, double density, double bulk, const Strength& strength, double small,
         double large, double compressed = 0.0) {
-  return {name, make_material(name, stiff(density, bulk), std::make_shared<Strength>(strength)),
-          density, bulk, small, large, compressed};
+  return {name,      make_material(name, stiff(density, bulk), std::make_shared<Strength>(strength)),
+          density,   bulk,
+          small,     large,
+          compressed};
 }
 
 strength::VonMises metal(double kinematic = 0.0) {
@@ -146,15 +148,17 @@ std::vector<Law> laws() {
                                std::make_shared<VonMisesModel>(metal())),
                  copper, stiffness, 1e-4, 0.05, 0.1});
   material::NeoHookean rubber{2e6, {}};
-  all.push_back({"neo_hookean",
-                 make_material("rubber", stiff(1000, 90e6),
-                               std::make_shared<const material::HyperelasticModel<material::NeoHookean>>(rubber)),
-                 1000, 90e6, 0.5, 0.0});
+  all.push_back(
+      {"neo_hookean",
+       make_material("rubber", stiff(1000, 90e6),
+                     std::make_shared<const material::HyperelasticModel<material::NeoHookean>>(rubber)),
+       1000, 90e6, 0.5, 0.0});
   rubber.relaxation = {{0.3, 0.2}, {2e-5, 1e-4}};
-  all.push_back({"relaxing_rubber",
-                 make_material("rubber", stiff(1000, 90e6),
-                               std::make_shared<const material::HyperelasticModel<material::NeoHookean>>(rubber)),
-                 1000, 90e6, 0.0, 0.1});
+  all.push_back(
+      {"relaxing_rubber",
+       make_material("rubber", stiff(1000, 90e6),
+                     std::make_shared<const material::HyperelasticModel<material::NeoHookean>>(rubber)),
+       1000, 90e6, 0.0, 0.1});
   return all;
 }
 
@@ -174,8 +178,7 @@ double part(const Body& body, bool elastic) {
 /// Returns the energy of compression (J) of the grains, the integral of -p dV at their density.
 double volume_energy(const Law& law, const Body& body) {
   const History* distension = body.points.history.find("distension");
-  const double ratio =
-      distension == nullptr ? 1.0 : std::get<std::vector<double>>(distension->values)[0];
+  const double ratio = distension == nullptr ? 1.0 : std::get<std::vector<double>>(distension->values)[0];
   const double mass = body.points.mass[0];
   const double mu = mass / body.points.volume[0] * ratio / law.density - 1.0;
   return mass * law.bulk / law.density * (std::log1p(mu) - mu / (1.0 + mu));
@@ -184,11 +187,10 @@ double volume_energy(const Law& law, const Body& body) {
 void go(Body& body, const Matrix3& next, int steps, Sums& sums) {
   const Matrix3 from = body.place;
   for (int i = 1; i <= steps + 2; ++i) {
-    const MaterialReport report =
-        body.strain_to((from + (next - from) * std::min(i, steps) / steps).eval());
+    const MaterialReport report = body.strain_to((from + (next - from) * std::min(i, steps) / steps).eval());
     sums.plastic += report.plastic_heat;
     sums.viscous += report.viscous_heat;
-    sums.greatest_elastic = std::max(sums.greatest_elastic, part(body, true));
+    if (i % 10 == 0) sums.greatest_elastic = std::max(sums.greatest_elastic, part(body, true));
     sums.fell |= report.viscous_heat < 0.0;
   }
 }
@@ -216,9 +218,9 @@ TEST(EnergyParts, WithoutFlowThereIsNoHeatAndTheElasticEnergyReturns) {
     Sums start;
     const double compressed = flows_in_compression ? 1e-5 : law.compressed;
     const double side = std::cbrt(1.0 - compressed);
-    go(body, diagonal(side, side, side), 400, start);
+    go(body, diagonal(side, side, side), 200, start);
     const double before = body.energy();
-    const Sums sums = cycle(body, flows_in_compression ? 1e-6 : law.small, compressed, 1000);
+    const Sums sums = cycle(body, flows_in_compression ? 1e-6 : law.small, compressed, 400);
     EXPECT_EQ(sums.plastic, 0.0) << law.name;
     EXPECT_EQ(sums.viscous, 0.0) << law.name;
     EXPECT_GT(sums.greatest_elastic, 0.0) << law.name;
@@ -236,7 +238,7 @@ TEST(EnergyParts, AfterFlowTheSumIsTheInternalEnergy) {
     if (law.large == 0.0) continue;
     Body body{law.material};
     const double before = body.energy();
-    const Sums sums = cycle(body, law.large, law.compressed, 4000);
+    const Sums sums = cycle(body, law.large, law.compressed, 1500);
     const double heat = sums.plastic + sums.viscous;
     EXPECT_GT(heat, 0.0) << law.name;
     EXPECT_FALSE(sums.fell) << law.name;
@@ -244,10 +246,37 @@ TEST(EnergyParts, AfterFlowTheSumIsTheInternalEnergy) {
     std::printf("%-24s heat %.6e J, elastic %.3e, stored %.3e, volume %.3e, rest %.1e of the heat\n",
                 law.name.c_str(), heat, part(body, true), part(body, false), volume_energy(law, body),
                 (body.energy() - before - parts) / heat);
-    EXPECT_NEAR(body.energy() - before, parts, 2e-3 * heat) << law.name;
+    EXPECT_NEAR(body.energy() - before, parts, 4e-3 * heat) << law.name;
     ++checked;
   }
   EXPECT_GE(checked, 20);
+}
+
+/// Returns what the parts leave of the internal energy after a closed path of 4 n steps, over the heat.
+double rest_of(const Law& law, int n) {
+  Body body{law.material};
+  const double before = body.energy();
+  const Sums sums = cycle(body, law.large, law.compressed, n);
+  const double parts = part(body, true) + part(body, false) + sums.plastic + volume_energy(law, body);
+  return (body.energy() - before - parts) / sums.plastic;
+}
+
+// The rest has first order in the step, as the flow of a step is returned to the stress of its end. Without that order, by
+// extrapolation from two numbers of steps, a closed path of soil leaves less than a millionth of its heat.
+TEST(EnergyParts, TheRestOfAClosedPathOfSoilVanishesWithTheStep) {
+  int checked = 0;
+  for (const Law& law : laws()) {
+    // The rate of grains is that of the step: another number of steps is another path.
+    if (law.density > 2001.0 || law.density < 1700.0 || law.name == "granular_flow") continue;
+    const double coarse = rest_of(law, 1500), fine = rest_of(law, 3000), extrapolated = 2.0 * fine - coarse;
+    std::printf("%-24s 1500 steps a leg: %.2e of the heat, 3000: %.2e, extrapolated: %.1e\n",
+                law.name.c_str(), coarse, fine, extrapolated);
+    EXPECT_LT(std::abs(fine), std::abs(coarse)) << law.name;
+    EXPECT_LT(std::abs(fine), 2e-4) << law.name;
+    EXPECT_LT(std::abs(extrapolated), 1e-6) << law.name;
+    ++checked;
+  }
+  EXPECT_EQ(checked, 5);
 }
 
 }  // namespace energy_test

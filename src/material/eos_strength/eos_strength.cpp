@@ -235,8 +235,7 @@ void EosStrength::divide_energy(const Material& material, const MaterialPoints& 
     state.threshold = part(points.history.scalar(threshold_stress_field.name));
   }
   material.strength->shear_modulus(state, std::span(modulus.data(), n));
-  const std::vector<double>* damages =
-      softens_ ? &points.history.scalar(damage_field.name) : nullptr;
+  const std::vector<double>* damages = softens_ ? &points.history.scalar(damage_field.name) : nullptr;
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t p = begin + k;
     double solid = shear_bearing_fraction(points.melted_fraction[p], points.vaporised_fraction[p]);

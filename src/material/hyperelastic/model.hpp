@@ -78,7 +78,8 @@ class HyperelasticModel final : public Constitutive {
       const double determinant = f.determinant();
       const Matrix3 b = f * f.transpose() / std::cbrt(determinant * determinant);
       const double ratio = points.volume[p] / (points.mass[p] * undeformed);
-      const double whole = constants_.respond({b(0, 0), b(1, 1), b(2, 2), b(0, 1), b(1, 2), b(2, 0)}, ratio).energy;
+      const double whole =
+          constants_.respond({b(0, 0), b(1, 1), b(2, 2), b(0, 1), b(1, 2), b(2, 0)}, ratio).energy;
       elastic[k] = undeformed * (relaxing_.empty() ? whole : constants_.relaxation.lasting() * whole);
       stored[k] = 0.0;
     }

@@ -261,8 +261,8 @@ HistorySource::HistorySource(const solver::Simulation& simulation)
   std::array<double, 3> maxima = {figures.speed, figures.pressure, figures.temperature};
   parallel::maximum(simulation.communicator(), maxima);
   std::tie(figures.speed, figures.pressure, figures.temperature) = std::tuple_cat(maxima);
-  std::array<double, 7> sums = {figures.elastic_energy,   figures.stored_energy, figures.stored_cold_work,
-                                figures.chemical_energy,  figures.bars,          figures.broken_bars,
+  std::array<double, 7> sums = {figures.elastic_energy,  figures.stored_energy, figures.stored_cold_work,
+                                figures.chemical_energy, figures.bars,          figures.broken_bars,
                                 figures.bar_energy};
   parallel::sum(simulation.communicator(), sums);
   std::tie(figures.elastic_energy, figures.stored_energy, figures.stored_cold_work, figures.chemical_energy,

@@ -71,8 +71,8 @@ void add_energy_parts(const MaterialPoints& points,
                       std::span<const std::shared_ptr<const Material>> materials, const BodyOf& body_of,
                       Figures& figures) {
   constexpr std::size_t most = material::chunk_size;
-  const EnergyParts sum = parallel::sum_of_chunks<EnergyParts>(
-      points.mass.size(), [&](std::size_t begin, std::size_t end) {
+  const EnergyParts sum =
+      parallel::sum_of_chunks<EnergyParts>(points.mass.size(), [&](std::size_t begin, std::size_t end) {
         EnergyParts of_chunk;
         std::array<double, most> elastic, stored;
         for (std::size_t first = begin, last = begin; first < end; first = last) {

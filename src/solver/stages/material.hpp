@@ -78,9 +78,9 @@ class MaterialStage {
   };
   /// Holds sums over the particles of an update, by all threads.
   struct Sums {
-    std::vector<MaterialReport> reports;   // of each body
+    std::vector<MaterialReport> reports;     // of each body
     std::vector<Irreversible> irreversible;  // of each list
-    std::vector<double> plastic_work;      // J, of each stretch
+    std::vector<double> plastic_work;        // J, of each stretch
     std::size_t limited_domains = 0, held_pressures = 0;
     Clock::duration in_material{};
   };
