@@ -69,19 +69,29 @@ void scale(std::span<Lanes, 6> tensors, const Chunk& chunk) {
   }
 }
 
-/// Books the elastic energy of the deviator that points lose with their strength. A part w of the modulus that is left
-/// keeps the part w of the energy, as the stress is that of its part of the material.
-void book_lost_energy(Chunk& chunk) {
-  double sum = 0.0, heat = 0.0;
+/// Returns the elastic energy of the deviator (J) that points lose with their strength.
+double lost_energy(const Chunk& chunk) {
+  double sum = 0.0;
   for (std::size_t k = 0; k < chunk.size; ++k) {
     const double lost = 1.0 - chunk.kept[k] * chunk.kept[k], modulus = chunk.motion.modulus[k];
     const double energy =
         tensor(chunk.motion.deviator, k).squared_norm() / (4.0 * (modulus > 0.0 ? modulus : 1.0));
     sum += modulus > 0.0 ? lost * energy * chunk.volume[k] : 0.0;
-    heat += modulus > 0.0 ? (1.0 - chunk.kept[k]) * energy * chunk.volume[k] : 0.0;
   }
-  chunk.report.dissipation += sum;
-  chunk.report.plastic_heat += heat;
+  return sum;
+}
+
+/// Returns what of it is heat (J): a part w of the modulus that is left keeps the part w of the energy, as the stress is
+/// that of its part of the material. Not inlined, so that the kernels around it keep their last digits.
+[[gnu::noinline]] double lost_heat(const Chunk& chunk) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < chunk.size; ++k) {
+    const double modulus = chunk.motion.modulus[k];
+    if (!(chunk.kept[k] < 1.0 && modulus > 0.0)) continue;
+    const double energy = tensor(chunk.motion.deviator, k).squared_norm() / (4.0 * modulus);
+    sum += (1.0 - chunk.kept[k]) * energy * chunk.volume[k];
+  }
+  return sum;
 }
 
 /// Computes the sound speed, and the loss of strength where points may lose it.
@@ -98,7 +108,8 @@ inline void lose(const EosStrength& model, const Step& step, Chunk& chunk) {
   chunk.loses = kind != Opening::none || chunk.any_failed || any_positive(chunk.melted, chunk.size);
   if (chunk.loses) {
     lose_strength<kind, viscous>(model, chunk, bulk, least_sound_speed, squared);
-    book_lost_energy(chunk);
+    chunk.report.dissipation += lost_energy(chunk);
+    chunk.report.plastic_heat += lost_heat(chunk);
     scale(chunk.motion.deviator, chunk);
     chunk.any_void = true;
   }
