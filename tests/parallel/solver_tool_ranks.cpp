@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 using verification::restored;
 using verification::save;
 
-constexpr double middle = 2.5e-6, end = 5e-6;  // s
+constexpr double middle = 1.5e-6, end = 3e-6;  // s
 
 /// Returns a case of a block between a plate of elements and a stamp of particles, both on paths, with a pressure behind it that begins in the second half.
 cases::Case press() {
@@ -34,14 +34,14 @@ cases::Case press() {
     return std::string("[[body]]\nname = \"") + name + "\"\nmaterial = \"" + material + "\"\nshape = { " +
            box(1e-3 * lower, 1e-3 * upper) + " }\n" + keys;
   };
-  const std::string path = "[body.path]\ntimes = [0, 2e-6, 3e-6, 5e-6]\nfactors = [0.0, 1.0, 1.0, -0.5]\n";
+  const std::string path = "[body.path]\ntimes = [0, 1e-6, 2e-6, 3e-6]\nfactors = [0.0, 1.0, 1.0, -0.5]\n";
   return cases::read_case_text(
       Method{}.time_toml(end) + Method{}.toml() +
           "[contact]\nmethod = \"multi_field\"\nfriction = 0\n"
           "[domain]\nlower = [0, 0, 0]\nupper = [0.024, 0.012, 0.012]\ncell_size = 0.001\n"
           "boundary = { x_lower = \"separating\", z_lower = \"separating\" }\n"
           "[[load]]\nface = \"x_lower\"\nbox = { lower = [-1, 0.002, 0.001], upper = [1, 0.007, 0.006] }\n"
-          "pressure = 2e8\ntimes = [0, 2e-6, 3e-6]\nfactors = [0, 0, 1]\n" +
+          "pressure = 2e8\ntimes = [0, 1e-6, 2e-6]\nfactors = [0, 0, 1]\n" +
           body("block", {0.0, 2.0, 0.4}, {10.0, 9.0, 7.0}, "velocity = [-40, 10, -60]\n") +
           body("plate", {10.0, 2.0, 0.4}, {12.0, 9.0, 7.0},
                "discretization = { method = \"finite_elements\" }\n"
