@@ -2,14 +2,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Two hundred grains fall into a box: balances, the heap, and what a velocity field for each of them costs.
 
-usage: grains_in_box.py fall|cost [--cells MM]... [--seeds N]... [--fields N]... [--table] [--folder run/studies/grains_in_box]
+usage: grains_in_box.py fall|cost [--at S] [--cells MM]... [--seeds N]... [--fields N]... [--table] [--folder run/studies/grains_in_box]
                         [--threads N] [--whipple EXE]
 
 200 discs of rubber of 10 mm (plane strain, neo-Hookean, 1000 kg/m^3, G 0.4 MPa, K 0.8 MPa, with pressures and shear as the discs have
 them) lie in a loose pattern with small displacements from a seed, and fall by their weight into a box of 160 mm with a rough base and
 smooth sides. Friction between grains 0.3.
 
-fall  0.25 s later: height of the centre of mass and of the top over the base, energies as parts of the work of gravity, errors of energy
+fall  0.25 s later, or at another time before: height of the centre of mass and of the top over the base, energies as parts of the work of gravity, errors of energy
       and momentum over the whole run, steps, fields.
 cost  The same discs in contact groups 1, 2, ..., which bond where they meet, for 300 steps from the dense end of `fall`'s pattern
       (a hexagonal packing with gaps of a tenth of a cell, at rest): processor time of a step and memory against the number of
@@ -120,6 +120,7 @@ def fall(arguments):
             if not done(arguments, run, case_of(cell, seed)):
                 continue
             h = history(run)
+            h = {name: column[h["time"] <= arguments.at] for name, column in h.items()}
             start, weight = np.mean(centres(seed, False, cell), axis=0)[1], h["mass"][0] * 9.81
             work = h["total_energy"] - h["total_energy"][0]
             fallen = -1e3 * work[-1] / weight
@@ -148,6 +149,7 @@ def cost(arguments):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("what", choices=("fall", "cost"))
+    parser.add_argument("--at", type=float, default=END)
     parser.add_argument("--cells", type=float, action="append")
     parser.add_argument("--seeds", type=int, action="append")
     parser.add_argument("--fields", type=int, action="append")
