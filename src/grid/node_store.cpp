@@ -79,8 +79,8 @@ void NodeStore::find_mirror_nodes() {
       const std::int32_t least_inside = std::min((at - first) * outward, (at - first - (edge - 1)) * outward);
       if (least_inside > mirror_reach) continue;  // far inside the domain
       const int field = field_of_block(b);
-      const bool bonded = bonded_[static_cast<std::size_t>(mirror.face)].contains(
-          static_cast<unsigned>(std::max(field, 0)));
+      const bool bonded =
+          bonded_[static_cast<std::size_t>(mirror.face)].contains(static_cast<unsigned>(std::max(field, 0)));
       std::vector<std::uint32_t>& on_plane = bonded ? mirror.on_plane : mirror.on_plane_apart;
       std::vector<MirrorPair>& pairs = bonded ? mirror.pairs : mirror.pairs_apart;
       for (int i = 0; i < nodes_per_block; ++i) {
