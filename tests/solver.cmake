@@ -2,7 +2,7 @@
 whipple_test(test_transfer STARTS_MPI
   SOURCES unit/solver_grid_test.cpp unit/contact_first_touches_test.cpp property/transfer_shape_function_test.cpp property/solver_transfer_test.cpp property/transfer_kernels_test.cpp
           property/transfer_reference_test.cpp property/transfer_dissipation_test.cpp property/transfer_averages_test.cpp
-          verification/transfer_conduction_test.cpp unit/transfer_sweep_test.cpp unit/transfer_formulas_test.cpp
+          verification/transfer_conduction_test.cpp unit/transfer_sweep_test.cpp unit/transfer_formulas_test.cpp unit/grid_field_set_test.cpp
   DEPENDS whipple_contact LABELS fast)
 whipple_test(test_solver STARTS_MPI
   SOURCES unit/case_in_code_test.cpp verification/solver_planar_test.cpp verification/solver_planar_impact_test.cpp verification/solver_taylor_bar_test.cpp verification/solver_elastic_test.cpp
@@ -21,7 +21,7 @@ whipple_test(test_contact STARTS_MPI SOURCES property/contact_pressing_test.cpp 
 whipple_test(test_cracks STARTS_MPI SOURCES verification/solver_cracks_test.cpp verification/solver_fragment_size_test.cpp DEPENDS whipple_run LABELS fast)
 # The steady flow of grains: half a minute.
 whipple_test(test_granular_flow STARTS_MPI SOURCES verification/solver_granular_flow_test.cpp DEPENDS whipple_solver LABELS long)
-whipple_test(test_driven STARTS_MPI SOURCES verification/solver_driven_test.cpp verification/solver_tool_test.cpp verification/solver_friction_wall_test.cpp verification/solver_averages_test.cpp verification/solver_loads_test.cpp verification/solver_water_test.cpp DEPENDS whipple_solver LABELS fast)
+whipple_test(test_driven STARTS_MPI SOURCES verification/solver_driven_test.cpp verification/solver_tool_test.cpp verification/solver_friction_wall_test.cpp verification/solver_averages_test.cpp verification/solver_loads_test.cpp verification/solver_water_test.cpp verification/solver_many_bodies_test.cpp DEPENDS whipple_solver LABELS fast)
 whipple_test(test_burn STARTS_MPI SOURCES verification/burn_test.cpp verification/burn_contact_test.cpp verification/lighting_times_test.cpp verification/reaction_test.cpp DEPENDS whipple_run GTest::gmock LABELS fast)
 add_test(NAME burn.fine_slab COMMAND test_burn --gtest_filter=PlanarDetonation.FollowsTheTaylorWaveOfTnt)
 set_tests_properties(burn.fine_slab PROPERTIES ENVIRONMENT "WHIPPLE_FINE_BURN=1;OMP_NUM_THREADS=1" LABELS long)
@@ -43,7 +43,7 @@ whipple_test(test_solids SOURCES unit/case_surface_test.cpp unit/case_solids_tes
 
 # Distributed: against one rank, restart on another number of ranks, errors and killed ranks.
 add_executable(test_solver_ranks parallel/solver_ranks.cpp parallel/solver_wall_ranks.cpp parallel/sweep_ranks.cpp parallel/solver_element_ranks.cpp
-               parallel/solver_burn_ranks.cpp parallel/solver_average_ranks.cpp)
+               parallel/solver_burn_ranks.cpp parallel/solver_average_ranks.cpp parallel/solver_tool_ranks.cpp)
 target_link_libraries(test_solver_ranks PRIVATE whipple_run whipple_analysis GTest::gtest)
 whipple_test_flags(test_solver_ranks)
 target_compile_definitions(test_solver_ranks PRIVATE WHIPPLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")

@@ -131,17 +131,13 @@ double Contact::friction_between(unsigned first, unsigned second) const {
 bool Contact::touch(const grid::BlockGrid& grid, std::size_t contact_slot, std::size_t node,
                     std::size_t first, std::size_t second) const {
   const std::uint32_t slot = grid.contact_slots()[contact_slot];
-  const std::uint64_t bodies = grid.wholes(slot);
+  const grid::FieldSet bodies = grid.wholes(slot);
   const auto body_of = [&](std::size_t number) {  // counted among the bodies of the slot
-    std::uint64_t fields = grid.fields(slot);
-    for (; number > 0; --number) fields &= fields - 1;
-    const unsigned body = grid.whole(static_cast<unsigned>(std::countr_zero(fields)));
-    return static_cast<std::size_t>(std::popcount(bodies & ((std::uint64_t{1} << body) - 1)));
+    return bodies.count_below(grid.whole(grid.fields(slot).nth(number)));
   };
   const std::size_t a = body_of(first), b = body_of(second);
   if (a == b) return true;
-  const std::size_t pair =
-      pair_index(std::min(a, b), std::max(a, b), static_cast<std::size_t>(std::popcount(bodies)));
+  const std::size_t pair = pair_index(std::min(a, b), std::max(a, b), bodies.count());
   const Surfaces::Gap gap = surfaces_.at(contact_slot, pair, node);
   return !gap.normal.isZero(0.0) && distance(grid, gap.width) <= resting_distance * grid.geometry().cell_size;
 }

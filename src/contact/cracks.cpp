@@ -146,19 +146,19 @@ Cracks::Crack ridge(const Lanes* sums, std::size_t parts, bool planar, double to
 
 }  // namespace
 
-std::uint64_t SectorFields::parts(unsigned body) const {
-  std::uint64_t bits = std::uint64_t{1} << body;
+grid::FieldSet SectorFields::parts(unsigned body) const {
+  grid::FieldSet all = grid::FieldSet::of(body);
   for (std::size_t n = 0; n < cracked_.size(); ++n) {
-    for (unsigned s = 0; cracked_[n] == body && s < sectors_; ++s) bits |= std::uint64_t{1} << field(n, s);
+    for (unsigned s = 0; cracked_[n] == body && s < sectors_; ++s) all.insert(field(n, s));
   }
-  return bits;
+  return all;
 }
 
 std::array<std::uint8_t, grid::maximum_fields> SectorFields::wholes() const {
   std::array<std::uint8_t, grid::maximum_fields> whole{};
   for (unsigned f = 0; f < whole.size(); ++f) whole[f] = static_cast<std::uint8_t>(f);
   for (const std::uint8_t body : cracked_) {
-    grid::for_each_bit(parts(body), [&](unsigned part) { whole[part] = body; });
+    parts(body).for_each([&](unsigned part) { whole[part] = body; });
   }
   return whole;
 }

@@ -33,8 +33,8 @@ class SectorFields {
   [[nodiscard]] unsigned field(std::size_t n, unsigned sector) const {
     return bodies_ + sectors_ * static_cast<unsigned>(n) + sector;
   }
-  /// Returns the fields of a body and of its sectors, one bit each.
-  [[nodiscard]] std::uint64_t parts(unsigned body) const;
+  /// Returns the fields of a body and of its sectors.
+  [[nodiscard]] grid::FieldSet parts(unsigned body) const;
   /// Returns, for each field, the field of its body.
   [[nodiscard]] std::array<std::uint8_t, grid::maximum_fields> wholes() const;
 

@@ -16,8 +16,9 @@ constexpr std::size_t faces = 6;
 FirstTouches::FirstTouches(unsigned fields)
     : fields_(fields),
       others_(std::max<std::size_t>(fields, faces)),
-      touched_(fields + std::size_t{1}, 0),
-      next_(touched_.size() * others_),
+      words_((others_ + 63) / 64),
+      touched_((fields + std::size_t{1}) * words_, 0),
+      next_((fields + std::size_t{1}) * others_),
       hard_(next_.size()) {}
 
 void FirstTouches::set(const Words& words) {
@@ -56,7 +57,7 @@ FirstTouches::Outcome FirstTouches::end_step(MPI_Comm communicator) {
     if (soonest[i] < -touches) {
       outcome.next = std::min(outcome.next, -soonest[i]);
     } else {
-      touched_[i / others_] |= std::uint64_t{1} << i % others_;
+      word(i / others_, i % others_) |= std::uint64_t{1} << i % others_ % 64;
       outcome.hard = outcome.hard || soonest[next_.size() + i] > 0.0;
     }
   }

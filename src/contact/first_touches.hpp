@@ -16,7 +16,8 @@ class FirstTouches {
  public:
   explicit FirstTouches(unsigned fields);
 
-  /// Bit masks: for each field the fields that it has touched, then the domain faces that any field has touched.
+  /// Bit masks: for each field the fields that it has touched, in words of 64, then the domain faces that any field has
+  /// touched.
   using Words = std::vector<std::uint64_t>;
   [[nodiscard]] const Words& words() const { return touched_; }
   void set(const Words& words);
@@ -29,7 +30,7 @@ class FirstTouches {
   /// @param open     distance of the surfaces, m; <= 0: they touch
   /// @param closing  closing speed after the step without contact, m/s
   void see(unsigned field, unsigned other, double open, double closing) {
-    if (closing > 0.0 && (touched_[field] >> other & 1U) == 0) look(field, other, open, closing);
+    if (closing > 0.0 && (word(field, other) >> other % 64 & 1U) == 0) look(field, other, open, closing);
   }
   /// Records gap and closing speed of any field and a face of the domain.
   void see_face(std::size_t face, double open, double closing) {
@@ -46,11 +47,12 @@ class FirstTouches {
   [[nodiscard]] Outcome end_step(MPI_Comm communicator);
 
  private:
+  std::uint64_t& word(std::size_t field, std::size_t other) { return touched_[field * words_ + other / 64]; }
   void look(unsigned field, unsigned other, double open, double closing);
 
   unsigned fields_;
-  std::size_t others_;  // maximum number of partners of a field
-  Words touched_;       // before this step
+  std::size_t others_, words_;  // maximum number of partners of a field, and of their words
+  Words touched_;               // before this step
   // In this step, for each pair, field by field; last the pairs with domain faces.
   std::vector<std::atomic<double>> next_;  // s
   std::vector<std::atomic<bool>> hard_;

@@ -26,7 +26,7 @@ bool parts(const grid::BlockGrid& grid, std::uint32_t slot, std::size_t node, st
   std::size_t number = 0, reached = 0;
   // The sides of a crack have separate motions, which this test does not consider.
   if (grid.wholes(slot) != grid.fields(slot)) return false;
-  grid::for_each_bit(grid.fields(slot), [&](unsigned field) {
+  grid.fields(slot).for_each([&](unsigned field) {
     const grid::Node* of_field = grid.nodes(slot, field) + node;
     reached += of_field->sums.mass() > 0.0 ? 1 : 0;
     if (number == a) first = of_field;

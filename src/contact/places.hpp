@@ -37,12 +37,12 @@ inline SeenSlot seen_at_contact(const grid::BlockGrid& grid, std::size_t slot, u
                                 const NodesThatMatter& matter) {
   const std::int32_t number = grid.contact_number(slot);
   if (number == grid::BlockGrid::no_slot) return {};
-  const std::uint64_t bodies = grid.wholes(slot);
-  if ((bodies >> body & 1U) == 0) return {};
+  const grid::FieldSet bodies = grid.wholes(slot);
+  if (!bodies.contains(body)) return {};
   return {.nodes = matter[static_cast<std::size_t>(number)],
           .contact_slot = static_cast<std::uint32_t>(number),
-          .bodies = static_cast<std::uint8_t>(std::popcount(bodies)),
-          .body = static_cast<std::uint8_t>(std::popcount(bodies & ((std::uint64_t{1} << body) - 1)))};
+          .bodies = static_cast<std::uint8_t>(bodies.count()),
+          .body = static_cast<std::uint8_t>(bodies.count_below(body))};
 }
 
 /// Enumerates the relevant nodes that the points of one body in a block reach. A node beyond a mirror plane is replaced

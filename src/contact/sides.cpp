@@ -11,11 +11,11 @@ namespace whipple::contact {
 
 Sides::Sides(grid::BlockGrid& grid, std::uint32_t slot, const Cracks* cracks)
     : grid_(grid), slot_(slot), cracks_(cracks) {
-  const std::uint64_t present = grid.fields(slot);
-  grid::for_each_bit(grid.wholes(slot), [&](unsigned field) {
+  const grid::FieldSet& present = grid.fields(slot);
+  grid.wholes(slot).for_each([&](unsigned field) {
     fields_.push_back(field);
-    const std::uint64_t own = std::uint64_t{1} << field;
-    parts_.push_back(present & (cracks == nullptr ? own : cracks->fields().parts(field)));
+    parts_.push_back(present &
+                     (cracks == nullptr ? grid::FieldSet::of(field) : cracks->fields().parts(field)));
   });
   joined_.reserve(2 * fields_.size());  // sides hold pointers to them
 }
@@ -27,16 +27,15 @@ void Sides::go_to(std::size_t node) {
   joints_.clear();
   joined_.clear();
   for (std::size_t body = 0; body < fields_.size(); ++body) {
-    if (std::has_single_bit(parts_[body])) {
-      grid::Node* const only =
-          grid_.nodes(slot_, static_cast<unsigned>(std::countr_zero(parts_[body]))) + node;
+    if (parts_[body].count() == 1) {
+      grid::Node* const only = grid_.nodes(slot_, parts_[body].nth(0)) + node;
       join({&only, 1}, body);
       continue;
     }
     const std::optional<Cracks::Crack> crack = cracks_->at(fields_[body], slot_, node);
-    std::array<std::array<grid::Node*, grid::maximum_fields>, 2> parts;
+    std::array<std::array<grid::Node*, grid::maximum_fields_with_cracks>, 2> parts;
     std::array<std::size_t, 2> count{};
-    grid::for_each_bit(parts_[body], [&](unsigned field) {
+    parts_[body].for_each([&](unsigned field) {
       grid::Node* const part = grid_.nodes(slot_, field) + node;
       if (part->motion.mass_for_contact() < no_mass) {
         part->motion.set_heat(0.0);

@@ -38,8 +38,8 @@ class Sides {
   grid::BlockGrid& grid_;
   std::uint32_t slot_;
   const Cracks* cracks_;
-  std::vector<unsigned> fields_;      // of each body, undivided
-  std::vector<std::uint64_t> parts_;  // of each body: bit per field of the body that reaches the slot
+  std::vector<unsigned> fields_;       // of each body, undivided
+  std::vector<grid::FieldSet> parts_;  // of each body: its fields that reach the slot
   std::vector<Side> sides_;
   std::vector<std::size_t> body_;     // of each side
   std::vector<Cracks::Crack> crack_;  // after each side

@@ -29,7 +29,7 @@ template <class PerNode>
 void lay_out(grid::ContactValues& values, const BlockGrid& grid, Lanes initial, PerNode&& per_node) {
   values.begin.assign(1, 0);
   for (const std::uint32_t slot : grid.contact_slots()) {
-    const auto bodies = static_cast<std::size_t>(std::popcount(grid.wholes(slot)));
+    const std::size_t bodies = grid.wholes(slot).count();
     values.begin.push_back(values.begin.back() +
                            static_cast<std::uint32_t>(per_node(bodies) * nodes_per_block));
   }
@@ -51,7 +51,7 @@ Vector3 unit_or_zero(const Vector3& v) {
 template <class Function>
 void for_each_owned_node(const BlockGrid& grid, Function&& f) {
   parallel::for_each(grid.owned_contact_slots(), [&](std::size_t c) {
-    const auto bodies = static_cast<std::size_t>(std::popcount(grid.wholes(grid.contact_slots()[c])));
+    const std::size_t bodies = grid.wholes(grid.contact_slots()[c]).count();
     for (std::size_t node = 0; bodies > 1 && node < nodes_per_block; ++node) f(c, bodies, node);
   });
 }
@@ -110,21 +110,21 @@ NodesThatMatter nodes_of_several(const BlockGrid& grid, bool after_transfer) {
   const auto slots = grid.contact_slots();
   NodesThatMatter nodes(slots.size(), 0);
   parallel::for_each(slots.size(), [&](std::size_t c) {
-    const std::uint64_t bodies = grid.wholes(slots[c]);
-    if (std::popcount(bodies) < 2) return;
+    const grid::FieldSet bodies = grid.wholes(slots[c]);
+    if (bodies.count() < 2) return;
     if (!after_transfer || grid.is_shared()) {
       nodes[c] = ~std::uint64_t{0};
       return;
     }
     std::array<std::uint64_t, grid::maximum_fields> reached{};  // by each body
-    grid::for_each_bit(grid.fields(slots[c]), [&](unsigned field) {
+    grid.fields(slots[c]).for_each([&](unsigned field) {
       const grid::Node* of_field = grid.nodes(slots[c], field);
       for (std::size_t i = 0; i < nodes_per_block; ++i) {
         reached[grid.whole(field)] |= std::uint64_t{of_field[i].sums.mass() > 0.0} << i;
       }
     });
     std::uint64_t one = 0, several = 0;
-    grid::for_each_bit(bodies, [&](unsigned body) {
+    bodies.for_each([&](unsigned body) {
       several |= one & reached[body];
       one |= reached[body];
     });

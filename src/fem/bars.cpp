@@ -22,25 +22,34 @@ Vector3 along(const Bars& bars, std::size_t b) {
 /// Returns the initial volume, m^3.
 double volume(const Bars& bars, std::size_t b) { return bars.elements.mass[b] / bars.material.density; }
 
+/// Returns the elastic energy of a bar, J.
+double elastic_energy(const Bars& bars, std::size_t b) {
+  return bars.elements.stress[b] * bars.elements.stress[b] / (2.0 * bars.material.young) * volume(bars, b);
+}
+
 /// Computes the stress at the end of a step from the logarithmic strain increment: elastic trial, return to the yield
 /// stress (eq. 6.2).
-void update_stress(Bars& bars, std::size_t b, double strain_increment) {
+/// @returns the work that becomes heat, J
+double update_stress(Bars& bars, std::size_t b, double strain_increment) {
   BarElements& e = bars.elements;
   const BarMaterial& m = bars.material;
-  if (e.broken[b] != 0) return;
+  if (e.broken[b] != 0) return 0.0;
   const double trial = e.stress[b] + m.young * strain_increment;
   const double excess = std::abs(trial) - (m.yield_stress + m.hardening_modulus * e.plastic_strain[b]);
   if (!(excess > 0.0)) {
     e.stress[b] = trial;
-    return;
+    return 0.0;
   }
   const double plastic = excess / (m.young + m.hardening_modulus);
   e.stress[b] = trial - std::copysign(m.young * plastic, trial);
   e.plastic_strain[b] += plastic;
+  double heat = std::abs(e.stress[b]) * plastic * volume(bars, b);
   if (e.plastic_strain[b] > m.failure_strain) {
     e.broken[b] = 1;
+    heat += elastic_energy(bars, b);
     e.stress[b] = 0.0;  // the elastic energy becomes heat; the internal energy is unchanged
   }
+  return heat;
 }
 
 }  // namespace
@@ -128,19 +137,19 @@ void internal_forces(Bars& bars) {
   });
 }
 
-double deform(Bars& bars, const Motion& motion, double dt) {
+BarWork deform(Bars& bars, const Motion& motion, double dt) {
   if (motion.end.size() != bars.nodes.size() || motion.mean.size() != bars.nodes.size()) {
     throw InternalError("fem::deform: velocities do not fit the bars");
   }
-  return parallel::sum<double>(bars.elements.size(), [&](std::size_t b) {
+  return parallel::sum<BarWork>(bars.elements.size(), [&](std::size_t b) {
     const auto& [first, second] = bars.elements.ends[b];
     const Vector3 x = along(bars, b);
     const Vector3 end = x + dt * (motion.end[second] - motion.end[first]);
     const double rate = x.dot(motion.mean[second] - motion.mean[first]) / x.squaredNorm();  // of the strain
     const double work = dt * volume(bars, b) * bars.elements.stress[b] * rate;
     bars.elements.internal_energy[b] += work;
-    update_stress(bars, b, 0.5 * std::log(end.squaredNorm() / x.squaredNorm()));
-    return work;
+    const double strain = 0.5 * std::log(end.squaredNorm() / x.squaredNorm());
+    return BarWork{work, update_stress(bars, b, strain)};
   });
 }
 
@@ -177,6 +186,10 @@ void remove_bars(Bars& bars, std::span<const std::uint8_t> removed) {
   for (auto& ends : bars.elements.ends) ends = {number[ends[0]], number[ends[1]]};
   connect(bars);
   lump_masses(bars);
+}
+
+double elastic_energy(const Bars& bars) {
+  return parallel::sum<double>(bars.elements.size(), [&](std::size_t b) { return elastic_energy(bars, b); });
 }
 
 double internal_energy(const Bars& bars) {

@@ -85,12 +85,23 @@ double critical_time_step(const Bars& bars);
 /// Computes the nodal forces into `nodes.force` (eq. 6.1).
 void internal_forces(Bars& bars);
 
+/// Holds work into the internal energy of bars, and what of it is heat of plastic flow and of bars that break, J.
+struct BarWork {
+  double work = 0.0, plastic_heat = 0.0;
+  BarWork& operator+=(const BarWork& other) {
+    work += other.work;
+    plastic_heat += other.plastic_heat;
+    return *this;
+  }
+};
+
 /// Computes the work of the step, then strain and stress at its end, which are exactly those of the moved nodes (eq.
 /// 6.2, 6.3).
-/// @returns J, work into internal energy
-double deform(Bars& bars, const Motion& motion, double dt);
+BarWork deform(Bars& bars, const Motion& motion, double dt);
 
 double internal_energy(const Bars& bars);
+/// Returns the elastic part of the internal energy of all bars, J.
+double elastic_energy(const Bars& bars);
 
 /// Distributes heat given at the nodes (J) over their bars by mass.
 void add_heat(Bars& bars, std::span<const double> node_heat);

@@ -34,7 +34,9 @@ constexpr int nodes_per_block = 64;
 static_assert(block_shape(true).node(7, 7, 0) == 63 && block_shape(false).node(3, 3, 3) == 63);
 
 /// Maximum number of separate velocity fields (docs/theory/contact.md).
-constexpr unsigned maximum_fields = 64;
+constexpr unsigned maximum_fields = 255;
+/// Maximum number of fields with those into which cracks divide bodies: the sides of a crack are one word.
+constexpr unsigned maximum_fields_with_cracks = 64;
 /// Returns the number of direction sectors, each with a velocity field, into which the field of a body is divided at a
 /// crack (docs/theory/cracks.md).
 constexpr unsigned crack_sectors(bool planar) { return planar ? 8 : 14; }

@@ -22,7 +22,7 @@ NodeStore::NodeStore(const Geometry& geometry, MPI_Comm communicator)
     plane.axis = face / 2;
     plane.kind = boundary;
     planes_.push_back(std::move(plane));
-    bonded_[static_cast<std::size_t>(face)] = lets_part(boundary) ? 0 : ~std::uint64_t{0};
+    bonded_[static_cast<std::size_t>(face)] = lets_part(boundary) ? FieldSet() : FieldSet::from(0);
     set_apart_at(static_cast<std::size_t>(face), lets_part(boundary));
   }
   std::ranges::stable_sort(planes_, {}, [](const MirrorPlane& plane) { return lets_part(plane.kind); });
@@ -47,11 +47,11 @@ void NodeStore::clear() {
   });
 }
 
-void NodeStore::bond_at_planes(const std::array<std::uint64_t, 6>& fields) {
+void NodeStore::bond_at_planes(const std::array<FieldSet, 6>& fields) {
   for (MirrorPlane& plane : planes_) {
     const auto face = static_cast<std::size_t>(plane.face);
-    bonded_[face] = lets_part(plane.kind) ? 0 : fields[face];
-    set_apart_at(face, ~bonded_[face] != 0);
+    bonded_[face] = lets_part(plane.kind) ? FieldSet() : fields[face];
+    set_apart_at(face, !bonded_[face].is_full());
   }
   lay_out_nodes();
 }
@@ -79,7 +79,8 @@ void NodeStore::find_mirror_nodes() {
       const std::int32_t least_inside = std::min((at - first) * outward, (at - first - (edge - 1)) * outward);
       if (least_inside > mirror_reach) continue;  // far inside the domain
       const int field = field_of_block(b);
-      const bool bonded = (bonded_[static_cast<std::size_t>(mirror.face)] >> std::max(field, 0) & 1U) != 0;
+      const bool bonded =
+          bonded_[static_cast<std::size_t>(mirror.face)].contains(static_cast<unsigned>(std::max(field, 0)));
       std::vector<std::uint32_t>& on_plane = bonded ? mirror.on_plane : mirror.on_plane_apart;
       std::vector<MirrorPair>& pairs = bonded ? mirror.pairs : mirror.pairs_apart;
       for (int i = 0; i < nodes_per_block; ++i) {

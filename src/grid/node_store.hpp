@@ -33,14 +33,14 @@ class NodeStore : public VelocityFields {
 
   /// Sets the fields that are continuous with their images at the mirror planes: one bit per field for each
   /// face. By default all are, except at walls from which material may part. Call before `bin`.
-  void bond_at_planes(const std::array<std::uint64_t, 6>& fields);
+  void bond_at_planes(const std::array<FieldSet, 6>& fields);
   /// Returns whether a field is continuous with its image at a face.
   [[nodiscard]] bool is_bonded_at(std::size_t face, unsigned field) const {
-    return geometry().boundary[face] != Boundary::outflow && (bonded_[face] >> field & 1U) != 0;
+    return geometry().boundary[face] != Boundary::outflow && bonded_[face].contains(field);
   }
   /// Returns whether some field may be in contact with its image at a face.
   [[nodiscard]] bool is_apart_at(std::size_t face) const {
-    return geometry().boundary[face] != Boundary::outflow && ~bonded_[face] != 0;
+    return geometry().boundary[face] != Boundary::outflow && !bonded_[face].is_full();
   }
   /// Returns the planes with the active nodes that they affect, in the order in which they are folded.
   [[nodiscard]] std::span<const MirrorPlane> mirror_planes() const { return planes_; }
@@ -72,7 +72,7 @@ class NodeStore : public VelocityFields {
   std::vector<Node> nodes_;
   std::size_t layout_ = 0;
   std::vector<MirrorPlane> planes_;
-  std::array<std::uint64_t, 6> bonded_{};  // one bit per field, for each face
+  std::array<FieldSet, 6> bonded_{};  // for each face
   // Of each node: 1 if it is an image across a plane where its field is continuous
   std::vector<std::uint8_t> outside_;
   std::vector<std::uint8_t> awaited_, border_;  // of each slot; empty without ghost blocks

@@ -236,14 +236,27 @@ void Topology::shift(const Vector3& cells) {
   foresight_ = 1.0;  // from half a cell on one side to half a cell on the other
 }
 
-void Topology::join_bits_of_ranks(std::vector<std::uint64_t>& of_slot) {
+namespace {
+
+template <class Bits>
+void join_bits(MPI_Comm communicator, const std::vector<BlockSet::Peer>& peers, std::vector<Bits>& of_slot) {
   constexpr int tag = 13;
   const auto one = [](std::size_t) { return std::size_t{1}; };
-  const auto pack = [&](std::size_t slot, std::uint64_t* out) { *out = of_slot[slot]; };
-  exchange<std::uint64_t>(communicator_, peers(), tag, &BlockSet::Peer::borrowed, &BlockSet::Peer::lent, one,
-                          pack, [&](std::size_t slot, const std::uint64_t* in) { of_slot[slot] |= *in; });
-  exchange<std::uint64_t>(communicator_, peers(), tag, &BlockSet::Peer::lent, &BlockSet::Peer::borrowed, one,
-                          pack, [&](std::size_t slot, const std::uint64_t* in) { of_slot[slot] = *in; });
+  const auto pack = [&](std::size_t slot, Bits* out) { *out = of_slot[slot]; };
+  exchange<Bits>(communicator, peers, tag, &BlockSet::Peer::borrowed, &BlockSet::Peer::lent, one, pack,
+                 [&](std::size_t slot, const Bits* in) { of_slot[slot] |= *in; });
+  exchange<Bits>(communicator, peers, tag, &BlockSet::Peer::lent, &BlockSet::Peer::borrowed, one, pack,
+                 [&](std::size_t slot, const Bits* in) { of_slot[slot] = *in; });
+}
+
+}  // namespace
+
+void Topology::join_bits_of_ranks(std::vector<std::uint64_t>& of_slot) {
+  join_bits(communicator_, peers(), of_slot);
+}
+
+void Topology::join_bits_of_ranks(std::vector<FieldSet>& of_slot) {
+  join_bits(communicator_, peers(), of_slot);
 }
 
 }  // namespace whipple::grid

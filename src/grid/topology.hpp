@@ -10,6 +10,7 @@
 
 #include "src/core/base/vector_math.hpp"
 #include "src/grid/block_table.hpp"
+#include "src/grid/field_set.hpp"
 #include "src/grid/forest.hpp"
 #include "src/grid/geometry.hpp"
 #include "src/grid/stencil.hpp"
@@ -64,6 +65,8 @@ class Topology {
   [[nodiscard]] bool is_shared() const;
   /// Combines the bits of each slot over all ranks that use it (bitwise or). Collective.
   void join_bits_of_ranks(std::vector<std::uint64_t>& of_slot);
+  /// Does so for sets of fields.
+  void join_bits_of_ranks(std::vector<FieldSet>& of_slot);
 
   /// Returns the slot of the block around a position, `no_slot` if there is none.
   [[nodiscard]] std::int32_t slot_at(const Vector3& position) const {

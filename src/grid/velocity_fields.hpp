@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "src/grid/field_set.hpp"
 #include "src/grid/point_bins.hpp"
 
 namespace whipple::grid {
@@ -33,10 +34,11 @@ class VelocityFields : public PointBins {
   }
   /// Returns the whole of a field; the field itself if it is not a part of another.
   [[nodiscard]] unsigned whole(unsigned field) const { return whole_[field]; }
-  /// Returns one bit per whole field that reaches a slot with any of its parts.
-  [[nodiscard]] std::uint64_t wholes(std::size_t slot) const {
-    std::uint64_t all = 0;
-    for_each_bit(fields_[slot], [&](unsigned field) { all |= std::uint64_t{1} << whole_[field]; });
+  /// Returns the whole fields that reach a slot with any of their parts.
+  [[nodiscard]] FieldSet wholes(std::size_t slot) const {
+    if (!is_divided_) return fields_[slot];
+    FieldSet all;
+    fields_[slot].for_each([&](unsigned field) { all.insert(whole_[field]); });
     return all;
   }
 
@@ -77,7 +79,7 @@ class VelocityFields : public PointBins {
   }
   /// Return the number of node blocks of a slot, and the index of each: that of the slot, then the additional ones.
   [[nodiscard]] std::size_t node_blocks(std::size_t slot) const {
-    return contact_number(slot) == no_slot ? 1 : static_cast<std::size_t>(std::popcount(fields_[slot]));
+    return contact_number(slot) == no_slot ? 1 : fields_[slot].count();
   }
   [[nodiscard]] std::size_t node_block(std::size_t slot, std::size_t i) const {
     return i == 0 ? slot : further_begin_[static_cast<std::size_t>(contact_number_[slot])] + i - 1;
@@ -86,8 +88,8 @@ class VelocityFields : public PointBins {
   [[nodiscard]] unsigned whole_of_block(std::size_t block) const {
     return whole(static_cast<unsigned>(std::max(field_of_block(block), 0)));
   }
-  /// Returns one bit per field that reaches a slot, since `separate_fields`.
-  [[nodiscard]] std::uint64_t fields(std::size_t slot) const { return fields_[slot]; }
+  /// Returns the fields that reach a slot, since `separate_fields`.
+  [[nodiscard]] const FieldSet& fields(std::size_t slot) const { return fields_[slot]; }
 
  protected:
   using PointBins::PointBins;
@@ -108,20 +110,23 @@ class VelocityFields : public PointBins {
   [[nodiscard]] int field_of_block(std::size_t block) const;
   /// Returns the block of nodes of a field in a slot; that of the slot itself where the field has no separate nodes.
   [[nodiscard]] std::size_t block_of_field(std::size_t slot, unsigned field) const {
-    if (contact_slots_.empty() || contact_number_[slot] == no_slot || (fields_[slot] >> field & 1U) == 0) {
+    if (contact_slots_.empty() || contact_number_[slot] == no_slot || !fields_[slot].contains(field)) {
       return slot;
     }
-    const int before = std::popcount(fields_[slot] & ((std::uint64_t{1} << field) - 1));
-    return before == 0 ? slot
-                       : further_begin_[static_cast<std::size_t>(contact_number_[slot])] +
-                             static_cast<std::size_t>(before) - 1;
+    const std::size_t before = fields_[slot].count_below(field);
+    return before == 0 ? slot : further_begin_[static_cast<std::size_t>(contact_number_[slot])] + before - 1;
   }
   /// Returns whether a field reaches a slot, as far as fields are distinguished.
   [[nodiscard]] bool reaches(std::size_t slot, unsigned field) const {
-    return fields_.empty() || fields_[slot] == 0 || (fields_[slot] >> field & 1U) != 0;
+    return fields_.empty() || fields_[slot].empty() || fields_[slot].contains(field);
   }
 
  private:
+  /// Finds the fields that reach each slot, in sets of one word or of several.
+  template <class Set>
+  std::vector<FieldSet> fields_that_reach(Stencil stencil, const FieldPoints& particles,
+                                          const FieldPoints& guests) const;
+
   std::array<std::uint8_t, maximum_fields> whole_ = [] {
     std::array<std::uint8_t, maximum_fields> each{};
     std::iota(each.begin(), each.end(), std::uint8_t{0});
@@ -130,7 +135,7 @@ class VelocityFields : public PointBins {
   bool is_divided_ = false;
   std::vector<std::uint8_t> field_;  // of each particle
   std::vector<std::uint8_t> field_of_guest_;
-  std::vector<std::uint64_t> fields_;        // of each slot: one bit per field that reaches it
+  std::vector<FieldSet> fields_;             // of each slot: those that reach it
   std::vector<std::uint8_t> meets_contact_;  // of each slot: 1 if one of its neighbours is a contact slot
   std::vector<std::uint32_t> contact_slots_;
   std::vector<std::int32_t> contact_number_;    // of each slot

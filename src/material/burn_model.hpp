@@ -38,6 +38,10 @@ class BurnModel final : public Constitutive {
   [[nodiscard]] double least_maximum_density(const Material& material) const override;
   [[nodiscard]] double maximum_density(const Material& material, const Chunk& chunk,
                                        std::size_t k) const override;
+  void divide_energy(const Material& material, const MaterialPoints& points, std::size_t begin,
+                     std::span<double> elastic, std::span<double> stored) const override {
+    solid_.divide_energy(material, points, begin, elastic, stored);
+  }
   void update(const Step& in, Chunk& out) const override;
 
   /// Fields that it declares besides those of `EosStrength`.

@@ -126,6 +126,12 @@ struct Chunk {
   void fetch(const std::vector<Matrix3>& from, std::span<Lanes, 9> to) const;
   void deposit(std::span<const Lanes, 9> from, std::vector<Matrix3>& to) const;
 
+  /// Books plastic work (J) that becomes heat.
+  void dissipate(double work) {
+    report.dissipation += work;
+    report.plastic_heat += work;
+  }
+
   /// Copies the scatter factors of the failure threshold; 1 if no point has one.
   void fetch_threshold_factor(const MaterialPoints& points, Lanes& factor) const {
     if (points.failure_threshold_factor.empty()) {

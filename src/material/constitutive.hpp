@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -60,6 +61,12 @@ class Constitutive {
   /// history. The model sets deviator, `acting_pressure`, temperature, sound speed and history and, where it has them,
   /// plastic strain, phases, failure and voids; reports events and dissipation.
   virtual void update(const Step& in, Chunk& out) const = 0;
+
+  /// Computes the energies of at most `chunk_size` points from `begin` on that are not heat (J/kg): the elastic energy
+  /// of the deviator, and what the history of the material stores (cold work, stress that relaxes). The rest is that of
+  /// the equation of state.
+  virtual void divide_energy(const Material& material, const MaterialPoints& points, std::size_t begin,
+                             std::span<double> elastic, std::span<double> stored) const = 0;
 
   /// Holds a history field and the index of its first lane in `Chunk::history`.
   struct Slot {

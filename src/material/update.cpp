@@ -73,6 +73,8 @@ void MaterialReport::merge(const MaterialReport& other) {
   compression_rate = std::max(compression_rate, other.compression_rate);
   plastic_work += other.plastic_work;
   dissipation += other.dissipation;
+  plastic_heat += other.plastic_heat;
+  viscous_heat += other.viscous_heat;
   for (std::size_t code = 0; code < failed.size(); ++code) failed[code] += other.failed[code];
 }
 

@@ -69,6 +69,9 @@ struct MaterialReport {
   /// Irreversible energy of the models, J, >= 0: plastic and viscous work, and elastic energy of the deviator lost with
   /// the strength; without artificial viscosity.
   double dissipation = 0.0;
+  /// Heat of the models, J: of plastic flow without what it stores, of crushed pores and of elastic energy lost with the
+  /// strength; of the viscosity of fluids and of relaxing stress.
+  double plastic_heat = 0.0, viscous_heat = 0.0;
   std::array<std::size_t, failure::code_count> failed{};  ///< points that failed in this step, by code
 
   /// Returns whether the material of a body, not only single points of it, is denser than its equation of state allows,

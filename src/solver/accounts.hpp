@@ -47,6 +47,8 @@ inline constexpr auto accounts = [] {
      "plastic strain", "internal energy, stored cold work included", {}},
     {"dissipation", "J", &S::dissipation, always, "work that the material models made irreversible: plastic, viscous, lost with the strength",
      "the material models in all", "internal energy", {}},
+    {"plastic_heat", "J", &S::plastic_heat, always, "heat of plastic flow without what it stores, of crushed pores, of elastic energy lost with the strength", {}, {}, {}},
+    {"material_viscous_heat", "J", &S::material_viscous_heat, nowhere, "heat of viscous fluids and of relaxing stress", {}, {}, {}},
     {"transfer_heat", "J", &S::transfer_heat, always, "kinetic energy lost in transfers that became internal at once",
      "transfers between particles and grid", "internal energy", {}},
     {"unresolved_kept", "J", &S::unresolved_kept, always, "kinetic energy that became unresolved",

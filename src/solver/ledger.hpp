@@ -110,7 +110,7 @@ struct Ledger {
   Vector3 external_impulse = Vector3::Zero();  ///< by external accelerations, N s
   // Units and meanings of the following sums: `accounts` (src/solver/accounts.hpp).
   double external_work = 0.0, damping_work = 0.0, work = 0.0, viscous_work = 0.0, plastic_work = 0.0,
-         dissipation = 0.0;
+         dissipation = 0.0, plastic_heat = 0.0, material_viscous_heat = 0.0;
   double transfer_heat = 0.0, unresolved_kept = 0.0, unresolved_returned = 0.0, conducted_heat = 0.0;
   double contact_heat = 0.0, friction_heat = 0.0, contact_impulse = 0.0, friction_impulse = 0.0;
   double converted_mass = 0.0, conversion_heat = 0.0, removed_mass = 0.0;

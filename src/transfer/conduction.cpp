@@ -32,7 +32,7 @@ void join_fields(BlockGrid& grid, const TouchAtNode& touch) {
     for (std::size_t i = 0; i < grid::nodes_per_block; ++i) {
       fields.clear();
       leader.clear();
-      grid::for_each_bit(grid.fields(slot), [&](unsigned field) {
+      grid.fields(slot).for_each([&](unsigned field) {
         leader.push_back(fields.size());
         fields.push_back(&grid.nodes(slot, field)[i].scalars.sums);
       });

@@ -35,10 +35,8 @@ std::vector<double> fill_of_cells(const Particles& particles, const TransitionNo
   for (const std::uint32_t slot : grid.contact_slots().first(grid.owned_contact_slots())) {
     for (int i = 0; i < grid::nodes_per_block; ++i) {
       Lanes sum{};
-      grid::for_each_bit(grid.fields(slot),
-                         [&](unsigned field) { sum += grid.nodes(slot, field)[i].scalars.sums; });
-      grid::for_each_bit(grid.fields(slot),
-                         [&](unsigned field) { grid.nodes(slot, field)[i].scalars.sums = sum; });
+      grid.fields(slot).for_each([&](unsigned field) { sum += grid.nodes(slot, field)[i].scalars.sums; });
+      grid.fields(slot).for_each([&](unsigned field) { grid.nodes(slot, field)[i].scalars.sums = sum; });
     }
   }
   scalars::share(grid);

@@ -97,7 +97,7 @@ void for_each_node(BlockGrid& grid, const std::vector<std::uint64_t>& marked, st
     if (grid.contact_number(slot) == BlockGrid::no_slot) {
       of_field(0);
     } else {
-      grid::for_each_bit(grid.fields(slot), of_field);
+      grid.fields(slot).for_each(of_field);
     }
   });
 }

@@ -199,7 +199,8 @@ TEST(MohrCoulomb, EnergyOfAClosedPathIsItsDissipation) {
     for (int i = 1; i <= 20000; ++i)
       work += body.strain_to((from + (next - from) * i / 20000).eval()).plastic_work;
   };
-  Matrix3 sheared = diagonal(0.9995, 0.9985, 0.999);
+  // At constant volume: the hypoelastic deviator keeps its energy to the order of the change of volume only.
+  Matrix3 sheared = diagonal(0.9995, 0.9985, std::pow(0.999, 3) / (0.9995 * 0.9985));
   sheared(0, 1) = 0.003;
   go(sheared);
   go(diagonal(0.999, 0.999, 0.999));
@@ -209,7 +210,7 @@ TEST(MohrCoulomb, EnergyOfAClosedPathIsItsDissipation) {
   for (const double of : s) elastic += (of + p) * (of + p);
   elastic *= body.points.volume[0] / (4.0 * shear);
   EXPECT_GT(work, 1.0 * volume);
-  EXPECT_NEAR(body.energy() - start, work + elastic, 1e-3 * work);
+  EXPECT_NEAR(body.energy() - start, work + elastic, 1e-4 * work);
 }
 
 TEST(MohrCoulomb, GapsOpenAtTheApex) {

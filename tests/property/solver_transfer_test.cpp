@@ -103,7 +103,8 @@ double total_energy(const Particles& q, ShapeFunction shape) {
 template <class Shape>
 double check_energy_identities(const Relaxation& relaxation, AffineField affine,
                                std::array<grid::Boundary, 6> boundary, const Vector3& lower,
-                               const std::array<std::uint64_t, 6>* bonded = nullptr, double smoothing = 1.3) {
+                               const std::array<grid::FieldSet, 6>* bonded = nullptr,
+                               double smoothing = 1.3) {
   Particles q = random_particles(700, lower, Vector3(8, 6.5, 11.8), 3);
   if (affine == AffineField::none) {
     for (Matrix3& c : q.affine_velocity) c.setZero();
@@ -256,15 +257,17 @@ TYPED_TEST(Transfer, EnergyAndMomentumAreExactAtPlanesWallsAndCorners) {
     const Vector3 lower = corner + Vector3::Constant(away * dx);
     const auto apart = [&](const Relaxation& relaxation, AffineField with_affine,
                            const std::array<grid::Boundary, 6>& boundary,
-                           std::array<std::uint64_t, 6> bonded) {
+                           std::array<grid::FieldSet, 6> bonded) {
       heat += check_energy_identities<TypeParam>(relaxation, with_affine, boundary, lower, &bonded);
     };
-    const std::array<std::uint64_t, 6> none{};
+    const grid::FieldSet first = grid::FieldSet::of(0);
+    const std::array<grid::FieldSet, 6> none{};
     apart({}, affine, {symmetry, outflow, outflow, outflow, outflow, outflow}, none);
     apart({}, affine, {symmetry, outflow, symmetry, outflow, symmetry, outflow}, none);
-    apart({}, affine, {symmetry, outflow, symmetry, outflow, symmetry, outflow}, {1, 0, 0, 0, 1, 0});
+    apart({}, affine, {symmetry, outflow, symmetry, outflow, symmetry, outflow},
+          {first, {}, {}, {}, first, {}});
     apart({.fixed = 1.0}, affine, {no_slip, outflow, symmetry, outflow, no_slip, outflow},
-          {1, 0, 0, 0, 0, 0});
+          {first, {}, {}, {}, {}, {}});
     apart({.fixed = 0.0}, AffineField::none, {symmetry, outflow, no_slip, outflow, separating, outflow},
           none);
   }

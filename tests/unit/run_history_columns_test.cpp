@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -60,6 +61,38 @@ TEST(Accounts, AddUpInTheLedger) {
   number = 1.0;
   for (const solver::Account& account : solver::accounts)
     EXPECT_EQ(sum.*account.sum, 2.0 * number++) << account.name;
+}
+
+TEST(HistoryColumns, DivideTheInternalEnergy) {
+  const cases::Case setup = ball_on_plate();
+  const std::vector<HistoryColumn> columns = history_columns(setup);
+  solver::Simulation simulation(setup, parallel::world());
+  const auto value = [&](const std::vector<io::HistoryValue>& row, const char* name) {
+    return std::ranges::find(row, std::string(name), &io::HistoryValue::name)->value;
+  };
+  double plastic = 0.0, elastic = 0.0;
+  const double start = value(history_row(columns, simulation), "volume_energy");
+  EXPECT_DOUBLE_EQ(start, simulation.totals().internal_energy);
+  while (simulation.state().time < 0.4e-6) {
+    simulation.advance(0.4e-6);
+    const std::vector<io::HistoryValue> row = history_row(columns, simulation);
+    EXPECT_GE(value(row, "plastic_heat"), plastic);
+    plastic = value(row, "plastic_heat");
+    elastic = std::max(elastic, value(row, "elastic_energy"));
+    double sum = 0.0;
+    for (const char* part :
+         {"elastic_energy", "stored_energy", "plastic_heat", "viscous_heat", "other_heat", "volume_energy"}) {
+      sum += value(row, part);
+    }
+    EXPECT_NEAR(sum, value(row, "internal_energy"), 1e-12 * value(row, "total_energy"));
+    // Nothing is stored, fluid or relaxing.
+    EXPECT_EQ(value(row, "stored_energy"), 0.0);
+    EXPECT_EQ(value(row, "viscous_heat"), value(row, "viscous_work"));
+    EXPECT_GE(value(row, "other_heat"), value(row, "transfer_heat"));
+  }
+  EXPECT_GT(plastic, 0.0);
+  EXPECT_GT(elastic, 0.0);
+  EXPECT_LT(elastic, plastic);
 }
 
 TEST(HistoryColumns, HaveNamesOfTheirOwn) {

@@ -144,11 +144,11 @@ std::vector<std::uint8_t> cracked_fields(const Case& setup, ContactFields& found
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     if (!divides(b)) continue;
     const bool is_new = std::ranges::find(cracked, found.of_body[b]) == cracked.end();
-    if (is_new && count + sectors > grid::maximum_fields) {
+    if (is_new && count + sectors > grid::maximum_fields_with_cracks) {
       found.warnings.push_back(fmt::format(
           "body \"{}\": no velocity fields are left for its cracks, they do not part: each such body takes "
           "{} of {}, and every body one",
-          setup.bodies[b].name, sectors, grid::maximum_fields));
+          setup.bodies[b].name, sectors, grid::maximum_fields_with_cracks));
       continue;
     }
     for (std::size_t other = 0; other < setup.bodies.size(); ++other) {

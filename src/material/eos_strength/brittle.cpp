@@ -85,6 +85,7 @@ void relax_brittle(const EosStrength& model, const Step& step, Chunk& chunk) {
     gained[k] = 0.0;
   }
   const double work_before = chunk.report.plastic_work;
+  double recovered = 0.0;  // of the plastic work, as pressure, J
   std::optional<Turned> turned;
   if (law.turns_deviator()) turned.emplace(chunk);
   law.relax(
@@ -117,12 +118,16 @@ void relax_brittle(const EosStrength& model, const Step& step, Chunk& chunk) {
     }
     if (gained[k] > 0.0) {  // (13): 1/alpha decreases by the gain over K1
       const double closeness = 1.0 / distension[k] - gained[k] / step.material.reference_bulk_modulus;
+      const double before = distension[k];
       chunk.report.limited_bulking += closeness <= 1.0 / greatest_bulking ? 1 : 0;
       distension[k] = std::min(greatest_bulking, 1.0 / std::max(closeness, 1.0 / greatest_bulking));
+      const double mean = chunk.acting_pressure[k] + 0.5 * gained[k];
+      recovered += mean * std::log(distension[k] / before) * chunk.volume[k];
       chunk.acting_pressure[k] += gained[k];
     }
   }
-  chunk.report.dissipation += chunk.report.plastic_work - work_before;
+  chunk.dissipate(chunk.report.plastic_work - work_before);
+  chunk.report.plastic_heat -= recovered;
 }
 
 }  // namespace whipple::material::parts

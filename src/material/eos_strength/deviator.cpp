@@ -72,7 +72,9 @@ void find_increment(const EosStrength& model, const Step& step, Chunk& chunk, La
 
 /// Adds the fraction of the plastic work per volume (J/m^3) that does not become heat to the stored energy (eq. 24).
 void add_cold_work(const Step& step, Chunk& chunk, Lanes& stored, std::size_t k, double work) {
-  stored[k] += (1.0 - step.material.taylor_quinney) * work * chunk.volume[k] / chunk.mass[k];
+  const double kept = (1.0 - step.material.taylor_quinney) * work * chunk.volume[k];
+  stored[k] += kept / chunk.mass[k];
+  chunk.report.plastic_heat -= kept;
 }
 
 /// Performs the radial return for the given increments of the plastic strain.
@@ -136,7 +138,7 @@ void return_with_back_stress(const EosStrength& model, const Step& step, Chunk& 
     chunk.report.plastic_work += work * chunk.volume[k];
     if constexpr (stores) add_cold_work(step, chunk, chunk.history[model.stored_cold_work], k, work);
   }
-  chunk.report.dissipation += chunk.report.plastic_work - work_before;
+  chunk.dissipate(chunk.report.plastic_work - work_before);
 }
 
 }  // namespace
@@ -180,7 +182,9 @@ void viscous_deviator(const EosStrength&, const Step& in, Chunk& out) {
   const double per_twice = 0.5 / in.material.strength->viscosity();  // s:D = s:s / 2 eta
   for (std::size_t k = 0; k < out.size; ++k) {
     const double power = per_twice * tensor(out.motion.deviator, k).squared_norm();
-    out.report.dissipation += power * in.settings.time_step * out.volume[k];
+    const double heat = power * in.settings.time_step * out.volume[k];
+    out.report.dissipation += heat;
+    out.report.viscous_heat += heat;
   }
 }
 
@@ -197,7 +201,7 @@ void return_radially(const EosStrength& model, const Step& in, Chunk& out) {
   find_increment(model, in, out, out.motion.modulus);
   const double work = return_to_surface(out);
   out.report.plastic_work += work;
-  out.report.dissipation += work;
+  out.dissipate(work);
 }
 
 void return_radially_and_harden(const EosStrength& model, const Step& in, Chunk& out) {

@@ -51,7 +51,7 @@ void evaluate_dilating(const EosStrength& model, const Step& step, Chunk& chunk)
   double work = 0.0;
   for (std::size_t k = 0; k < chunk.size; ++k) work += chunk.pressure[k] * growth[k] * chunk.volume[k];
   chunk.report.plastic_work -= work;
-  chunk.report.dissipation -= work;
+  chunk.dissipate(-work);
 }
 
 }  // namespace whipple::material::parts

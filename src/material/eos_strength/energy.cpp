@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cmath>
 
 #include "src/core/base/vector_math.hpp"
 #include "src/material/eos_strength/parts.hpp"
@@ -11,7 +12,15 @@ template <bool phases>
 void evaluate_distended(const EosStrength& model, const Step& in, Chunk& out) {
   Lanes& distension = out.history[model.distension];
   std::copy_n(distension.data(), out.size, out.old_distension.data());
+  const Lanes before = out.pressure;
   evaluate_equation_of_state<phases>(in, out, out.view(distension));
+  double heat = 0.0;  // of pores that were crushed: the work of the pressure on their volume
+  for (std::size_t k = 0; k < out.size; ++k) {
+    if (distension[k] == out.old_distension[k]) continue;
+    const double crushed = std::log(out.old_distension[k] / distension[k]);
+    heat += 0.5 * (before[k] + out.pressure[k]) * crushed * out.volume[k];
+  }
+  out.report.plastic_heat += heat;
 }
 
 }  // namespace

@@ -103,6 +103,7 @@ EosStrength::EosStrength(const Material& material)
     share_ = whole_share;
   } else if (softens(material)) {
     share_ = share_of_damage;
+    softens_ = true;
   }
   from_grid_ = parts_of(material, Energy::from_grid);
   integrated_ = parts_of(material, Energy::integrated);
@@ -212,6 +213,38 @@ double EosStrength::least_maximum_density(const Material& material) const {
 
 void EosStrength::void_share(const Chunk& chunk, Lanes& share) const {
   share_ != nullptr ? share_(*this, chunk, share) : Constitutive::void_share(chunk, share);
+}
+
+void EosStrength::divide_energy(const Material& material, const MaterialPoints& points, std::size_t begin,
+                                std::span<double> elastic, std::span<double> stored) const {
+  const std::size_t n = elastic.size();
+  std::ranges::fill(elastic, 0.0);
+  if (stored_cold_work == undeclared) {
+    std::ranges::fill(stored, 0.0);
+  } else {
+    std::copy_n(points.history.scalar(cold_work_field.name).begin() + static_cast<std::ptrdiff_t>(begin), n,
+                stored.begin());
+  }
+  if (!material.strength->carries_deviator()) return;
+  const auto part = [&](const std::vector<double>& values) { return std::span(values).subspan(begin, n); };
+  Lanes density, modulus;
+  for (std::size_t k = 0; k < n; ++k) density[k] = points.mass[begin + k] / points.volume[begin + k];
+  strength::State state{std::span(density.data(), n), part(points.pressure), part(points.temperature),
+                        part(points.plastic_strain)};
+  if (threshold_stress != undeclared) {
+    state.threshold = part(points.history.scalar(threshold_stress_field.name));
+  }
+  material.strength->shear_modulus(state, std::span(modulus.data(), n));
+  const std::vector<double>* damages = softens_ ? &points.history.scalar(damage_field.name) : nullptr;
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t p = begin + k;
+    double solid = shear_bearing_fraction(points.melted_fraction[p], points.vaporised_fraction[p]);
+    if (damages != nullptr) solid *= 1.0 - (*damages)[p];
+    const double stiffness = points.failed[p] == failure::intact ? solid * modulus[k] : 0.0;
+    if (stiffness > 0.0) {
+      elastic[k] = points.deviatoric_stress[p].squared_norm() / (4.0 * stiffness * density[k]);
+    }
+  }
 }
 
 void EosStrength::advance_deviator(const Step& in, Chunk& out) const {

@@ -37,6 +37,9 @@ class EosStrength final : public Constitutive {
   void void_share(const Chunk& chunk, Lanes& share) const override;
   void update(const Step& in, Chunk& out) const override;
 
+  void divide_energy(const Material& material, const MaterialPoints& points, std::size_t begin,
+                     std::span<double> elastic, std::span<double> stored) const override;
+
   /// Advances the deviator and finds the energy that the equation of state takes. With `finish`, the update of a model
   /// that has a pressure of its own.
   void advance_deviator(const Step& in, Chunk& out) const;
@@ -68,6 +71,7 @@ class EosStrength final : public Constitutive {
     return in.energy == Energy::from_grid ? from_grid_ : integrated_;
   }
 
+  bool softens_ = false;            // damage reduces stiffness and strength
   double initial_threshold_ = 0.0;  // of materials with the field, Pa
   Parts from_grid_, integrated_;
   Share share_ = nullptr;  ///< null: that of `Constitutive`

@@ -99,8 +99,7 @@ void grow_voids(const EosStrength& model, const Step& in, Chunk& out) {
     for (std::size_t k = 0; k < out.size; ++k) {
       if (equivalent[k] == before[k] || !(before[k] > 0.0)) continue;
       const double lost = before[k] * before[k] - equivalent[k] * equivalent[k];  // of q^2
-      if (out.motion.modulus[k] > 0.0)
-        out.report.dissipation += lost / (6.0 * out.motion.modulus[k]) * out.volume[k];
+      if (out.motion.modulus[k] > 0.0) out.dissipate(lost / (6.0 * out.motion.modulus[k]) * out.volume[k]);
       for (Lanes& lane : out.motion.deviator) lane[k] *= equivalent[k] / before[k];
     }
   }

@@ -33,7 +33,7 @@ void evaluate_foam(const EosStrength& model, const Step& step, Chunk& chunk) {
   if (!(sum > 0.0)) return;
   trial.repeat(model, step, chunk);
   chunk.report.plastic_work += sum;
-  chunk.report.dissipation += sum;
+  chunk.dissipate(sum);
 }
 
 }  // namespace whipple::material::parts

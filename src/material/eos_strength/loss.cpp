@@ -81,6 +81,19 @@ double lost_energy(const Chunk& chunk) {
   return sum;
 }
 
+/// Returns what of it is heat (J): a part w of the modulus that is left keeps the part w of the energy, as the stress is
+/// that of its part of the material. Not inlined, so that the kernels around it keep their last digits.
+[[gnu::noinline]] double lost_heat(const Chunk& chunk) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < chunk.size; ++k) {
+    const double modulus = chunk.motion.modulus[k];
+    if (!(chunk.kept[k] < 1.0 && modulus > 0.0)) continue;
+    const double energy = tensor(chunk.motion.deviator, k).squared_norm() / (4.0 * modulus);
+    sum += (1.0 - chunk.kept[k]) * energy * chunk.volume[k];
+  }
+  return sum;
+}
+
 /// Computes the sound speed, and the loss of strength where points may lose it.
 template <Opening kind, bool viscous>
 inline void lose(const EosStrength& model, const Step& step, Chunk& chunk) {
@@ -96,6 +109,7 @@ inline void lose(const EosStrength& model, const Step& step, Chunk& chunk) {
   if (chunk.loses) {
     lose_strength<kind, viscous>(model, chunk, bulk, least_sound_speed, squared);
     chunk.report.dissipation += lost_energy(chunk);
+    chunk.report.plastic_heat += lost_heat(chunk);
     scale(chunk.motion.deviator, chunk);
     chunk.any_void = true;
   }
@@ -135,7 +149,10 @@ void release_cold_work(const EosStrength& model, const Step& in, Chunk& out) {
     const double solid_before =
         shear_bearing_fraction(in.points.melted_fraction[p], in.points.vaporised_fraction[p]);
     const double solid = shear_bearing_fraction(out.melted[k], out.vaporised[k]);
-    if (solid < solid_before) stored[k] *= solid / solid_before;
+    if (!(solid < solid_before)) continue;
+    const double left = stored[k] * (solid / solid_before);
+    out.report.plastic_heat += (stored[k] - left) * out.mass[k];
+    stored[k] = left;
   }
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "src/core/base/error.hpp"
@@ -66,6 +67,31 @@ class HyperelasticModel final : public Constitutive {
     const hyperelastic::Response at_rest = constants_.respond({1.0, 1.0, 1.0, 0.0, 0.0, 0.0}, 1.0);
     return wave_speed(state.sound_speed * state.sound_speed, at_rest, 1.0 / state.density);
   }
+  void divide_energy(const Material& material, const MaterialPoints& points, std::size_t begin,
+                     std::span<double> elastic, std::span<double> stored) const override {
+    const double undeformed = 1.0 / material.reference.density;
+    const auto& deformation =
+        std::get<std::vector<Matrix3>>(points.history.find(history()[0].field.name)->values);
+    for (std::size_t k = 0; k < elastic.size(); ++k) {
+      const std::size_t p = begin + k;
+      const Matrix3& f = deformation[p];
+      const double determinant = f.determinant();
+      const Matrix3 b = f * f.transpose() / std::cbrt(determinant * determinant);
+      const double ratio = points.volume[p] / (points.mass[p] * undeformed);
+      const double whole =
+          constants_.respond({b(0, 0), b(1, 1), b(2, 2), b(0, 1), b(1, 2), b(2, 0)}, ratio).energy;
+      elastic[k] = undeformed * (relaxing_.empty() ? whole : constants_.relaxation.lasting() * whole);
+      stored[k] = 0.0;
+    }
+    for (std::size_t i = 0; i < relaxing_.size(); ++i) {
+      const std::vector<SymmetricTensor>& part = points.history.symmetric(history()[1 + i].field.name);
+      const double per_energy = per_stored_energy(i);
+      for (std::size_t k = 0; k < stored.size(); ++k) {
+        const std::size_t p = begin + k;
+        stored[k] += per_energy * part[p].squared_norm() * points.volume[p] / points.mass[p];
+      }
+    }
+  }
   void update(const Step& in, Chunk& out) const override {
     const double least = 0.01 * in.material.reference.sound_speed * in.material.reference.sound_speed;
     const double undeformed = 1.0 / in.material.reference.density;
@@ -95,6 +121,11 @@ class HyperelasticModel final : public Constitutive {
     const double along = bulk + undeformed * response.longitudinal, across = undeformed * response.transverse;
     const double half = 0.5 * (along - across), coupling = undeformed * response.coupling;
     return std::sqrt(0.5 * (along + across) + std::sqrt(half * half + coupling * coupling));
+  }
+
+  /// Returns the energy per volume over the square of the i-th part of the deviator that relaxes, 1/Pa.
+  [[nodiscard]] double per_stored_energy(std::size_t i) const {
+    return 1.0 / (4.0 * constants_.relaxation.fractions[i] * constants_.shear());
   }
 
   /// Computes b' of each point and the response of the law.
@@ -141,8 +172,9 @@ class HyperelasticModel final : public Constitutive {
     for (std::size_t i = 0; i < relaxing_.size(); ++i) {
       const double fraction = constants_.relaxation.fractions[i], ratio = dt / constants_.relaxation.times[i];
       const double kept = std::exp(-ratio), gained = fraction * -std::expm1(-ratio) / ratio;
-      const double per_energy = 1.0 / (4.0 * fraction * constants_.shear());
+      const double per_energy = per_stored_energy(i);
       const std::span<Lanes, 6> part = out.field<6>(relaxing_[i]);
+      book_relaxation(ratio, fraction, before, per_energy, part, out);
       for (std::size_t j = 0; j < 6; ++j) {
         for (std::size_t k = 0; k < out.size; ++k) {
           part[j][k] = kept * part[j][k] + gained * (s[j][k] - before[j][k] / lasting);
@@ -152,6 +184,30 @@ class HyperelasticModel final : public Constitutive {
       }
     }
     s = sum;
+  }
+
+  /// Books the heat of a part h before it is advanced, the integral of h:h/(2 g G tau) over the step in which the sudden
+  /// stress changes at a constant rate.
+  /// @param ratio       dt/tau
+  /// @param fraction    g
+  /// @param before      sudden stress before the step times the fraction that lasts, Pa
+  /// @param per_energy  1/(4 g G), 1/Pa
+  void book_relaxation(double ratio, double fraction, const SymmetricLanes& before, double per_energy,
+                       std::span<const Lanes, 6> part, Chunk& out) const {
+    const double lasting = constants_.relaxation.lasting();
+    const double once = -std::expm1(-ratio), twice = -0.5 * std::expm1(-2.0 * ratio);
+    double heat = 0.0;
+    for (std::size_t j = 0; j < 6; ++j) {
+      for (std::size_t k = 0; k < out.size; ++k) {
+        const double steady = fraction / ratio * (out.motion.deviator[j][k] - before[j][k] / lasting);
+        const double decaying = part[j][k] - steady;
+        const double square =
+            twice * decaying * decaying + 2.0 * once * steady * decaying + ratio * steady * steady;
+        heat += (j < 3 ? 2.0 : 4.0) * per_energy * square * out.volume[k];
+      }
+    }
+    out.report.dissipation += heat;
+    out.report.viscous_heat += heat;
   }
 
   Law constants_;

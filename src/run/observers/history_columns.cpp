@@ -42,6 +42,15 @@ std::string_view bounds_text() {
   return text;
 }
 
+double stored_energy(const Source& s) { return s.figures.stored_energy + s.figures.chemical_energy; }
+double viscous_heat(const Source& s) { return s.ledger.viscous_work + s.ledger.material_viscous_heat; }
+double other_heat(const Source& s) {
+  const solver::Ledger& sum = s.ledger;
+  const double of_hourglass = sum.hourglass_work - s.totals.hourglass_energy - sum.hourglass_overdrawn;
+  return sum.transfer_heat + sum.unresolved_returned + sum.contact_heat + sum.friction_heat +
+         sum.conversion_heat + of_hourglass;
+}
+
 // clang-format off
 const auto always = std::to_array<Column>({
     {"step", "", "number of the step", [](const Source& s) { return static_cast<double>(s.state.step); }},
@@ -72,6 +81,23 @@ const auto always = std::to_array<Column>({
      [](const Source& s) { return s.totals.angular_momentum[1]; }},
     {"angular_momentum_z", "kg m^2/s", "the same along z",
      [](const Source& s) { return s.totals.angular_momentum[2]; }},
+});
+
+const auto parts_of_energy = std::to_array<Column>({
+    {"elastic_energy", "J", "elastic energy of the deviator, part of the internal energy",
+     [](const Source& s) { return s.figures.elastic_energy; }},
+    {"stored_energy", "J", "part of the internal energy that cold work, relaxing stress and unburnt explosive hold",
+     [](const Source& s) { return stored_energy(s); }},
+    {"viscous_heat", "J", "heat of viscosity: artificial (viscous_work), of fluids, of relaxing stress",
+     [](const Source& s) { return viscous_heat(s); }},
+    {"other_heat", "J", "heat of transfers, contact, friction, conversions and hourglass forces",
+     [](const Source& s) { return other_heat(s); }},
+    {"volume_energy", "J",
+     "the rest of the internal energy: that of the start, and work of the pressure since, less what has left the domain",
+     [](const Source& s) {
+       return s.totals.internal_energy - s.figures.elastic_energy - stored_energy(s) - s.ledger.plastic_heat -
+              viscous_heat(s) - other_heat(s);
+     }},
 });
 
 const auto of_border_and_phases = std::to_array<Column>({
@@ -192,6 +218,7 @@ std::vector<HistoryColumn> columns_of(const Parts& parts) {
     }
   };
   add(always);
+  add(parts_of_energy);
   add_accounts(solver::Shown::always);
   if (parts.damping) add_accounts(solver::Shown::of_damping);
   add(of_border_and_phases);
@@ -234,14 +261,12 @@ HistorySource::HistorySource(const solver::Simulation& simulation)
   std::array<double, 3> maxima = {figures.speed, figures.pressure, figures.temperature};
   parallel::maximum(simulation.communicator(), maxima);
   std::tie(figures.speed, figures.pressure, figures.temperature) = std::tuple_cat(maxima);
-  const cases::Case& setup = simulation.setup();
-  if (setup.has_bars() || setup.has_burn() || stores_cold_work(setup)) {
-    std::array<double, 5> sums = {figures.stored_cold_work, figures.chemical_energy, figures.bars,
-                                  figures.broken_bars, figures.bar_energy};
-    parallel::sum(simulation.communicator(), sums);
-    std::tie(figures.stored_cold_work, figures.chemical_energy, figures.bars, figures.broken_bars,
-             figures.bar_energy) = std::tuple_cat(sums);
-  }
+  std::array<double, 7> sums = {figures.elastic_energy,  figures.stored_energy, figures.stored_cold_work,
+                                figures.chemical_energy, figures.bars,          figures.broken_bars,
+                                figures.bar_energy};
+  parallel::sum(simulation.communicator(), sums);
+  std::tie(figures.elastic_energy, figures.stored_energy, figures.stored_cold_work, figures.chemical_energy,
+           figures.bars, figures.broken_bars, figures.bar_energy) = std::tuple_cat(sums);
 }
 
 std::vector<HistoryColumn> history_columns(const cases::Case& setup) {

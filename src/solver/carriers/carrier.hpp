@@ -35,8 +35,10 @@ struct Figures {
   double speed = 0.0;
   double pressure = -std::numeric_limits<double>::infinity();
   double temperature = -std::numeric_limits<double>::infinity();
-  double stored_cold_work = 0.0;                           ///< J
-  double chemical_energy = 0.0;                            ///< of unburnt explosive, J
+  double stored_cold_work = 0.0;  ///< J
+  double elastic_energy = 0.0,
+         stored_energy = 0.0;    ///< J (material::Constitutive::divide_energy); of bars too
+  double chemical_energy = 0.0;  ///< of unburnt explosive, J
   double bars = 0.0, broken_bars = 0.0, bar_energy = 0.0;  ///< numbers of bars, and their energy, J
 };
 

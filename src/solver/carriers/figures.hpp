@@ -2,12 +2,16 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/parallel/threads.hpp"
+#include "src/material/constitutive.hpp"
+#include "src/material/material.hpp"
 #include "src/solver/carriers/carrier.hpp"
 
 /// Sums and maxima common to the carriers.
@@ -48,6 +52,45 @@ inline void add_state(const MaterialPoints& points, Figures& figures) {
     figures.stored_cold_work +=
         parallel::sum<double>(energy.size(), [&](std::size_t p) { return points.mass[p] * energy[p]; });
   }
+}
+
+/// Holds parts of the internal energy of material points that are not heat (J).
+struct EnergyParts {
+  double elastic = 0.0, stored = 0.0;
+  EnergyParts& operator+=(const EnergyParts& other) {
+    elastic += other.elastic;
+    stored += other.stored;
+    return *this;
+  }
+};
+
+/// Adds the elastic and the stored energy of material points.
+/// @param body_of  body of a point, whose material is that of the same index
+template <class BodyOf>
+void add_energy_parts(const MaterialPoints& points,
+                      std::span<const std::shared_ptr<const Material>> materials, const BodyOf& body_of,
+                      Figures& figures) {
+  constexpr std::size_t most = material::chunk_size;
+  const EnergyParts sum =
+      parallel::sum_of_chunks<EnergyParts>(points.mass.size(), [&](std::size_t begin, std::size_t end) {
+        EnergyParts of_chunk;
+        std::array<double, most> elastic, stored;
+        for (std::size_t first = begin, last = begin; first < end; first = last) {
+          const std::size_t body = body_of(first), limit = std::min(end, first + most);
+          for (last = first + 1; last < limit && body_of(last) == body;) ++last;
+          const std::size_t n = last - first;
+          const Material& material = *materials[body];
+          material.constitutive->divide_energy(material, points, first, std::span(elastic.data(), n),
+                                               std::span(stored.data(), n));
+          for (std::size_t k = 0; k < n; ++k) {
+            of_chunk.elastic += points.mass[first + k] * elastic[k];
+            of_chunk.stored += points.mass[first + k] * stored[k];
+          }
+        }
+        return of_chunk;
+      });
+  figures.elastic_energy += sum.elastic;
+  figures.stored_energy += sum.stored;
 }
 
 /// Returns the memory of all fields, bytes.

@@ -212,6 +212,7 @@ void Hexahedra::add_figures(Figures& figures) const {
   for (const fem::Mesh& mesh : meshes_) {
     add_speeds(mesh.nodes.velocity, figures);
     add_state(mesh.points, figures);
+    add_energy_parts(mesh.points, state_.setup.materials, [&](std::size_t) { return mesh.body; }, figures);
   }
 }
 

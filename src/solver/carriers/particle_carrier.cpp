@@ -94,6 +94,9 @@ void ParticleCarrier::add_phases(std::span<PhaseMasses> of_body) const {
 void ParticleCarrier::add_figures(Figures& figures) const {
   add_speeds(state_.particles.velocity, figures);
   add_state(state_.particles, figures);
+  add_energy_parts(
+      state_.particles, state_.setup.materials, [&](std::size_t p) { return state_.particles.body[p]; },
+      figures);
   figures.chemical_energy += Explosives(state_).chemical_energy();
 }
 

@@ -79,7 +79,9 @@ std::string Trusses::advance() {
     }
     state_.booked.wall_impulse += afemp::stop_at_faces(nodes, state_.setup.geometry, dt, motion, heat);
     book_loads(acceleration_[b], nodes, motion, dt, state_.booked);
-    state_.booked.work += fem::deform(bars, motion, dt);
+    const fem::BarWork done = fem::deform(bars, motion, dt);
+    state_.booked.work += done.work;
+    state_.booked.plastic_heat += done.plastic_heat;
     fem::add_heat(bars, heat);
     fem::move_nodes(nodes, motion, dt);
   }
@@ -121,6 +123,7 @@ void Trusses::add_figures(Figures& figures) const {
     figures.bars += static_cast<double>(bars.elements.size());
     figures.broken_bars += static_cast<double>(std::ranges::count(bars.elements.broken, 1));
     figures.bar_energy += fem::internal_energy(bars);
+    figures.elastic_energy += fem::elastic_energy(bars);
   }
 }
 

@@ -57,6 +57,8 @@ std::string book(State& state, const MaterialReport& report, const Material& mat
   state.booked.at_pressure_floor += static_cast<double>(report.equation_of_state.at_pressure_floor);
   state.booked.plastic_work += report.plastic_work;
   state.booked.dissipation += report.dissipation;
+  state.booked.plastic_heat += report.plastic_heat;
+  state.booked.material_viscous_heat += report.viscous_heat;
   state.booked.limited_volume_changes += static_cast<double>(report.limited_volume_changes);
   state.booked.limited_densities += static_cast<double>(report.limited_densities);
   state.booked.limited_compressions += static_cast<double>(report.squeezed);
@@ -155,10 +157,14 @@ double MaterialStage::update(std::span<const std::uint32_t> particles, std::span
       held += domains::hold_back_pressure(state_.particles, list, state_, body);
     }
     plastic_work += std::exchange(report.plastic_work, 0.0);
-    const double dissipated = std::exchange(report.dissipation, 0.0);
+    const Irreversible irreversible = {list.front(), std::exchange(report.dissipation, 0.0),
+                                       std::exchange(report.plastic_heat, 0.0),
+                                       std::exchange(report.viscous_heat, 0.0)};
     const std::lock_guard lock(mutex_);
     sums_.reports[body].merge(report);
-    if (dissipated != 0.0) sums_.dissipations.emplace_back(list.front(), dissipated);
+    if (irreversible.dissipation != 0.0 || irreversible.plastic_heat != 0.0) {
+      sums_.irreversible.push_back(irreversible);
+    }
   }
   const std::lock_guard lock(mutex_);
   sums_.limited_domains += limited;
@@ -185,8 +191,13 @@ std::string MaterialStage::account() {
   state_.booked.plastic_work += std::accumulate(sums_.plastic_work.begin(), sums_.plastic_work.end(), 0.0);
   state_.booked.limited_domains += static_cast<double>(sums_.limited_domains);
   state_.booked.held_pressures += static_cast<double>(sums_.held_pressures);
-  std::ranges::sort(sums_.dissipations);  // makes the sum independent of the order of the threads
-  for (const auto& [first, dissipated] : sums_.dissipations) state_.booked.dissipation += dissipated;
+  // Sorted, the sums are independent of the order of the threads.
+  std::ranges::sort(sums_.irreversible, {}, &Irreversible::first);
+  for (const Irreversible& list : sums_.irreversible) {
+    state_.booked.dissipation += list.dissipation;
+    state_.booked.plastic_heat += list.plastic_heat;
+    state_.booked.material_viscous_heat += list.viscous_heat;
+  }
   SqueezedPoints squeezed(state_.bodies.size());
   const auto describe = [&](std::size_t p, const std::string& reason) {
     return state_.describe_particle(p, state_.run.time + state_.run.time_step, reason);

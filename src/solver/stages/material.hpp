@@ -71,11 +71,16 @@ class MaterialStage {
 
  private:
   using Clock = std::chrono::steady_clock;
+  /// Holds the irreversible energies of a list of particles (J), with its first particle.
+  struct Irreversible {
+    std::uint32_t first;
+    double dissipation, plastic_heat, viscous_heat;
+  };
   /// Holds sums over the particles of an update, by all threads.
   struct Sums {
-    std::vector<MaterialReport> reports;                         // of each body
-    std::vector<std::pair<std::uint32_t, double>> dissipations;  // J, with the first particle of each list
-    std::vector<double> plastic_work;                            // J, of each stretch
+    std::vector<MaterialReport> reports;     // of each body
+    std::vector<Irreversible> irreversible;  // of each list
+    std::vector<double> plastic_work;        // J, of each stretch
     std::size_t limited_domains = 0, held_pressures = 0;
     Clock::duration in_material{};
   };

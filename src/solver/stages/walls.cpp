@@ -19,14 +19,13 @@ void ContactStage::set_up_walls() {
   const unsigned fields = *std::ranges::max_element(field_of_body) + 1U;
   // Fields without a body count as continuous as well, so that no search is necessary for them.
   const unsigned used = cracks_ ? cracks_->fields().count() : fields;
-  const std::uint64_t unused = used >= grid::maximum_fields ? 0 : ~((std::uint64_t{1} << used) - 1);
-  std::array<std::uint64_t, 6> bonded{};
-  bonded.fill(unused);
+  std::array<grid::FieldSet, 6> bonded;
+  bonded.fill(grid::FieldSet::from(used));
   for (std::size_t b = 0; b < touched.size(); ++b) {
     for (std::size_t face = 0; face < 6; ++face) {
       if ((touched[b] >> face & 1U) == 0) continue;
       const unsigned field = field_of_body[b];
-      bonded[face] |= cracks_ ? cracks_->fields().parts(field) : std::uint64_t{1} << field;
+      bonded[face] |= cracks_ ? cracks_->fields().parts(field) : grid::FieldSet::of(field);
     }
   }
   state_.grid.bond_at_planes(bonded);
