@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -85,7 +86,7 @@ Column run_column(int cells, double strength, const std::string& load, double en
     depth.at(q.id[p]) = length - q.position[p][0];
   }
   EnergyWatch watch;
-  run_to(simulation, end, watch);
+  run_to(simulation, end, std::ref(watch));
   const Particles& q = simulation.particles();
   Column result{.area = length / cells,
                 .momentum = simulation.totals().momentum[0],

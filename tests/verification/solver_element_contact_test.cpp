@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <filesystem>
 #include <numbers>
 #include <utility>
@@ -151,7 +152,7 @@ TEST(ElementContact, KeepsMomentumAndEnergyWhileElementsBecomeParticles) {
     solver::Simulation simulation(impact({.normal = normal, .friction = 0.3}, ball).read(),
                                   parallel::world());
     Watch watch;
-    run_to(simulation, 1.2e-6, watch);
+    run_to(simulation, 1.2e-6, std::ref(watch));
     const solver::Ledger& ledger = simulation.state().ledger;
     EXPECT_LT(watch.energy, 1e-12) << normal;
     EXPECT_LT(watch.momentum, 1e-12) << normal;
