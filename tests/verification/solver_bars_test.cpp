@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <functional>
 #include <numbers>
 
 #include "src/core/base/error.hpp"
