@@ -9,9 +9,9 @@ from report.expectations import BadExpectation
 
 # Measures of gauges.csv that moving along with the bodies changes, as do its positions and velocities.
 OF_PATHS = ("wall_speed", "arrival_speed", "run_distance")
-OF_GAUGES = ("gauge", "peak", "change", "change_error", "arrival", "history_error")
+OF_GAUGES = ("gauge", "peak", "change", "change_error", "peak_change", "arrival", "history_error")
 # Measures of `whipple measure`, and the keys that they take.
-ON_REQUEST = {"wall_speed": ("place", "travel"), "arrival_speed": (), "run_distance": ("place",), "peak": (), "change": (), "arrival": (),
+ON_REQUEST = {"wall_speed": ("place", "travel"), "arrival_speed": (), "run_distance": ("place",), "peak": (), "change": (), "peak_change": (), "arrival": (),
               "profile_error": ("table",), "history_error": ("table",), "change_error": ("table",), "mean_force": ("time",), "peak_stress": ("place",), "elongation": (),
               "neck_strain": (), "failure_strain": (), "failure_triaxiality": (), "shear_strength": ("place", "travel"),
               "shear_stroke": ("travel",), "reach": ("fraction",), "height": ("place",), "jet_speed": ("fraction",), "jet_gap": ("fraction",), "jet_fraction": ("time", "speed")}

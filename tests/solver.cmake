@@ -15,13 +15,13 @@ whipple_test(test_run STARTS_MPI
   SOURCES parallel/run_restart_test.cpp unit/run_signal_control_test.cpp unit/run_history_columns_test.cpp property/run_forecast_test.cpp property/run_gauges_test.cpp property/solver_plausibility_test.cpp verification/run_steering_test.cpp
   DEPENDS whipple_run nlohmann_json::nlohmann_json GTest::gmock LABELS fast)
 whipple_test(test_force_gauges STARTS_MPI SOURCES property/run_force_gauges_test.cpp DEPENDS whipple_run LABELS fast)
-whipple_test(test_damping STARTS_MPI SOURCES verification/solver_damping_test.cpp DEPENDS whipple_solver LABELS fast)
+whipple_test(test_damping STARTS_MPI SOURCES verification/solver_damping_test.cpp verification/solver_plate_test.cpp DEPENDS whipple_solver LABELS fast)
 whipple_test(test_contact STARTS_MPI SOURCES property/contact_pressing_test.cpp verification/solver_gap_test.cpp verification/solver_first_touch_test.cpp verification/solver_conduction_test.cpp
              DEPENDS whipple_run LABELS fast)
 whipple_test(test_cracks STARTS_MPI SOURCES verification/solver_cracks_test.cpp verification/solver_fragment_size_test.cpp DEPENDS whipple_run LABELS fast)
 # The steady flow of grains: half a minute.
 whipple_test(test_granular_flow STARTS_MPI SOURCES verification/solver_granular_flow_test.cpp DEPENDS whipple_solver LABELS long)
-whipple_test(test_driven STARTS_MPI SOURCES verification/solver_driven_test.cpp verification/solver_tool_test.cpp verification/solver_friction_wall_test.cpp verification/solver_averages_test.cpp verification/solver_loads_test.cpp verification/solver_water_test.cpp verification/solver_many_bodies_test.cpp DEPENDS whipple_solver LABELS fast)
+whipple_test(test_driven STARTS_MPI SOURCES verification/solver_driven_test.cpp verification/solver_tool_test.cpp verification/solver_friction_wall_test.cpp verification/solver_averages_test.cpp verification/solver_loads_test.cpp verification/solver_water_test.cpp verification/solver_many_bodies_test.cpp verification/solver_tank_test.cpp verification/solver_cavitation_test.cpp DEPENDS whipple_solver LABELS fast)
 whipple_test(test_burn STARTS_MPI SOURCES verification/burn_test.cpp verification/burn_contact_test.cpp verification/lighting_times_test.cpp verification/reaction_test.cpp DEPENDS whipple_run GTest::gmock LABELS fast)
 add_test(NAME burn.fine_slab COMMAND test_burn --gtest_filter=PlanarDetonation.FollowsTheTaylorWaveOfTnt)
 set_tests_properties(burn.fine_slab PROPERTIES ENVIRONMENT "WHIPPLE_FINE_BURN=1;OMP_NUM_THREADS=1" LABELS long)
@@ -32,7 +32,7 @@ add_executable(fuzz EXCLUDE_FROM_ALL fuzz/case_fuzz.cpp fuzz/input_fuzz.cpp fuzz
                fuzz/md_potential_fuzz.cpp)
 target_link_libraries(fuzz PRIVATE whipple_flags whipple_app whipple_md_lammps GTest::gmock GTest::gtest_main)
 target_compile_definitions(fuzz PRIVATE WHIPPLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-whipple_test(test_rotation STARTS_MPI SOURCES verification/solver_rotation_test.cpp verification/solver_rubber_test.cpp verification/solver_finest_orders_test.cpp DEPENDS whipple_solver LABELS long)
+whipple_test(test_rotation STARTS_MPI SOURCES verification/solver_rotation_test.cpp verification/solver_rubber_test.cpp verification/solver_finest_orders_test.cpp verification/solver_fine_plate_test.cpp DEPENDS whipple_solver LABELS long)
 # Writes docs/generated/orders_of_convergence.md; a program of its own, as it takes minutes.
 add_executable(orders_of_convergence EXCLUDE_FROM_ALL verification/solver_orders.cpp)
 target_link_libraries(orders_of_convergence PRIVATE whipple_flags whipple_solver)

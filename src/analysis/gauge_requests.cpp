@@ -259,6 +259,14 @@ double history_error(const Request& request) {
   return relative_difference(measured, history);
 }
 
+double peak_change(const Request& request) {
+  const History history = of_gauge(request);
+  double greatest = history.value.empty() ? nan : 0.0;
+  for (const double value : history.value)
+    greatest = std::max(greatest, std::abs(value - history.value.front()));
+  return greatest;
+}
+
 double change_error(const Request& request) {
   History history = of_gauge(request);
   if (history.value.size() < 2) return nan;

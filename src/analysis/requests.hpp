@@ -55,6 +55,7 @@ double run_distance(const Request& request);
 double peak(const Request& request);
 double change(const Request& request);
 double change_error(const Request& request);
+double peak_change(const Request& request);
 double arrival(const Request& request);
 double history_error(const Request& request);
 double history_shift(const Request& request);

@@ -262,6 +262,7 @@ TEST_F(Requests, ADisplacementIsComparedWithACurveAtItsTimes) {
   file("curve.csv") << "time [s],displacement [mm]\n1,0\n2,400\n3,1000\n4,1200\n";
   EXPECT_NEAR(take("change_error.tip.x table=" + path("curve.csv")), (0.05 + 0.05 + 0.1) / (0.2 + 0.7 + 1.1),
               1e-12);
+  EXPECT_NEAR(take("peak_change.tip.x"), 1.0, 1e-12);
   file("curve.csv") << "time [s],displacement [mm]\n1,0\n2,400\n5,1000\n";
   EXPECT_TRUE(std::isnan(take("change_error.tip.x table=" + path("curve.csv")))) << "the run ends before";
 }

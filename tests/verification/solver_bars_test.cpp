@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <functional>
 #include <numbers>
 
 #include "src/core/base/error.hpp"
@@ -165,7 +166,7 @@ TEST(Bars, ImpactKeepsEnergyAndMomentumAndRestartsBitwise) {
     restarted.advance(6e-6);
   }
   expect_same(whole, restarted);
-  run_to(whole, 6e-6, watch);
+  run_to(whole, 6e-6, std::ref(watch));
   EXPECT_LT(watch.energy, 1e-12);
   EXPECT_LT(watch.momentum, 1e-12);
   EXPECT_NEAR(whole.totals().mass + whole.state().ledger.outflow.mass, mass, 1e-13 * mass);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -151,7 +152,7 @@ TEST(ElementContact, KeepsMomentumAndEnergyWhileElementsBecomeParticles) {
     solver::Simulation simulation(impact({.normal = normal, .friction = 0.3}, ball).read(),
                                   parallel::world());
     Watch watch;
-    run_to(simulation, 1.2e-6, watch);
+    run_to(simulation, 1.2e-6, std::ref(watch));
     const solver::Ledger& ledger = simulation.state().ledger;
     EXPECT_LT(watch.energy, 1e-12) << normal;
     EXPECT_LT(watch.momentum, 1e-12) << normal;
