@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Gate against drift: coarse cases compared with stored numbers, quantity by quantity.
 
-usage: drift.py [CASE]... [--renew | --same-as EXE] [--threads N] [--whipple EXE] [--work DIR]
+usage: drift.py [CASE]... [--renew | --same-as EXE [--within X]] [--threads N] [--whipple EXE] [--work DIR]
 
 Cases: tests/data/drift/cases.toml; numbers and tolerances: tests/data/drift/baseline.toml. Any number outside its tolerance
 fails; the table shows old and new. --renew stores the numbers of now and prints what changed, for the changelog.
@@ -10,7 +10,9 @@ A run is the same to the last bit on one machine with one compiler; others round
 amplifies that. The tolerance of a number is therefore 10 times its change under a perturbation of the Courant number by
 2e-6, far above round-off, and at least 0.1 %; --renew measures it.
 --same-as compares with another executable, digit by digit, as after a change that computes nothing new: if all cases agree,
-docs/generated/same_results.json notes it, and tables that the other one computed stay current.
+docs/generated/same_results.json notes it, and tables that the other one computed stay current. --within takes a relative
+difference for the same, as after code that is compiled in another order rounds differently; quantities that only one of both
+writes, and cases whose input the other does not read, are named and left out.
 Exit code 1 if a number drifted or a run failed, 2 for bad input.
 """
 import argparse
@@ -144,10 +146,14 @@ def note_same(whipple, other):
     print(f"drift: {new} computes what {old} does")
 
 
-def unlike(name, old, new):
-    """Rows of the numbers that differ in any digit."""
-    return [f"{name}: {key}: {old.get(key)!r}, {new.get(key)!r}" for key in sorted({*old, *new})
-            if old.get(key) != new.get(key) and not (math.isnan(old.get(key, 0.0)) and math.isnan(new.get(key, 0.0)))]
+def unlike(name, old, new, within=0.0):
+    """Rows of the numbers that differ by more than a relative difference, by default in any digit; with a difference only of those that
+    both have."""
+    plain = {key: {"value": value} for key, value in old.items()}
+    keys = sorted({*old, *new} if within == 0.0 else {*old} & {*new})
+    return [f"{name}: {key}: {old.get(key)!r}, {new.get(key)!r}" for key in keys
+            if old.get(key) != new.get(key) and not (math.isnan(old.get(key, 0.0)) and math.isnan(new.get(key, 0.0)))
+            and not (within > 0.0 and difference(key, plain, new) <= within)]
 
 
 def main():
@@ -156,6 +162,7 @@ def main():
     parser.add_argument("cases", nargs="*", metavar="CASE")
     parser.add_argument("--renew", action="store_true", help="store the numbers of now; prints what changed")
     parser.add_argument("--same-as", metavar="EXE", help="compare every digit with those of another executable")
+    parser.add_argument("--within", metavar="X", type=float, default=0.0, help="relative difference that counts as the same; default: none")
     parser.add_argument("--threads", type=int, default=len(os.sched_getaffinity(0)), help="runs at once, one thread each")
     parser.add_argument("--whipple", default=str(ROOT / "build/release/bin/whipple"), help="the executable")
     parser.add_argument("--work", type=pathlib.Path, default=ROOT / "run" / "drift", help="folder of the runs")
@@ -178,8 +185,13 @@ def main():
         return 2
     failed = sum(result is None for result in [*results, *others])
     if arguments.same_as:
-        rows = [row for case, one, other in zip(chosen, results, others) if one and other for row in unlike(case["name"], other, one)]
+        rows = [row for case, one, other in zip(chosen, results, others) if one and other
+                for row in unlike(case["name"], other, one, arguments.within)]
         print("\n".join(rows))
+        if arguments.within > 0.0:
+            apart = [case["name"] for case, other in zip(chosen, others) if other is None]
+            failed -= len(apart)
+            print("".join(f"drift: {name} is no case of the other executable\n" for name in apart), end="")
         if failed or rows or arguments.cases:
             print(f"drift: not the same: {len(rows)} numbers differ, {failed} runs failed" if failed or rows else
                   "drift: the same; not noted, as not all cases were run")
