@@ -122,9 +122,6 @@ SolidLiquidSurfaces CorrectedGraySurfaces::melting_surfaces() const {
 
 VapourDome::Search CorrectedGraySurfaces::dome_search() const {
   VapourDome::Search search = gray_.dome_search();
-  // Colder vapour is of no account (more than 1e8 times the volume of the solid), and no data keep corrections of its
-  // cold curve from further loops between melt and vapour.
-  search.least_reduced_temperature = 0.25;
   search.fluid = [this](double V, double T) {
     const GrayPoint p = fluid(V, T);
     return FluidPoint{p.pressure, p.energy, p.entropy};
