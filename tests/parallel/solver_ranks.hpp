@@ -53,11 +53,12 @@ inline void expect_same_on_all_ranks(const Simulation& together) {
 }
 
 /// Compares every number of two runs, relative to the largest of its kind.
-inline void expect_equal(const Simulation& a, const Simulation& b, double tolerance) {
+/// @param of_time_step  relative, of the time step alone: that of one point
+inline void expect_equal(const Simulation& a, const Simulation& b, double tolerance, double of_time_step) {
   EXPECT_EQ(a.state().step, b.state().step);
   EXPECT_EQ(a.particle_count(), b.particle_count());
   EXPECT_EQ(a.element_count(), b.element_count());
-  EXPECT_NEAR(a.state().time_step, b.state().time_step, tolerance * b.state().time_step);
+  EXPECT_NEAR(a.state().time_step, b.state().time_step, of_time_step * b.state().time_step);
   const Totals& initial = b.state().ledger.initial;
   const auto compare = [&](const Totals& x, const Totals& y, const char* what) {
     EXPECT_NEAR(x.mass, y.mass, tolerance * initial.mass) << what;
@@ -76,10 +77,18 @@ inline void expect_equal(const Simulation& a, const Simulation& b, double tolera
   EXPECT_LE(a.state().ledger.momentum_error(a.totals()), 1e-11);
 }
 
+inline void expect_equal(const Simulation& a, const Simulation& b, double tolerance) {
+  expect_equal(a, b, tolerance, tolerance);
+}
+
 /// Compares a run on all ranks with that of the root alone. Collective.
-inline void expect_agreement(const Simulation& together, const Simulation& alone, double tolerance) {
+inline void expect_agreement(const Simulation& together, const Simulation& alone, double tolerance,
+                             double of_time_step) {
   expect_same_on_all_ranks(together);
-  if (is_root()) expect_equal(together, alone, tolerance);
+  if (is_root()) expect_equal(together, alone, tolerance, of_time_step);
+}
+inline void expect_agreement(const Simulation& together, const Simulation& alone, double tolerance) {
+  expect_agreement(together, alone, tolerance, tolerance);
 }
 
 }  // namespace whipple::solver

@@ -24,6 +24,9 @@ using verification::restored;
 using verification::save;
 
 constexpr double middle = 1.5e-6, end = 3e-6;  // s
+// Sums agree to 1e-14; the time step is that of one point at the edge of a contact, where round-off is a part of 1e-10 of
+// it in single steps.
+constexpr double of_sums = 1e-11, of_time_step = 1e-9;
 
 /// Returns a case of a block between a plate of elements and a stamp of particles, both on paths, with a pressure behind it that begins in the second half.
 cases::Case press() {
@@ -80,14 +83,14 @@ TEST_F(ToolRanks, AgreeWithOneRankAndGoOnFromTheirCheckpoints) {
   ranks_.on_root([&] { of_one = save(alone, folder_ / "one").string(); });
   of_one = ranks_.broadcast(of_one);
   advance_on_root(alone, end);
-  expect_agreement(together, alone, 1e-11);
+  expect_agreement(together, alone, of_sums, of_time_step);
 
   Simulation again = restored(setup, of_all, MPI_COMM_WORLD);
   advance_to(again, end);
-  expect_agreement(again, alone, 1e-11);
+  expect_agreement(again, alone, of_sums, of_time_step);
   Simulation of_other = restored(setup, of_one, MPI_COMM_WORLD);
   advance_to(of_other, end);
-  expect_agreement(of_other, alone, 1e-11);
+  expect_agreement(of_other, alone, of_sums, of_time_step);
   const std::vector<run::HistoryColumn> columns = run::history_columns(setup);
   const std::vector<io::HistoryValue> row = run::history_row(columns, together);
   if (!is_root()) return;
