@@ -9,7 +9,6 @@
 #include "eos/models/free_energy_spline.hpp"
 #include "eos/models/gray_free_energy.hpp"
 #include "eos/models/gray_melting_curve.hpp"
-#include "eos/vapour_dome.hpp"
 #include "src/core/base/parameter_table.hpp"
 
 namespace whipple::eos {
@@ -65,8 +64,6 @@ class CorrectedGraySurfaces {
   [[nodiscard]] double isochoric_melting_temperature(double V) const;
   /// Returns the surfaces for the search of the melting curve; the result refers to this object.
   [[nodiscard]] SolidLiquidSurfaces melting_surfaces() const;
-  /// Returns the fluid for the search of its dome; the result refers to this object.
-  [[nodiscard]] VapourDome::Search dome_search() const;
 
  private:
   [[nodiscard]] GrayPoint liquid(double V, double T) const;  ///< continued beyond V_J

@@ -39,6 +39,21 @@ std::optional<Found> temperature_of(const Surface& surface, double E, double low
   return Found{T, surface(T)};
 }
 
+/// Returns the search of the dome of GRAY on the fluid of other surfaces, to which the result refers.
+template <class Surfaces>
+VapourDome::Search dome_search(const Surfaces& surfaces) {
+  VapourDome::Search search = surfaces.gray().dome_search();
+  search.fluid = [&surfaces](double V, double T) {
+    const GrayPoint p = surfaces.fluid(V, T);
+    return FluidPoint{p.pressure, p.energy, p.entropy};
+  };
+  search.isotherm = [&surfaces](double V, double T) {
+    const GrayPoint p = surfaces.fluid(V, T);
+    return IsothermPoint{p.pressure, p.pressure_by_volume};
+  };
+  return search;
+}
+
 }  // namespace
 
 template <class Surfaces>
@@ -72,7 +87,7 @@ ThreePhaseModel<Surfaces>::ThreePhaseModel(const Constants& constants)
     : constants_(constants),
       surfaces_(constants),
       melting_curve_(surfaces_.melting_surfaces()),
-      dome_(surfaces_.dome_search()),
+      dome_(dome_search(surfaces_)),
       least_volume_(surfaces_.least_volume(melting_curve_)),
       least_squared_sound_speed_(std::pow(least_sound_speed_ratio * constants.gray.hugoniot_intercept, 2)),
       join_melting_temperature_(surfaces_.isochoric_melting_temperature(surfaces_.gray().join_volume())) {

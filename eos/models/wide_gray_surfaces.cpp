@@ -154,17 +154,4 @@ SolidLiquidSurfaces WideGraySurfaces::melting_surfaces() const {
           .join_volume = gray_.join_volume()};
 }
 
-VapourDome::Search WideGraySurfaces::dome_search() const {
-  VapourDome::Search search = gray_.dome_search();
-  search.fluid = [this](double V, double T) {
-    const GrayPoint p = fluid(V, T);
-    return FluidPoint{p.pressure, p.energy, p.entropy};
-  };
-  search.isotherm = [this](double V, double T) {
-    const GrayPoint p = fluid(V, T);
-    return IsothermPoint{p.pressure, p.pressure_by_volume};
-  };
-  return search;
-}
-
 }  // namespace whipple::eos

@@ -8,7 +8,6 @@
 #include "eos/models/gray_free_energy.hpp"
 #include "eos/models/gray_melting_curve.hpp"
 #include "eos/models/thomas_fermi.hpp"
-#include "eos/vapour_dome.hpp"
 #include "src/core/base/parameter_table.hpp"
 
 namespace whipple::eos {
@@ -52,8 +51,6 @@ class WideGraySurfaces {
   [[nodiscard]] double greatest_temperature() const { return electrons_.greatest_temperature(); }
   /// Returns the surfaces for the search of the melting curve; the result refers to this object.
   [[nodiscard]] SolidLiquidSurfaces melting_surfaces() const;
-  /// Returns the fluid for the search of its dome; the result refers to this object.
-  [[nodiscard]] VapourDome::Search dome_search() const;
 
  private:
   [[nodiscard]] GrayIsochore isochore(double V) const;
