@@ -25,7 +25,7 @@ struct NodeChange {
 /// @param increment   d = dt f_i / m_i, m/s
 /// @param relaxation  beta
 template <class Number>
-[[gnu::always_inline]] inline NodeChange<Number> change_by_node(const Number& difference,
+[[gnu::always_inline]] WHIPPLE_POINT inline NodeChange<Number> change_by_node(const Number& difference,
                                                                 const Number& increment,
                                                                 const Number& relaxation) {
   const Number relaxed = relaxation * difference, rest = difference - increment;
@@ -36,7 +36,7 @@ template <class Number>
 /// @param loss    sum of N times the losses of the nodes, m^2/s^2
 /// @param change  sum of N times their changes of velocity, m/s
 template <class Number>
-[[gnu::always_inline]] inline Number heat_of_velocity(const Number& loss, const Number& change) {
+[[gnu::always_inline]] WHIPPLE_POINT inline Number heat_of_velocity(const Number& loss, const Number& change) {
   return 0.5 * (loss - change * change);
 }
 
@@ -50,7 +50,7 @@ struct FieldChange {
 /// @param moment       sum of N (d - beta D) r, m^2/s
 /// @param per_inertia  1/I, 1/m^2; 0: the point carries no affine field
 template <class Number>
-[[gnu::always_inline]] inline FieldChange<Number> change_of_field(const Number& moment,
+[[gnu::always_inline]] WHIPPLE_POINT inline FieldChange<Number> change_of_field(const Number& moment,
                                                                   const Number& per_inertia) {
   const Number change = per_inertia * moment;
   return {change, 0.5 * change * moment};
@@ -63,7 +63,7 @@ template <class Number>
 /// @param gradient  columns of L, 1/s
 /// @returns the loss of |C|^2, 1/s^2
 template <class Vector>
-[[gnu::always_inline]] inline auto convect(std::array<Vector, 3>& c, const std::array<Vector, 3>& gradient,
+[[gnu::always_inline]] WHIPPLE_POINT inline auto convect(std::array<Vector, 3>& c, const std::array<Vector, 3>& gradient,
                                            double dt) {
   const Vector f0 = unit_vector<Vector>(0) + dt * gradient[0];
   const Vector f1 = unit_vector<Vector>(1) + dt * gradient[1];
@@ -78,7 +78,10 @@ template <class Vector>
     carried[a] = component(rows[0], a) * c[0] + component(rows[1], a) * c[1] + component(rows[2], a) * c[2];
   }
   const Scalar after = squared_norm(carried);
-  using std::sqrt, whipple::sqrt;
+  using std::sqrt;
+#ifndef __CUDACC__
+  using whipple::sqrt;  // of registers
+#endif
   const Scalar cap = sqrt(before / after);  // 0/0 is not less than the inverse
   const Scalar scale = cap < inverse ? cap : inverse;
   for (std::size_t a = 0; a < 3; ++a) c[a] = too_large ? c[a] : scale * carried[a];

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "src/core/base/dialect.hpp"
+
 /// Destination of the kinetic energy that a transfer removes from a point (docs/theory/dissipation.md, 2).
 namespace whipple::transfer::formulas {
 
@@ -45,7 +47,7 @@ struct DividedLosses {
 
 /// Returns whether the state of a particle indicates gaps: failed, beside a void, in tension, or less dense than at
 /// the start. Material in its initial state has none; round-off of its pressure and volume does not matter.
-inline bool is_loose(const LossyPoint& point, double initial_density) {
+WHIPPLE_POINT inline bool is_loose(const LossyPoint& point, double initial_density) {
   constexpr double round_off = 1e-9;  // of rho c^2 and of the density
   return point.failed || point.void_volume > 0.0 ||
          point.pressure * point.volume < -round_off * point.mass * point.sound_speed * point.sound_speed ||
@@ -59,7 +61,7 @@ inline bool is_loose(const LossyPoint& point, double initial_density) {
 /// Where gaps close, material collides: all of the loss is heat, and so is the fraction of the unresolved energy by which the volume decreases.
 /// Contact heats, but for fragmented material that expands, whose fragments hit those of another body as they hit
 /// one another.
-inline DividedLosses divide_losses(const LossRates& rates, const LossyPoint& point, const LossyStep& step) {
+WHIPPLE_POINT inline DividedLosses divide_losses(const LossRates& rates, const LossyPoint& point, const LossyStep& step) {
   const bool loose = is_loose(point, rates.initial_density);
   if (loose && step.divergence < 0.0) {
     const double share = -std::expm1(rates.collision_rate * step.divergence * step.dt);

@@ -18,14 +18,24 @@
 /// templates, which have no target of their own, and inlines them in `Wide::run`; forced inlining would be an error.
 namespace whipple {
 
+/// Counts the numbers of a register.
+template <class Register>
+constexpr std::size_t width = sizeof(Register) / sizeof(double);
+
+// A number.
+WHIPPLE_POINT inline double multiply_add(double a, double b, double c) { return std::fma(a, b, c); }
+/// Returns the smaller (larger) number as the instruction does: b if one is NaN.
+WHIPPLE_POINT inline double minimum(double a, double b) { return a < b ? a : b; }
+WHIPPLE_POINT inline double maximum(double a, double b) { return a > b ? a : b; }
+inline bool any(bool mask) { return mask; }
+inline bool all_positive(double x) { return x > 0.0; }
+WHIPPLE_POINT inline double select(bool mask, double a, double b) { return mask ? a : b; }
+
+#ifndef __CUDACC__  // kernels of a graphics processor take single numbers
 /// Holds four doubles: vector extension of the compiler.
 using Lanes [[gnu::vector_size(32)]] = double;
 /// Holds the result of a comparison of Lanes; `mask ? a : b` selects lane by lane.
 using LanesMask = decltype(Lanes{} < Lanes{});
-
-/// Counts the numbers of a register.
-template <class Register>
-constexpr std::size_t width = sizeof(Register) / sizeof(double);
 
 inline Lanes broadcast(double value) { return Lanes{value, value, value, value}; }
 /// Loads one number into all lanes.
@@ -104,14 +114,6 @@ inline Triple<Lanes> load_vectors(const double* from) {
   return {__builtin_shufflevector(ab_x, c, 0, 1, 2, 5), __builtin_shufflevector(ab_y, c, 0, 1, 2, 6),
           __builtin_shufflevector(ab_z, c, 0, 1, 4, 7)};
 }
-
-// A number.
-inline double multiply_add(double a, double b, double c) { return std::fma(a, b, c); }
-inline double minimum(double a, double b) { return a < b ? a : b; }  // as the instruction: b if one is NaN
-inline double maximum(double a, double b) { return a > b ? a : b; }
-inline bool any(bool mask) { return mask; }
-inline bool all_positive(double x) { return x > 0.0; }
-inline double select(bool mask, double a, double b) { return mask ? a : b; }
 
 // A register whose lanes 0 to 2 are a vector.
 /// Returns lane a in all lanes.
@@ -208,14 +210,18 @@ struct Wide {
     return kernel();
   }
 };
+#endif
 
 /// Returns a number in all lanes.
 template <class Register>
-WHIPPLE_INLINE inline Register broadcast(double x) {
+WHIPPLE_INLINE WHIPPLE_POINT inline Register broadcast(double x) {
   if constexpr (width<Register> == 1) return x;
+#ifndef __CUDACC__
   if constexpr (width<Register> == 4) return Register{x, x, x, x};
   if constexpr (width<Register> == 8) return broadcast_wide(x);
+#endif
 }
+#ifndef __CUDACC__
 /// Loads the first `count` numbers, at least one; the other lanes are zero.
 template <class Register>
 WHIPPLE_INLINE inline Register load(const double* from, std::size_t count = width<Register>) {
@@ -223,5 +229,6 @@ WHIPPLE_INLINE inline Register load(const double* from, std::size_t count = widt
   if constexpr (width<Register> == 4) return load(from, count, 0.0);
   if constexpr (width<Register> == 8) return load_wide(from, count);
 }
+#endif
 
 }  // namespace whipple

@@ -14,6 +14,7 @@ namespace whipple {
 template <class T>
 concept VectorRegister = !std::is_class_v<T> && (width<T> == 4 || width<T> == 8);
 
+#ifndef __CUDACC__
 /// Calls get(0), and get(1) for the second half.
 template <VectorRegister Vector, class Get>
 WHIPPLE_INLINE inline Vector by_points(Get&& get) {
@@ -26,24 +27,27 @@ WHIPPLE_INLINE inline Lanes of_point(Vector v, std::size_t i) {
   if constexpr (width<Vector> == 4) return v;
   if constexpr (width<Vector> == 8) return half(v, i);
 }
+#endif
 
 template <class Vector>
-WHIPPLE_INLINE inline Vector unit_vector(std::size_t a) {
+WHIPPLE_INLINE WHIPPLE_POINT inline Vector unit_vector(std::size_t a) {
   const auto is = [a](std::size_t b) WHIPPLE_INLINE { return a == b ? 1.0 : 0.0; };
+#ifndef __CUDACC__
   if constexpr (VectorRegister<Vector>) {
     return by_points<Vector>([&](std::size_t) WHIPPLE_INLINE { return Lanes{is(0), is(1), is(2), 0.0}; });
-  } else {
-    return {is(0), is(1), is(2)};
   }
+#endif
+  if constexpr (!VectorRegister<Vector>) return {is(0), is(1), is(2)};
 }
 
+template <class T>
+WHIPPLE_INLINE WHIPPLE_POINT inline T component(const Triple<T>& v, std::size_t a) {
+  return a == 0 ? v.x : a == 1 ? v.y : v.z;
+}
+#ifndef __CUDACC__
 template <VectorRegister Vector>
 WHIPPLE_INLINE inline Vector component(Vector v, std::size_t a) {
   return lane(v, a);
-}
-template <class T>
-WHIPPLE_INLINE inline T component(const Triple<T>& v, std::size_t a) {
-  return a == 0 ? v.x : a == 1 ? v.y : v.z;
 }
 /// Returns the sum of lanes 0 to 2, in all lanes.
 template <VectorRegister Vector>
@@ -64,8 +68,9 @@ template <VectorRegister Vector>
 WHIPPLE_INLINE inline Vector squared_norm(const std::array<Vector, 3>& columns) {
   return sum_of_three(columns[0] * columns[0] + columns[1] * columns[1] + columns[2] * columns[2]);
 }
+#endif
 template <class T>
-WHIPPLE_INLINE inline T squared_norm(const std::array<Triple<T>, 3>& columns) {
+WHIPPLE_INLINE WHIPPLE_POINT inline T squared_norm(const std::array<Triple<T>, 3>& columns) {
   return dot(columns[0], columns[0]) + dot(columns[1], columns[1]) + dot(columns[2], columns[2]);
 }
 
