@@ -16,7 +16,7 @@ namespace whipple::device {
 
 constexpr int block_edge = 4;
 constexpr std::uint32_t block_nodes = 64;
-constexpr int stencil_edge = 3;                                                    ///< nodes along a direction
+constexpr int stencil_edge = 3;  ///< nodes along a direction
 constexpr std::uint32_t stencil_nodes = stencil_edge * stencil_edge * stencil_edge;  ///< 27
 constexpr std::int32_t nowhere = -1;
 
