@@ -33,6 +33,8 @@ MAY_USE = {
     "src/grid": ["src/core/base", "src/core/parallel"],
     "src/material": ["src/core/base", "src/core/input", "eos", "eos/files", "src/particles"],
     "src/transfer": ["src/core/base", "src/core/parallel", "src/particles", "src/grid"],
+    # The step on a graphics processor: kernels of single points and nodes, and their engine.
+    "src/device": ["src/core/base", "src/core/parallel", "eos", "src/particles", "src/material", "src/transfer"],
     "src/fem": ["src/core/base", "src/core/parallel", "src/particles", "src/material"],
     "src/contact": ["src/core/base", "src/core/parallel", "src/particles", "src/grid", "src/transfer", "src/fem"],
     "src/afemp": ["src/core/base", "src/core/parallel", "src/particles", "src/grid", "src/material", "src/transfer", "src/fem"],
@@ -42,7 +44,7 @@ MAY_USE = {
     "src/case": ["src/core/base", "src/core/input", "src/core/parallel", "src/solids", "eos", "eos/files", "src/particles", "src/grid", "src/material",
                   "src/transfer", "src/fem", "src/contact", "src/io"],
     "src/solver": ["src/core/base", "src/core/parallel", "eos", "src/particles", "src/grid", "src/material", "src/transfer",
-                   "src/fem", "src/contact", "src/afemp", "src/io", "src/case"],
+                   "src/device", "src/fem", "src/contact", "src/afemp", "src/io", "src/case"],
     # Reads what runs wrote, with the keys of a case; knows no solver.
     "src/analysis": ["src/core/base", "src/core/parallel", "src/core/hdf5", "src/grid", "src/material", "src/case"],
     # The loop around the solver: what a run writes, and what may be asked of it.

@@ -17,6 +17,7 @@
 #include "src/core/parallel/threads.hpp"
 #include "src/core/process/paths.hpp"
 #include "src/io/ranks.hpp"
+#include "src/solver/device/device_stage.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple::bench {
@@ -77,9 +78,11 @@ Part time_steps(solver::Simulation& simulation, std::size_t steps) {
 
 }  // namespace
 
-Measurement measure(const Problem& problem, int threads, Length length, MPI_Comm communicator) {
+Measurement measure(const Problem& problem, int threads, Length length, solver::Device device,
+                    MPI_Comm communicator) {
   parallel::set_threads(threads);
   cases::Case setup = cases::read_case(process::find_data(problem.case_file).string(), problem.overrides);
+  if (solver::is_device(device)) solver::evaluate_by_tables(setup);
   cases::tabulate_materials(setup, io::Ranks(communicator));
   std::optional<solver::Simulation> simulation(std::in_place, setup, communicator);
   const bool whole = length == Length::whole;
@@ -91,6 +94,8 @@ Measurement measure(const Problem& problem, int threads, Length length, MPI_Comm
       simulation->advance(setup.time.end);
     }
   }
+  simulation->use(device);
+  if (simulation->device() != nullptr) simulation->device()->engine().measure_stages(true);
   Part best;
   const std::int64_t first_step = simulation->state().step;
   const std::size_t steps = static_cast<std::size_t>(problem.steps / share) / parts;
@@ -120,6 +125,10 @@ Measurement measure(const Problem& problem, int threads, Length length, MPI_Comm
                      .peak_memory = peak[0],
                      .stages = {},
                      .machine = {}};
+  if (simulation->device() != nullptr) {
+    const device::Rates rates = simulation->device()->engine().rates();
+    result.machine = {.bandwidth = rates.bandwidth, .arithmetic = rates.arithmetic};
+  }
   for (const solver::Profile::Stage& stage : best.stages) {
     const StageCost cost = stage_cost(stage.name, setup, nodes / points);
     result.stages.push_back({stage.name, 1e9 * stage.seconds / best.particle_steps, cost.bytes, cost.flops});

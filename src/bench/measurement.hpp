@@ -11,6 +11,7 @@
 
 #include "src/bench/machine.hpp"
 #include "src/bench/problems.hpp"
+#include "src/solver/device/device.hpp"
 
 namespace whipple::bench {
 
@@ -46,8 +47,10 @@ enum class Length {
   whole,  ///< from the start to the end of the case
 };
 
-/// Times a problem on the ranks of a communicator. Collective.
-Measurement measure(const Problem& problem, int threads, Length length, MPI_Comm communicator);
+/// Times a problem on the ranks of a communicator, or on a device. Collective.
+/// @throws InputError naming what a device does not compute of the problem
+Measurement measure(const Problem& problem, int threads, Length length, solver::Device device,
+                    MPI_Comm communicator);
 
 nlohmann::json to_json(const Measurement& measurement);
 /// Reads a measurement.

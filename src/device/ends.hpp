@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "src/device/lattice.hpp"
+#include "src/device/material/material_point.hpp"
 #include "src/device/points.hpp"
 #include "src/device/reduction.hpp"
 
@@ -46,6 +47,7 @@ struct StepSums {
     speed,       ///< sound speed plus largest component of the velocity
     change,      ///< squared change of the velocity
     rate,        ///< of compression
+    relative,    ///< squared speed in the frame of reference
     first_ends,  ///< of the events that end a run: all_of_origin less the origin of the first particle
     maxima = first_ends + 4
   };
@@ -62,7 +64,8 @@ struct EndStep {
   Points points;
   Triple<double> lower, upper;  ///< m
   std::array<FaceKind, 6> faces;
-  double inertia;  ///< of the affine fields, per mass, m^2
+  double inertia;        ///< of the affine fields, per mass, m^2
+  Triple<double> frame;  ///< velocity of the frame of reference, m/s
 
   WHIPPLE_POINT void operator()(std::size_t p, Result& result) const {
     const bool stays = pass_faces(p, result);
@@ -71,7 +74,10 @@ struct EndStep {
       result.sum[StepSums::leaving] += 1.0;
     }
     add_step(p, result);
-    if (stays) add_totals(points, p, inertia, result);
+    if (!stays) return;
+    add_totals(points, p, inertia, result);
+    const Triple<double> v = points.vector(velocity, p) - frame;
+    result.raise(StepSums::relative, dot(v, v));
   }
 
   /// Adds the totals of a particle to any sums that begin with these.
@@ -166,7 +172,7 @@ struct EndStep {
     for (std::size_t k = 0; k < S::sums - S::first_event; ++k) {
       const bool set = (bits >> k & 1U) != 0;
       if (set) result.sum[S::first_event + k] += 1.0;
-      if ((ending_events >> k & 1U) == 0) continue;
+      if ((event::stopping >> k & 1U) == 0) continue;
       if (set && ends < S::maxima - S::first_ends) {
         result.raise(S::first_ends + ends, all_of_origin - static_cast<double>(points.origin[p]));
       }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "src/device/contact/nodes.hpp"
 #include "src/device/lattice.hpp"
 #include "src/device/reduction.hpp"
 
@@ -88,7 +89,8 @@ struct RestrictToMirror {
 struct SolveMomentum {
   Lattice lattice;
   double dt;
-  double rate;  ///< kappa dt / dx, s/m
+  double rate;              ///< kappa dt / dx, s/m
+  const ContactRole* role;  ///< of each node; null: one velocity field
 
   WHIPPLE_POINT void operator()(std::size_t i) const {
     Node& node = lattice.nodes[i];
@@ -103,14 +105,9 @@ struct SolveMomentum {
     node.set_velocity({p.x / m, p.y / m, p.z / m});
     node.set_relaxation(beta);
     node.set_increment(per_mass * f);
-    node.set_heat(m);  // contact takes it for the mass
+    node.set_heat(role == nullptr || role[i] == ContactRole::none ? 0.0
+                                                                  : m);  // contact takes the mass from there
   }
-};
-
-/// Replaces the mass that contact takes by the heat that it made: none.
-struct ClearHeat {
-  Node* nodes;
-  WHIPPLE_POINT void operator()(std::size_t i) const { nodes[i].set_heat(0.0); }
 };
 
 /// Sets the motion beyond a plane to the reflected one.

@@ -11,9 +11,14 @@
 #include "src/core/base/error.hpp"
 #include "src/device/bins.hpp"
 #include "src/device/conduction.hpp"
+#include "src/device/contact/apply.hpp"
+#include "src/device/contact/nodes.hpp"
+#include "src/device/contact/sums.hpp"
+#include "src/device/contact/surfaces.hpp"
 #include "src/device/engine.hpp"
 #include "src/device/gather.hpp"
 #include "src/device/nodes.hpp"
+#include "src/device/peak.hpp"
 #include "src/device/rates.hpp"
 #include "src/device/scatter.hpp"
 #include "src/device/strain.hpp"
@@ -30,14 +35,15 @@ class Stepper final : public Engine {
     upload(points);
   }
 
-  Outcome step(double dt, double end) override {
+  Outcome step(double dt, double end, double least_closing_speed) override {
     outcome_ = {};
+    least_closing_speed_ = least_closing_speed;
     timed(Stage::bins, [&] { bin(); });
     timed(Stage::conduction, [&] { conduct(dt); });
     timed(Stage::scatter, [&] { scatter(); });
     timed(Stage::contact, [&] { find_contact(dt); });
     timed(Stage::grid, [&] { solve_momentum(dt); });
-    timed(Stage::contact, [&] { apply_contact(dt); });
+    timed(Stage::contact, [&] { apply_contact(); });
     timed(Stage::grid, [&] { copy_mirrors(dt); });
     timed(Stage::gather, [&] {
       space_.for_each(points_.size, MoveParticles{.lattice = lattice_,
@@ -52,6 +58,7 @@ class Stepper final : public Engine {
     return outcome_;
   }
 
+  void set_frame(const Triple<double>& velocity) override { frame_ = velocity; }
   EndOfStep measure() override {
     for (std::uint32_t c = work; c < all_components; ++c) {
       space_.for_each(points_.size, Fill<double>{points_.numbers + c * points_.stride, 0.0});
@@ -66,11 +73,12 @@ class Stepper final : public Engine {
   [[nodiscard]] std::size_t size() const override { return points_.size; }
   [[nodiscard]] std::size_t bytes() const override;
   [[nodiscard]] std::string device() const override { return space_.name(); }
+  Rates rates() override { return measured_rates<Space>(space_); }
   void measure_stages(bool measure) override {
     measures_ = measure;
     times_ = {};
   }
-  [[nodiscard]] const std::array<double, stage_names.size()>& stage_times() const override { return times_; }
+  [[nodiscard]] const std::array<double, stage_count>& stage_times() const override { return times_; }
 
  private:
   template <class T>
@@ -101,7 +109,7 @@ class Stepper final : public Engine {
   void scatter();
   void find_contact(double dt);
   void solve_momentum(double dt);
-  void apply_contact(double dt);
+  void apply_contact();
   void copy_mirrors(double dt);
   void strain(double dt, double end);
   void end_step();
@@ -126,15 +134,17 @@ class Stepper final : public Engine {
             .lower = problem_.lower,
             .upper = {upper(problem_.lower.x, 0), upper(problem_.lower.y, 1), upper(problem_.lower.z, 2)},
             .faces = problem_.faces,
-            .inertia = problem_.inertia()};
+            .inertia = problem_.inertia(),
+            .frame = frame_};
   }
 
   Problem problem_;
   Space space_;
   Outcome outcome_;
   bool measures_ = false;
-  std::array<double, stage_names.size()> times_{};
+  std::array<double, stage_count> times_{};
   int steps_to_sort_ = 0;
+  Triple<double> frame_{};
 
   Points points_;
   Array<double> numbers_, spare_;
@@ -149,6 +159,18 @@ class Stepper final : public Engine {
       first_;
   Array<std::int32_t> slot_of_block_, cell_at_node_, nodes_of_cell_;
   Array<Node> nodes_, brought_, cell_sums_;
+
+  double least_closing_speed_ = 0.0;  ///< of contacts that limit the time step, m/s
+  ContactSurfaces surfaces_{};
+  Array<ContactRole> role_;
+  Array<std::uint32_t> flags_;
+  Array<ContactPair> pairs_;
+  Array<VolumeGradient> gradients_;
+  Array<CandidateNormals> normals_;
+  Array<Extents> extents_;
+  Array<ContactBalance> balances_;
+  Array<Approach> approaches_;
+  Array<DecidingApproaches> deciding_;
 };
 
 template <class Space>
@@ -228,7 +250,8 @@ std::size_t Stepper<Space>::bytes() const {
   const auto sum = [](const auto&... arrays) { return (arrays.bytes() + ...); };
   return sum(numbers_, spare_, body_, origin_, spare_indices_, tables_, keys_, order_, reached_, before_,
              block_of_slot_, cell_begin_, cell_of_ordered_, first_, slot_of_block_, cell_at_node_,
-             nodes_of_cell_, nodes_, brought_, cell_sums_);
+             nodes_of_cell_, nodes_, brought_, cell_sums_, role_, flags_, pairs_, gradients_, normals_,
+             extents_, balances_, approaches_, deciding_);
 }
 
 /// Assigns the particles to blocks and cells at their present positions.
@@ -330,15 +353,70 @@ template <class Space>
 void Stepper<Space>::solve_momentum(double dt) {
   at_mirrors<FoldMirror>();
   at_mirrors<RestrictToMirror>();
-  space_.for_each(node_count(), SolveMomentum{lattice_, dt, problem_.kappa * dt / problem_.cell_size});
+  space_.for_each(node_count(), SolveMomentum{lattice_, dt, problem_.kappa * dt / problem_.cell_size,
+                                              problem_.fields < 2 ? nullptr : role_.data()});
+}
+
+/// Finds the pairs of nodes at which two fields meet, and the surfaces of the material there, from the sums of particles.
+template <class Space>
+void Stepper<Space>::find_contact(double dt) {
+  if (problem_.fields < 2) return;
+  const std::size_t nodes = node_count();
+  role_.reserve(nodes);
+  flags_.reserve(nodes);
+  before_.reserve(nodes);
+  space_.for_each(nodes, FindContactRoles{lattice_, role_.data()});
+  space_.for_each(nodes, FlagFirstOfPair{role_.data(), flags_.data()});
+  const std::uint32_t pairs = space_.scan(flags_.data(), before_.data(), nodes);
+  problem_.contact.dt = dt;
+  surfaces_.count = pairs;
+  if (pairs == 0) return;
+  pairs_.reserve(pairs);
+  normals_.reserve(pairs);
+  gradients_.reserve(std::size_t{2} * pairs);
+  extents_.reserve(std::size_t{2} * pairs);
+  balances_.reserve(pairs);
+  approaches_.reserve(pairs);
+  surfaces_ = {.pairs = pairs_.data(),
+               .count = pairs,
+               .gradients = gradients_.data(),
+               .normals = normals_.data(),
+               .extents = extents_.data()};
+  space_.for_each(nodes, ListContactPairs{lattice_, role_.data(), before_.data(), pairs_.data()});
+  space_.for_each(std::size_t{2} * pairs, SumVolumeGradients{lattice_, points_, surfaces_});
+  space_.for_each(pairs, ChooseNormals{lattice_, problem_.contact, surfaces_});
+  space_.for_each(std::size_t{2} * pairs, FindExtents{lattice_, points_, surfaces_});
 }
 
 template <class Space>
-void Stepper<Space>::find_contact(double) {}
-
-template <class Space>
-void Stepper<Space>::apply_contact(double) {
-  space_.for_each(node_count(), ClearHeat{nodes_.data()});
+void Stepper<Space>::apply_contact() {
+  const std::size_t pairs = surfaces_.count;
+  if (problem_.fields < 2 || pairs == 0) return;
+  space_.for_each(pairs,
+                  ApplyContact{lattice_, problem_.contact, surfaces_, balances_.data(), approaches_.data()});
+  outcome_.contact = space_.reduce(pairs, SumBalances{balances_.data()}).sum;
+  if (outcome_.contact[4] > 0.0) {
+    throw StateError(
+        "more than two bodies meet at a node: a device computes contact of two velocity fields (--device cpu "
+        "computes any number; contact_group joins bodies in one field)");
+  }
+  const auto of_fields = static_cast<std::uint32_t>(pairs_of_fields(problem_.fields));
+  const FindDecidingApproaches find = {.approach = approaches_.data(),
+                                       .count = pairs,
+                                       .pairs = of_fields,
+                                       .dt = problem_.contact.dt,
+                                       .least_speed = least_closing_speed_,
+                                       .deciding = nullptr};
+  const std::size_t found =
+      (pairs + FindDecidingApproaches::chunk - 1) / FindDecidingApproaches::chunk * of_fields;
+  deciding_.reserve(found);
+  FindDecidingApproaches into = find;
+  into.deciding = deciding_.data();
+  space_.for_each(found, into);
+  std::vector<DecidingApproaches> parts(found);
+  deciding_.download(parts.data(), found);
+  outcome_.approaches.assign(parts.begin(), parts.begin() + of_fields);
+  for (std::size_t i = of_fields; i < found; ++i) find.combine(outcome_.approaches[i % of_fields], parts[i]);
 }
 
 template <class Space>
@@ -350,12 +428,19 @@ void Stepper<Space>::copy_mirrors(double dt) {
 
 template <class Space>
 void Stepper<Space>::strain(double dt, double end) {
-  strain_all<Space>(space_, points_, problem_.materials, materials_.data(), tables_.data(), {.dt = dt, .time = end});
+  strain_all<Space>(space_, points_, problem_.materials, materials_.data(), tables_.data(),
+                    {.dt = dt, .time = end});
 }
 
 template <class Space>
 void Stepper<Space>::end_step() {
   outcome_.sums = space_.reduce(points_.size, ends());
+  constexpr auto squeezed = static_cast<std::size_t>(std::countr_zero(event::squeezed));
+  if (outcome_.sums.sum[StepSums::first_event + squeezed] > 0.0) {
+    for (std::uint32_t b = 0; b < problem_.field_of_body.size(); ++b) {
+      outcome_.squeezed.push_back(space_.reduce(points_.size, MarkedMass{points_, b, event::squeezed}));
+    }
+  }
   if (outcome_.sums.sum[StepSums::leaving] > 0.0) remove_leaving();
 }
 

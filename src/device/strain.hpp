@@ -21,11 +21,11 @@ struct StrainParticles {
 
   WHIPPLE_POINT void operator()(std::size_t p) const {
     const MaterialConstants& material = materials[points.body[p]];
-    if (material.eos_kind != eos || material.strength_kind != strength) return;
+    if (material.eos != eos || material.strength != strength) return;
     const auto at = [&](std::uint32_t component) -> double& { return points.at(component, p); };
-    const material::formulas::Matrix<double> l = {
-        at(gradient),     at(gradient + 1), at(gradient + 2), at(gradient + 3), at(gradient + 4),
-        at(gradient + 5), at(gradient + 6), at(gradient + 7), at(gradient + 8)};
+    const material::formulas::Matrix<double> l = {at(gradient),     at(gradient + 1), at(gradient + 2),
+                                                  at(gradient + 3), at(gradient + 4), at(gradient + 5),
+                                                  at(gradient + 6), at(gradient + 7), at(gradient + 8)};
     const double divergence_of_field = at(affine) + at(affine + 4) + at(affine + 8);
     MaterialState state = load(p);
     const MaterialResult result =
@@ -41,7 +41,8 @@ struct StrainParticles {
  private:
   [[nodiscard]] WHIPPLE_POINT MaterialState load(std::size_t p) const {
     MaterialState state;
-    for_each_number([&](double& number, std::uint32_t component) { number = points.at(component, p); }, state);
+    for_each_number([&](double& number, std::uint32_t component) { number = points.at(component, p); },
+                    state);
     state.deviator = points.symmetric(deviator, p);
     return state;
   }
@@ -84,7 +85,7 @@ void strain_all(Space& space, const Points& points, std::span<const MaterialCons
                 const MaterialConstants* materials, const double* tables, const MaterialStep& step) {
   const auto run = [&]<EosKind eos, StrengthKind strength>() {
     for (const MaterialConstants& body : of_bodies) {
-      if (body.eos_kind != eos || body.strength_kind != strength) continue;
+      if (body.eos != eos || body.strength != strength) continue;
       return space.for_each(points.size, StrainParticles<eos, strength>{points, materials, tables, step});
     }
   };
@@ -94,7 +95,7 @@ void strain_all(Space& space, const Points& points, std::span<const MaterialCons
     run.template operator()<eos, StrengthKind::johnson_cook>();
     run.template operator()<eos, StrengthKind::steinberg_guinan>();
   };
-  of_eos.template operator()<EosKind::mie_gruneisen>();
+  of_eos.template operator()<EosKind::gruneisen>();
   of_eos.template operator()<EosKind::table>();
 }
 
