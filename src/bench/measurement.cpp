@@ -46,7 +46,10 @@ double point_count(const solver::Simulation& simulation) {
 }
 
 /// Counts the grid nodes of all ranks.
-double node_count(const solver::Simulation& simulation) {
+double node_count(solver::Simulation& simulation) {
+  if (simulation.device() != nullptr) {
+    return static_cast<double>(simulation.device()->engine().slots()) * grid::nodes_per_block;
+  }
   std::array<double, 1> nodes = {static_cast<double>(simulation.grid().slots()) * grid::nodes_per_block};
   parallel::sum(simulation.communicator(), nodes);
   return nodes[0];
@@ -123,11 +126,13 @@ Measurement measure(const Problem& problem, int threads, Length length, solver::
                      .particles_per_block = points / nodes * grid::nodes_per_block,
                      .bytes_per_particle = memory[0] / points,
                      .peak_memory = peak[0],
+                     .device = {},
                      .stages = {},
                      .machine = {}};
   if (simulation->device() != nullptr) {
     const device::Rates rates = simulation->device()->engine().rates();
     result.machine = {.bandwidth = rates.bandwidth, .arithmetic = rates.arithmetic};
+    result.device = simulation->device()->engine().device();
   }
   for (const solver::Profile::Stage& stage : best.stages) {
     const StageCost cost = stage_cost(stage.name, setup, nodes / points);
@@ -154,6 +159,7 @@ nlohmann::json to_json(const Measurement& m) {
           {"particles_per_block", m.particles_per_block},
           {"bytes_per_particle", m.bytes_per_particle},
           {"peak_memory_bytes", m.peak_memory},
+          {"device", m.device},
           {"stages", stages},
           {"bandwidth_bytes_per_s", m.machine.bandwidth},
           {"arithmetic_flops_per_s", m.machine.arithmetic},
@@ -172,6 +178,7 @@ Measurement from_json(const nlohmann::json& json) {
       .particles_per_block = json.at("particles_per_block"),
       .bytes_per_particle = json.at("bytes_per_particle"),
       .peak_memory = json.at("peak_memory_bytes"),
+      .device = json.value("device", ""),
       .stages = {},
       .machine = {.bandwidth = json.at("bandwidth_bytes_per_s"),
                   .arithmetic = json.at("arithmetic_flops_per_s"),

@@ -35,6 +35,7 @@ struct Measurement {
   double particles_per_block = 0.0;
   double bytes_per_particle = 0.0;  ///< memory of the fields and the grid, all ranks
   double peak_memory = 0.0;         ///< bytes, resident, of the largest rank's process
+  std::string device;               ///< that kept the particles; empty: none
   std::vector<StageMeasurement> stages;
   MachineRates machine;  ///< rates of as many cores, measured immediately afterwards; 0: unknown
 

@@ -20,7 +20,8 @@ enum class Stage : std::uint8_t { bins, conduction, scatter, grid, contact, gath
 constexpr std::size_t stage_count = 8;
 /// Names of the stages, those of the host's.
 constexpr std::array<const char*, stage_count> stage_names = {
-    "bin particles", "conduction", "particles to grid", "grid", "contact", "grid to particles", "material", "ledger"};
+    "bin particles", "conduction",        "particles to grid", "grid",
+    "contact",       "grid to particles", "material",          "ledger"};
 
 /// What a device can do at most.
 struct Rates {
@@ -61,6 +62,8 @@ class Engine {
   virtual double rate_of_most(double total_mass, double share, double least, double largest) = 0;
   [[nodiscard]] virtual std::size_t size() const = 0;
   [[nodiscard]] virtual std::size_t bytes() const = 0;
+  /// Returns the number of blocks with nodes in the last step.
+  [[nodiscard]] virtual std::size_t slots() const = 0;
   [[nodiscard]] virtual std::string device() const = 0;
   /// Measures what the device can do at most.
   virtual Rates rates() = 0;

@@ -45,7 +45,8 @@ Rates measured_rates(Space& space) {
       const auto begin = std::chrono::steady_clock::now();
       work();
       space.synchronize();
-      least = std::min(least, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+      least =
+          std::min(least, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
     }
     return least;
   };

@@ -72,6 +72,7 @@ class Stepper final : public Engine {
   }
   [[nodiscard]] std::size_t size() const override { return points_.size; }
   [[nodiscard]] std::size_t bytes() const override;
+  [[nodiscard]] std::size_t slots() const override { return lattice_.slots; }
   [[nodiscard]] std::string device() const override { return space_.name(); }
   Rates rates() override { return measured_rates<Space>(space_); }
   void measure_stages(bool measure) override {

@@ -103,7 +103,8 @@ Contents Simulation::contents() const {
 }
 
 std::size_t Simulation::bytes() const {
-  std::size_t bytes = state_->grid.bytes();
+  std::size_t bytes =
+      state_->grid.bytes() + (state_->device != nullptr ? state_->device->engine().bytes() : 0);
   for (const Carrier* carrier : stages_->carriers) bytes += carrier->bytes();
   return bytes;
 }
