@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "src/device/contact/constants.hpp"
+#include "src/device/lattice.hpp"
+
+/// Nodes that two fields reach, from the sums over particles.
+namespace whipple::device {
+
+/// States the part of a node in contact.
+enum class ContactRole : std::uint8_t {
+  none,    ///< no other field reaches its place
+  first,   ///< the node of the lowest field at the place
+  second,  ///< any other node there: its mass is kept for contact like that of the first
+};
+
+/// Finds the role of each node. Call it with the sums of the particles, before or after those beyond mirror planes have
+/// been folded. The momentum equation stores the mass of a node for contact if its role is not `none`, and 0 otherwise.
+struct FindContactRoles {
+  Lattice lattice;
+  ContactRole* role;  ///< of each node
+
+  WHIPPLE_POINT void operator()(std::size_t i) const {
+    const auto node = static_cast<std::uint32_t>(i);
+    role[i] = ContactRole::none;
+    if (lattice.fields < 2 || !(lattice.nodes[node].mass() > 0.0)) return;
+    const std::uint32_t own = lattice.field_of(node);
+    const Place at = lattice.place_of(node);
+    if (lattice.is_image(at)) return;
+    bool lower = false, higher = false;
+    for (std::uint32_t field = 0; field < lattice.fields; ++field) {
+      if (field == own) continue;
+      const std::int32_t other = lattice.node_at(field, at);
+      if (other == nowhere || !(lattice.nodes[other].mass() > 0.0)) continue;
+      lower = lower || field < own;
+      higher = higher || field > own;
+    }
+    if (lower) {
+      role[i] = ContactRole::second;
+    } else if (higher) {
+      role[i] = ContactRole::first;
+    }
+  }
+};
+
+/// Lists the pairs, while the nodes hold the sums.
+struct ListContactPairs {
+  Lattice lattice;
+  const ContactRole* role;
+  const std::uint32_t* before;  ///< of each node: number of nodes before it whose role is `first`
+  ContactPair* pairs;
+
+  WHIPPLE_POINT void operator()(std::size_t i) const {
+    if (role[i] != ContactRole::first) return;
+    const auto node = static_cast<std::uint32_t>(i);
+    const Place at = lattice.place_of(node);
+    std::uint32_t partner = crowded;
+    int partners = 0;
+    for (std::uint32_t field = lattice.field_of(node) + 1; field < lattice.fields; ++field) {
+      const std::int32_t other = lattice.node_at(field, at);
+      if (other == nowhere || !(lattice.nodes[other].mass() > 0.0)) continue;
+      partner = static_cast<std::uint32_t>(other);
+      ++partners;
+    }
+    pairs[before[i]] = {node, partners == 1 ? partner : crowded};
+  }
+};
+
+}  // namespace whipple::device

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "src/device/lattice.hpp"
+#include "src/device/points.hpp"
+
+/// Particles that reach a node, with their images at mirror planes.
+namespace whipple::device {
+
+/// Returns whether a field is one with its image at a face of the domain.
+[[nodiscard]] WHIPPLE_POINT inline bool is_bonded(const Lattice& lattice, std::uint32_t /*field*/, int axis,
+                                                  bool upper) {
+  return lattice.mirrors[static_cast<std::size_t>(2 * axis + (upper ? 1 : 0))].active;
+}
+
+/// Returns whether a node is in the blocks of the lattice.
+[[nodiscard]] WHIPPLE_POINT inline bool is_in_blocks(const Lattice& lattice, const Place& at) {
+  return at.x >= -block_edge && at.y >= -block_edge && at.z >= -block_edge &&
+         at.x < (lattice.blocks[0] - 1) * block_edge && at.y < (lattice.blocks[1] - 1) * block_edge &&
+         at.z < (lattice.blocks[2] - 1) * block_edge;
+}
+
+/// Describes a particle, or its image beyond a mirror plane, relative to a node that it reaches.
+struct ReachedFrom {
+  double weight;            ///< N
+  Triple<double> gradient;  ///< of N, 1/m: slopes of contact are not smoothed
+  Triple<double> distance;  ///< from the node to the particle or its image, m
+  Triple<double> sign;      ///< of each component under the reflections that lead to the image
+};
+
+/// Describes the nodes along an axis whose particles reach a node: itself, and beyond planes its mirror nodes.
+struct AxisOfReach {
+  int place, cells;
+  bool lower, upper;  ///< whether there are images across the plane
+
+  static constexpr int sources = 3;
+  WHIPPLE_POINT AxisOfReach(const Lattice& lattice, std::uint32_t field, int axis, int at)
+      : place(at),
+        cells(lattice.cells[static_cast<std::size_t>(axis)]),
+        // Stencils of particles in the domain reach one node beyond a plane.
+        lower(at == 1 && is_bonded(lattice, field, axis, false)),
+        upper(at == cells - 1 && is_bonded(lattice, field, axis, true)) {}
+  [[nodiscard]] WHIPPLE_POINT bool has(int source) const {
+    return source == 0 || (source == 1 ? lower : upper);
+  }
+  [[nodiscard]] WHIPPLE_POINT int at(int source) const {
+    return source == 0 ? place : source == 1 ? -place : 2 * cells - place;
+  }
+  [[nodiscard]] WHIPPLE_POINT static double sign(int source) { return source == 0 ? 1.0 : -1.0; }
+};
+
+/// Holds weight and derivative (per cell) of a node along an axis.
+struct AxisWeight {
+  double weight, derivative;
+
+  /// @param g  position of the particle in cells from the first node of its stencil
+  /// @param k  number of the node in the stencil
+  WHIPPLE_POINT AxisWeight(double g, int k) {
+    const double y = g - 1.0, t = k == 0 ? 1.5 - g : g - 0.5;
+    weight = k == 1 ? 0.75 - y * y : 0.5 * t * t;
+    derivative = k == 1 ? -2.0 * y : k == 0 ? y - 0.5 : y + 0.5;
+  }
+};
+
+/// Calls visit(particle, ReachedFrom) for all particles of a field that reach a node of it, always in the same order.
+template <class Visit>
+WHIPPLE_POINT inline void for_each_point_at(const Lattice& lattice, const Points& points, std::uint32_t field,
+                                            const Place& node, const Visit& visit) {
+  const AxisOfReach along_x(lattice, field, 0, node.x), along_y(lattice, field, 1, node.y),
+      along_z(lattice, field, 2, node.z);
+  const double size = lattice.cell_size, per_cell = 1.0 / size;
+  constexpr int n = AxisOfReach::sources;
+  for (int source = 0; source < n * n * n; ++source) {
+    const int sx = source / (n * n), sy = source / n % n, sz = source % n;
+    if (!along_x.has(sx) || !along_y.has(sy) || !along_z.has(sz)) continue;
+    const Place from = {along_x.at(sx), along_y.at(sy), along_z.at(sz)};
+    const Triple<double> sign = {AxisOfReach::sign(sx), AxisOfReach::sign(sy), AxisOfReach::sign(sz)};
+    for (int k = 0; k < static_cast<int>(stencil_nodes); ++k) {
+      const int kx = k / (stencil_edge * stencil_edge), ky = k / stencil_edge % stencil_edge,
+                kz = k % stencil_edge;
+      const Place first = {from.x - kx, from.y - ky, from.z - kz};
+      if (!is_in_blocks(lattice, first)) continue;
+      const std::int32_t begin_node = lattice.node_at(field, first);
+      if (begin_node == nowhere) continue;
+      const std::int32_t cell = lattice.cell_at_node[begin_node];
+      if (cell == nowhere) continue;
+      for (std::uint32_t j = lattice.cell_begin[cell]; j < lattice.cell_begin[cell + 1]; ++j) {
+        const std::uint32_t p = lattice.order[j];
+        const Triple<double> x = lattice.in_cells(points.vector(position, p));
+        const Triple<double> g = {x.x - first.x, x.y - first.y, x.z - first.z};
+        const AxisWeight wx(g.x, kx), wy(g.y, ky), wz(g.z, kz);
+        const double weight = wx.weight * wy.weight * wz.weight;
+        if (!(weight > 0.0)) continue;
+        visit(p, ReachedFrom{.weight = weight,
+                             .gradient = {sign.x * (per_cell * wx.derivative * wy.weight * wz.weight),
+                                          sign.y * (wx.weight * (per_cell * wy.derivative) * wz.weight),
+                                          sign.z * (wx.weight * wy.weight * (per_cell * wz.derivative))},
+                             .distance = {sign.x * ((g.x - kx) * size), sign.y * ((g.y - ky) * size),
+                                          sign.z * ((g.z - kz) * size)},
+                             .sign = sign});
+      }
+    }
+  }
+}
+
+/// Returns 0 for the components along the normals of the mirror planes on which a node is located, where the
+/// contributions of particles and images cancel, and 1 for the others.
+[[nodiscard]] WHIPPLE_POINT inline Triple<double> off_planes(const Lattice& lattice, std::uint32_t field,
+                                                             const Place& node) {
+  const auto along = [&](int axis, int at) {
+    const bool on_plane =
+        (at == 0 && is_bonded(lattice, field, axis, false)) ||
+        (at == lattice.cells[static_cast<std::size_t>(axis)] && is_bonded(lattice, field, axis, true));
+    return on_plane ? 0.0 : 1.0;
+  };
+  return {along(0, node.x), along(1, node.y), along(2, node.z)};
+}
+
+}  // namespace whipple::device
