@@ -18,7 +18,7 @@ enum class ContactRole : std::uint8_t {
 };
 
 /// Finds the role of each node. Call it with the sums of the particles, before or after those beyond mirror planes have
-/// been folded. The momentum equation stores the mass of a node for contact if its role is not `none`, and 0 otherwise.
+/// been folded.
 struct FindContactRoles {
   Lattice lattice;
   ContactRole* role;  ///< of each node
@@ -43,6 +43,16 @@ struct FindContactRoles {
     } else if (higher) {
       role[i] = ContactRole::first;
     }
+  }
+};
+
+/// Clears the heat of the nodes that are not in contact, in whose place the momentum equation has stored their mass.
+struct ClearOutsideContact {
+  Lattice lattice;
+  const ContactRole* role;
+
+  WHIPPLE_POINT void operator()(std::size_t i) const {
+    if (role[i] == ContactRole::none) lattice.nodes[i].set_heat(0.0);
   }
 };
 
