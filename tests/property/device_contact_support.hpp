@@ -63,15 +63,34 @@ class OnDevice {
       to.n = {a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]};
     });
   }
-  /// Copies the motion of the host.
+  /// Copies the motion of the host, with the masses of the sums, folded at planes, in the place of the heat.
   void copy_motion(grid::BlockGrid& grid) {
+    const std::vector<double> mass = folded_masses();
     for_each_node(grid, [](Node& to, const grid::Node& from) {
       const Lanes a = from.motion.velocity_and_relaxation, b = from.motion.increment_and_heat;
-      to.n = {a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]};
+      to.n = {a[0], a[1], a[2], a[3], b[0], b[1], b[2], 0.0};
     });
+    for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
+      if (!lattice.is_image(lattice.place_of(i), lattice.field_of(i))) nodes_[i].set_heat(mass[i]);
+    }
   }
 
  private:
+  [[nodiscard]] std::vector<double> folded_masses() const {
+    std::vector<double> mass;
+    for (const Node& node : nodes_) mass.push_back(node.mass());
+    for (int face = 0; face < 6; ++face) {
+      for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
+        const Place at = lattice.place_of(i);
+        const std::uint32_t field = lattice.field_of(i);
+        if (!lattice.mirrors[static_cast<std::size_t>(face)].bonds(field) || lattice.inside_of(face, at) != 1)
+          continue;
+        const std::int32_t outside = lattice.node_at(field, lattice.mirrored(face, at));
+        if (outside != nowhere) mass[i] += mass[static_cast<std::size_t>(outside)];
+      }
+    }
+    return mass;
+  }
   void copy_points(const Particles& q) {
     numbers_.assign(all_components * q.size(), 0.0);
     points = {.numbers = numbers_.data(), .stride = q.size(), .size = q.size()};

@@ -12,6 +12,7 @@
 #include "src/contact/contact.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/device/contact/apply.hpp"
+#include "src/device/contact/images.hpp"
 #include "src/device/contact/nodes.hpp"
 #include "src/device/contact/surfaces.hpp"
 #include "tests/property/device_contact_support.hpp"
@@ -36,6 +37,17 @@ struct Trial {
   std::vector<double> least{};    ///< relaxation rates of the fields, 1/s
   std::vector<double> rubbing{};  ///< Coulomb coefficients of the fields
   std::uint32_t fields = 2;
+  double wall_friction = 0.0;
+  double beta = -1.0;       ///< of all nodes; negative: by their sound speed
+  std::uint32_t unbonded = 0;  ///< fields that are in contact with their images everywhere, one bit each
+  std::array<std::int32_t, 3> cells = {22, 7, 5};
+
+  [[nodiscard]] grid::Geometry geometry() const {
+    grid::Geometry geometry = transfer::geometry(boundary);
+    geometry.cells = cells;
+    geometry.friction = wall_friction;
+    return geometry;
+  }
 };
 
 struct Bodies {
@@ -47,7 +59,7 @@ Bodies bodies_of(const Trial& trial) {
   Bodies bodies;
   Particles& q = bodies.particles;
   q = transfer::random_particles(900 * trial.fields, Vector3(-1.97, -0.98, 3.02),
-                                 Vector3(-1.97 + width, 2.4, 5.4), 17);
+                                 Vector3(-1.97 + width, 2.45, 2.95 + dx * trial.cells[2]), 17);
   for (std::size_t p = 0; p < q.size(); ++p) {
     const auto body = static_cast<std::uint32_t>(p % trial.fields);
     bodies.field.push_back(static_cast<std::uint8_t>(body));
@@ -128,6 +140,70 @@ struct Pairs {
   }
 };
 
+WallConstants walls_of(const Trial& trial) {
+  WallConstants walls{.friction = trial.wall_friction, .dt = dt};
+  for (std::size_t face = 0; face < 6; ++face) {
+    const grid::Boundary kind = trial.boundary[face];
+    walls.kind[face] = static_cast<WallKind>(kind);  // in the same order
+    if (kind != grid::Boundary::outflow && (trial.unbonded != 0 || grid::lets_part(kind)))
+      walls.apart |= 1U << face;
+  }
+  return walls;
+}
+
+/// Holds the nodes of a step near walls.
+struct WallNodes {
+  std::vector<std::uint32_t> nodes;
+  std::vector<std::int32_t> number;
+  std::vector<WallNode> at;
+  std::vector<Approach> approach;
+
+  /// Finds nodes and extents from the sums at the nodes.
+  void find(const OnDevice& on, const WallConstants& walls) {
+    std::vector<std::uint32_t> flag(on.nodes()), before;
+    std::uint32_t count = 0;
+    for (std::size_t i = 0; i < on.nodes(); ++i) {
+      FindWallNodes{on.lattice, walls, flag.data()}(i);
+      before.push_back(count);
+      count += flag[i];
+    }
+    nodes.resize(count);
+    at.resize(count);
+    number.resize(on.nodes());
+    for (std::size_t i = 0; i < on.nodes(); ++i) {
+      ListWallNodes{flag.data(), before.data(), nodes.data(), number.data()}(i);
+    }
+    for (std::size_t i = 0; i < count; ++i)
+      FindWallExtents{on.lattice, on.points, nodes.data(), at.data()}(i);
+  }
+  void remember(const OnDevice& on) {
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      RememberUncoupled{on.lattice.nodes, nodes.data(), at.data()}(i);
+  }
+  /// Returns the heat, J.
+  double meet(const OnDevice& on, const WallConstants& walls) {
+    std::vector<int> faces;
+    for (int face = 0; face < 6; ++face) {
+      if ((walls.apart >> face & 1U) != 0) faces.push_back(face);
+    }
+    std::ranges::stable_sort(faces, {}, [&](int face) {
+      return walls.kind[static_cast<std::size_t>(face)] >= WallKind::separating;
+    });
+    approach.resize(faces.size() * nodes.size());
+    for (const int face : faces) {
+      const Wall wall{on.lattice, walls, face, nodes.data(), number.data(), at.data()};
+      for (std::size_t i = 0; i < nodes.size(); ++i) JoinRelaxation{wall}(i);
+    }
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      const Wall wall{on.lattice, walls, faces[f], nodes.data(), number.data(), at.data()};
+      for (std::size_t i = 0; i < nodes.size(); ++i) MeetImage{wall, &approach[f * nodes.size()]}(i);
+    }
+    double heat = 0.0;
+    for (const WallNode& node : at) heat += node.mass * node.heat;
+    return heat;
+  }
+};
+
 /// Counts what the nodes of a trial did, so that none of it is missed.
 struct Counts {
   int gaps = 0, inside = 0;
@@ -137,13 +213,16 @@ class DeviceContact : public testing::Test {
  protected:
   Counts counts_;
   contact::Balance balance_;  // of the host
+  double wall_heat_ = 0.0;    // of the host, J
   contact::FirstTouches::Outcome outcome_;
 
   void compare(const Trial& trial) {
     Bodies bodies = bodies_of(trial);
     const Particles& q = bodies.particles;
-    const grid::Geometry geometry = transfer::geometry(trial.boundary);
+    const grid::Geometry geometry = trial.geometry();
     grid::BlockGrid grid(geometry, parallel::world());
+    OnDevice on(geometry, q, bodies.field, trial.fields);
+    set_planes(trial, grid, on.lattice);
     transfer::bin<Shape>(grid, q);
     grid.separate_fields(Shape::stencil, {q.position, bodies.field}, {}, trial.fields);
     transfer::particles_to_grid(transfer::smoothed<Shape>(), q, grid);
@@ -158,25 +237,34 @@ class DeviceContact : public testing::Test {
     contact.find_surfaces(Shape::kind, q, {}, grid, dt);
     contact::Surfaces surfaces;
     surfaces.find(trial.normal, Shape::kind, q, {}, grid, dt);
+    contact::GridUpdate update;
+    contact::FirstTouches touches(trial.fields);
+    touches.begin_step(dt, least_speed);
+    update.mirror_contact().watch(touches);
+    update.mirror_contact().find_surfaces(Shape::kind, q, {}, grid, dt);
 
-    OnDevice on(geometry, q, bodies.field, trial.fields);
-    for (std::size_t face = 0; face < 6; ++face) on.lattice.mirrors[face].active = geometry.mirrors(face);
     on.copy_sums(grid);
     const ContactConstants constants = constants_of(trial);
     Pairs pairs;
     pairs.find(on, constants);
     counts_ = {};
     compare_surfaces(grid, surfaces, on, pairs);
+    const WallConstants walls = walls_of(trial);
+    WallNodes at_walls;
+    at_walls.find(on, walls);
 
-    contact::GridUpdate update;
-    update.solve_momentum(grid, dt, {.kappa = kappa});
+    update.solve_momentum(grid, dt, {.kappa = kappa, .fixed = trial.beta});
     on.copy_motion(grid);
-    contact::FirstTouches touches(trial.fields);
-    touches.begin_step(dt, least_speed);
+    at_walls.remember(on);
     balance_ = contact.apply(grid, dt, touches);
-    outcome_ = touches.end_step(parallel::world());
     const ContactBalance balance = pairs.apply(on, constants);
-    on.for_each_node(grid, [](const Node& node, const grid::Node& host) {
+    update.share_step(grid);
+    const double wall_heat = at_walls.meet(on, walls);
+    wall_heat_ = update.take_contact_heat();
+    outcome_ = touches.end_step(parallel::world());
+    on.for_each_node(grid, [&](const Node& node, const grid::Node& host) {
+      const auto i_node = static_cast<std::uint32_t>(&node - on.lattice.nodes);
+      if (on.lattice.is_image(on.lattice.place_of(i_node), on.lattice.field_of(i_node))) return;
       const Lanes a = host.motion.velocity_and_relaxation, b = host.motion.increment_and_heat;
       for (int c = 0; c < 4; ++c) {
         const auto i = static_cast<std::size_t>(c);
@@ -192,7 +280,23 @@ class DeviceContact : public testing::Test {
     near(balance.impulse, balance_.impulse);
     near(balance.friction_impulse, balance_.friction_impulse);
     EXPECT_EQ(balance.crowded, 0.0);
-    compare_touches(trial, pairs);
+    near(wall_heat, wall_heat_);
+    compare_touches(trial, pairs, at_walls);
+  }
+
+  static void set_planes(const Trial& trial, grid::BlockGrid& grid, Lattice& lattice) {
+    std::array<grid::FieldSet, 6> bonded;
+    bonded.fill(grid::FieldSet::from(trial.fields));
+    for (std::size_t face = 0; face < 6; ++face) {
+      const grid::Boundary kind = trial.boundary[face];
+      for (unsigned field = 0; field < trial.fields; ++field) {
+        if ((trial.unbonded >> field & 1U) == 0) bonded[face] |= grid::FieldSet::of(field);
+      }
+      lattice.mirrors[face] = {.active = grid.geometry().mirrors(face),
+                               .reverses_all = kind == grid::Boundary::no_slip,
+                               .fields = ~trial.unbonded};
+    }
+    grid.bond_at_planes(bonded);
   }
 
   /// Compares normals and gaps at all nodes that the host has separate for both fields.
@@ -230,20 +334,26 @@ class DeviceContact : public testing::Test {
     EXPECT_EQ(std::ranges::count(seen, 0), 0);
   }
   /// The approaches that decide have the outcome of all of them.
-  void compare_touches(const Trial& trial, const Pairs& pairs) const {
+  void compare_touches(const Trial& trial, const Pairs& pairs, const WallNodes& at_walls) const {
     contact::FirstTouches touches(trial.fields);
     touches.begin_step(dt, least_speed);
-    DecidingApproaches of_all{};
-    const std::size_t chunks =
-        (pairs.pair.size() + FindDecidingApproaches::chunk - 1) / FindDecidingApproaches::chunk;
-    std::vector<DecidingApproaches> deciding(chunks);
-    const FindDecidingApproaches find{pairs.approach.data(), pairs.approach.size(), 1, dt,
-                                      least_speed,           deciding.data()};
-    for (std::size_t i = 0; i < chunks; ++i) {
-      find(i);
-      find.combine(of_all, deciding[i]);
-    }
-    for (const Approach& one : {of_all.soonest, of_all.hardest}) touches.see(0, 1, one.open, one.closing);
+    const auto tell = [&](const std::vector<Approach>& approach, std::uint32_t kinds, auto&& see) {
+      const std::size_t chunks =
+          (approach.size() + FindDecidingApproaches::chunk - 1) / FindDecidingApproaches::chunk;
+      std::vector<DecidingApproaches> deciding(kinds * chunks), of_all(kinds);
+      const FindDecidingApproaches find{approach.data(), approach.size(), kinds, dt,
+                                        least_speed,     deciding.data()};
+      for (std::size_t i = 0; i < deciding.size(); ++i) {
+        find(i);
+        find.combine(of_all[i % kinds], deciding[i]);
+      }
+      for (const DecidingApproaches& of_kind : of_all) {
+        for (const Approach& one : {of_kind.soonest, of_kind.hardest}) see(one);
+      }
+    };
+    tell(pairs.approach, 1, [&](const Approach& one) { touches.see(0, 1, one.open, one.closing); });
+    tell(at_walls.approach, 6,
+         [&](const Approach& one) { touches.see_face(one.pair, one.open, one.closing); });
     const contact::FirstTouches::Outcome outcome = touches.end_step(parallel::world());
     EXPECT_EQ(outcome.hard, outcome_.hard);
     EXPECT_NEAR(outcome.next, outcome_.next, 1e-12 * outcome_.next);
@@ -307,10 +417,28 @@ TEST_F(DeviceContact, ForeseesTouchesAsTheHost) {
   EXPECT_GT(outcome_.next, dt);
 }
 
+constexpr auto separating = grid::Boundary::separating, rough = grid::Boundary::friction;
+
+TEST_F(DeviceContact, WithImagesIsThatOfTheHost) {
+  const std::array<grid::Boundary, 6> rooms[] = {{symmetry, outflow, outflow, outflow, outflow, outflow},
+                                                 {separating, outflow, outflow, separating, outflow, outflow},
+                                                 {rough, outflow, rough, symmetry, outflow, separating},
+                                                 {no_slip, outflow, outflow, outflow, outflow, outflow},
+                                                 {symmetry, outflow, separating, symmetry, no_slip, rough}};
+  for (const auto& boundary : rooms) {
+    for (const std::uint32_t unbonded : {1U, 2U, 3U}) {
+      for (const double beta : {-1.0, 0.0}) {
+        compare({.boundary = boundary, .friction = 0.3, .wall_friction = 0.3, .beta = beta, .unbonded = unbonded});
+        printf("heat %g touch hard %d\n", wall_heat_, outcome_.hard);
+      }
+    }
+  }
+}
+
 TEST_F(DeviceContact, CountsPlacesOfMoreThanTwoFields) {
   const Trial trial{.apart = -4.0, .fields = 3};
   const Bodies bodies = bodies_of(trial);
-  const grid::Geometry geometry = transfer::geometry();
+  const grid::Geometry geometry = trial.geometry();
   grid::BlockGrid grid(geometry, parallel::world());
   transfer::bin<Shape>(grid, bodies.particles);
   grid.separate_fields(Shape::stencil, {bodies.particles.position, bodies.field}, {}, 3);
