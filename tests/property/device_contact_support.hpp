@@ -45,13 +45,9 @@ class OnDevice {
     for (std::uint32_t slot = 0; slot < lattice.slots; ++slot) {
       const std::uint32_t first = slot * block_nodes, field = lattice.field_of(first);
       const Place at = lattice.place_of(first);
-      std::size_t of_host = grid.slots();
-      for (std::size_t s = 0; s < grid.slots(); ++s) {
-        const grid::BlockCoordinate& block = grid.coordinate(s);
-        if (block[0] * block_edge == at.x && block[1] * block_edge == at.y && block[2] * block_edge == at.z)
-          of_host = s;
-      }
-      ASSERT_LT(of_host, grid.slots());
+      const std::int32_t found = grid.slot_of({at.x / block_edge, at.y / block_edge, at.z / block_edge});
+      ASSERT_NE(found, grid::BlockGrid::no_slot);
+      const auto of_host = static_cast<std::size_t>(found);
       ASSERT_TRUE(grid.fields(of_host).contains(field));
       for (std::uint32_t i = 0; i < block_nodes; ++i) f(nodes_[first + i], grid.nodes(of_host, field)[i]);
     }

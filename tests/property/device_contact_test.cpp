@@ -38,7 +38,7 @@ struct Trial {
   std::vector<double> rubbing{};  ///< Coulomb coefficients of the fields
   std::uint32_t fields = 2;
   double wall_friction = 0.0;
-  double beta = -1.0;       ///< of all nodes; negative: by their sound speed
+  double beta = -1.0;          ///< of all nodes; negative: by their sound speed
   std::uint32_t unbonded = 0;  ///< fields that are in contact with their images everywhere, one bit each
   std::array<std::int32_t, 3> cells = {22, 7, 5};
 
@@ -428,9 +428,27 @@ TEST_F(DeviceContact, WithImagesIsThatOfTheHost) {
   for (const auto& boundary : rooms) {
     for (const std::uint32_t unbonded : {1U, 2U, 3U}) {
       for (const double beta : {-1.0, 0.0}) {
-        compare({.boundary = boundary, .friction = 0.3, .wall_friction = 0.3, .beta = beta, .unbonded = unbonded});
-        printf("heat %g touch hard %d\n", wall_heat_, outcome_.hard);
+        compare({.boundary = boundary,
+                 .friction = 0.3,
+                 .wall_friction = 0.3,
+                 .beta = beta,
+                 .unbonded = unbonded});
       }
+    }
+  }
+}
+
+// Nodes on the opposite plane, with whose image the material is continuous, do not cross it.
+TEST_F(DeviceContact, WithImagesInACellBetweenPlanesIsThatOfTheHost) {
+  for (const auto& [lower, upper] :
+       {std::pair{separating, symmetry}, std::pair{rough, no_slip}, std::pair{no_slip, separating}}) {
+    for (const std::uint32_t unbonded : {0U, 2U}) {
+      compare({.boundary = {outflow, outflow, outflow, outflow, lower, upper},
+               .friction = 0.3,
+               .wall_friction = 0.3,
+               .unbonded = unbonded,
+               .cells = {22, 7, 1}});
+      EXPECT_NE(wall_heat_, 0.0);
     }
   }
 }
