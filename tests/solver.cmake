@@ -151,3 +151,5 @@ foreach(test IN LISTS test_exact_TESTS)
 endforeach()
 ]=])
 set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${exact_labels})
+# Kernels of devices, called on the host.
+whipple_test(test_device_contact STARTS_MPI SOURCES property/device_contact_test.cpp DEPENDS whipple_contact LABELS fast)

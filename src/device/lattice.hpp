@@ -50,6 +50,12 @@ struct Place {
 struct Mirror {
   bool active = false;
   bool reverses_all = false;  ///< no-slip: the image moves in the opposite direction in all components
+  /// Fields that are one with their image, one bit each; others are in contact with it (contact/images.hpp).
+  std::uint32_t fields = ~std::uint32_t{0};
+
+  [[nodiscard]] WHIPPLE_POINT bool bonds(std::uint32_t field) const {
+    return active && (fields >> field & 1U) != 0;
+  }
 };
 
 /// Gives access to the grid of a step in the memory of a device.
@@ -114,6 +120,25 @@ struct Lattice {
   }
   [[nodiscard]] static WHIPPLE_POINT int along(const Place& at, int axis) {
     return axis == 0 ? at.x : axis == 1 ? at.y : at.z;
+  }
+  /// Returns whether a node of a field is beyond a plane at which the field is one with its image.
+  [[nodiscard]] WHIPPLE_POINT bool is_image(const Place& at, std::uint32_t field) const {
+    for (int face = 0; face < 6; ++face) {
+      if (mirrors[static_cast<std::size_t>(face)].bonds(field) && inside_of(face, at) < 0) return true;
+    }
+    return false;
+  }
+  /// Returns how far a node is inside of a face of the domain, in cells.
+  [[nodiscard]] WHIPPLE_POINT int inside_of(int face, const Place& at) const {
+    const int place = along(at, face / 2);
+    return face % 2 == 0 ? place : cells[static_cast<std::size_t>(face / 2)] - place;
+  }
+  /// Returns the mirror place of a node at a face.
+  [[nodiscard]] WHIPPLE_POINT Place mirrored(int face, const Place& at) const {
+    Place image = at;
+    const int shift = (face % 2 == 0 ? -2 : 2) * inside_of(face, at);
+    (face / 2 == 0 ? image.x : face / 2 == 1 ? image.y : image.z) += shift;
+    return image;
   }
   /// Returns whether a node is beyond a mirror plane.
   [[nodiscard]] WHIPPLE_POINT bool is_image(const Place& at) const {

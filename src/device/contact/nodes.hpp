@@ -17,8 +17,15 @@ enum class ContactRole : std::uint8_t {
   second,  ///< any other node there: its mass is kept for contact like that of the first
 };
 
+/// Returns whether particles of a field contribute to its node at a place, which is no image.
+[[nodiscard]] WHIPPLE_POINT inline bool reaches(const Lattice& lattice, std::uint32_t field,
+                                                const Place& at) {
+  const std::int32_t node = lattice.node_at(field, at);
+  return node != nowhere && lattice.nodes[node].mass() > 0.0 && !lattice.is_image(at, field);
+}
+
 /// Finds the role of each node. Call it with the sums of the particles, before or after those beyond mirror planes have
-/// been folded. The momentum equation stores the mass of a node for contact if its role is not `none`, and 0 otherwise.
+/// been folded.
 struct FindContactRoles {
   Lattice lattice;
   ContactRole* role;  ///< of each node
@@ -29,12 +36,10 @@ struct FindContactRoles {
     if (lattice.fields < 2 || !(lattice.nodes[node].mass() > 0.0)) return;
     const std::uint32_t own = lattice.field_of(node);
     const Place at = lattice.place_of(node);
-    if (lattice.is_image(at)) return;
+    if (lattice.is_image(at, own)) return;
     bool lower = false, higher = false;
     for (std::uint32_t field = 0; field < lattice.fields; ++field) {
-      if (field == own) continue;
-      const std::int32_t other = lattice.node_at(field, at);
-      if (other == nowhere || !(lattice.nodes[other].mass() > 0.0)) continue;
+      if (field == own || !reaches(lattice, field, at)) continue;
       lower = lower || field < own;
       higher = higher || field > own;
     }
@@ -43,6 +48,16 @@ struct FindContactRoles {
     } else if (higher) {
       role[i] = ContactRole::first;
     }
+  }
+};
+
+/// Clears the heat of the nodes that are not in contact, in whose place the momentum equation has stored their mass.
+struct ClearOutsideContact {
+  Lattice lattice;
+  const ContactRole* role;
+
+  WHIPPLE_POINT void operator()(std::size_t i) const {
+    if (role[i] == ContactRole::none) lattice.nodes[i].set_heat(0.0);
   }
 };
 
@@ -60,9 +75,8 @@ struct ListContactPairs {
     std::uint32_t partner = crowded;
     int partners = 0;
     for (std::uint32_t field = lattice.field_of(node) + 1; field < lattice.fields; ++field) {
-      const std::int32_t other = lattice.node_at(field, at);
-      if (other == nowhere || !(lattice.nodes[other].mass() > 0.0)) continue;
-      partner = static_cast<std::uint32_t>(other);
+      if (!reaches(lattice, field, at)) continue;
+      partner = static_cast<std::uint32_t>(lattice.node_at(field, at));
       ++partners;
     }
     pairs[before[i]] = {node, partners == 1 ? partner : crowded};

@@ -11,12 +11,6 @@
 /// Particles that reach a node, with their images at mirror planes.
 namespace whipple::device {
 
-/// Returns whether a field is one with its image at a face of the domain.
-[[nodiscard]] WHIPPLE_POINT inline bool is_bonded(const Lattice& lattice, std::uint32_t /*field*/, int axis,
-                                                  bool upper) {
-  return lattice.mirrors[static_cast<std::size_t>(2 * axis + (upper ? 1 : 0))].active;
-}
-
 /// Returns whether a node is in the blocks of the lattice.
 [[nodiscard]] WHIPPLE_POINT inline bool is_in_blocks(const Lattice& lattice, const Place& at) {
   return at.x >= -block_edge && at.y >= -block_edge && at.z >= -block_edge &&
@@ -42,8 +36,8 @@ struct AxisOfReach {
       : place(at),
         cells(lattice.cells[static_cast<std::size_t>(axis)]),
         // Stencils of particles in the domain reach one node beyond a plane.
-        lower(at == 1 && is_bonded(lattice, field, axis, false)),
-        upper(at == cells - 1 && is_bonded(lattice, field, axis, true)) {}
+        lower(at == 1 && lattice.mirrors[static_cast<std::size_t>(2 * axis)].bonds(field)),
+        upper(at == cells - 1 && lattice.mirrors[static_cast<std::size_t>(2 * axis + 1)].bonds(field)) {}
   [[nodiscard]] WHIPPLE_POINT bool has(int source) const {
     return source == 0 || (source == 1 ? lower : upper);
   }
@@ -66,44 +60,54 @@ struct AxisWeight {
   }
 };
 
-/// Calls visit(particle, ReachedFrom) for all particles of a field that reach a node of it, always in the same order.
+/// Calls visit(particle, ReachedFrom) for the particles of a field that reach a place, or whose images do.
+/// @param from  place that the particles themselves reach
+/// @param sign  of the components under the reflections
+template <class Visit>
+WHIPPLE_POINT inline void for_each_point_from(const Lattice& lattice, const Points& points,
+                                              std::uint32_t field, const Place& from,
+                                              const Triple<double>& sign, const Visit& visit) {
+  const double size = lattice.cell_size, per_cell = 1.0 / size;
+  for (int k = 0; k < static_cast<int>(stencil_nodes); ++k) {
+    const int kx = k / (stencil_edge * stencil_edge), ky = k / stencil_edge % stencil_edge,
+              kz = k % stencil_edge;
+    const Place first = {from.x - kx, from.y - ky, from.z - kz};
+    if (!is_in_blocks(lattice, first)) continue;
+    const std::int32_t node = lattice.node_at(field, first);
+    if (node == nowhere) continue;
+    const std::int32_t cell = lattice.cell_at_node[node];
+    if (cell == nowhere) continue;
+    for (std::uint32_t j = lattice.cell_begin[cell]; j < lattice.cell_begin[cell + 1]; ++j) {
+      const std::uint32_t p = lattice.order[j];
+      const Triple<double> x = lattice.in_cells(points.vector(position, p));
+      const Triple<double> g = {x.x - first.x, x.y - first.y, x.z - first.z};
+      const AxisWeight wx(g.x, kx), wy(g.y, ky), wz(g.z, kz);
+      const double weight = wx.weight * wy.weight * wz.weight;
+      if (!(weight > 0.0)) continue;
+      visit(p, ReachedFrom{.weight = weight,
+                           .gradient = {sign.x * (per_cell * wx.derivative * wy.weight * wz.weight),
+                                        sign.y * (wx.weight * (per_cell * wy.derivative) * wz.weight),
+                                        sign.z * (wx.weight * wy.weight * (per_cell * wz.derivative))},
+                           .distance = {sign.x * ((g.x - kx) * size), sign.y * ((g.y - ky) * size),
+                                        sign.z * ((g.z - kz) * size)},
+                           .sign = sign});
+    }
+  }
+}
+
+/// Calls visit(particle, ReachedFrom) for all particles of a field that reach a node of it, and for the images of those
+/// across planes at which the field is one with its image, always in the same order.
 template <class Visit>
 WHIPPLE_POINT inline void for_each_point_at(const Lattice& lattice, const Points& points, std::uint32_t field,
                                             const Place& node, const Visit& visit) {
   const AxisOfReach along_x(lattice, field, 0, node.x), along_y(lattice, field, 1, node.y),
       along_z(lattice, field, 2, node.z);
-  const double size = lattice.cell_size, per_cell = 1.0 / size;
   constexpr int n = AxisOfReach::sources;
   for (int source = 0; source < n * n * n; ++source) {
     const int sx = source / (n * n), sy = source / n % n, sz = source % n;
     if (!along_x.has(sx) || !along_y.has(sy) || !along_z.has(sz)) continue;
-    const Place from = {along_x.at(sx), along_y.at(sy), along_z.at(sz)};
-    const Triple<double> sign = {AxisOfReach::sign(sx), AxisOfReach::sign(sy), AxisOfReach::sign(sz)};
-    for (int k = 0; k < static_cast<int>(stencil_nodes); ++k) {
-      const int kx = k / (stencil_edge * stencil_edge), ky = k / stencil_edge % stencil_edge,
-                kz = k % stencil_edge;
-      const Place first = {from.x - kx, from.y - ky, from.z - kz};
-      if (!is_in_blocks(lattice, first)) continue;
-      const std::int32_t begin_node = lattice.node_at(field, first);
-      if (begin_node == nowhere) continue;
-      const std::int32_t cell = lattice.cell_at_node[begin_node];
-      if (cell == nowhere) continue;
-      for (std::uint32_t j = lattice.cell_begin[cell]; j < lattice.cell_begin[cell + 1]; ++j) {
-        const std::uint32_t p = lattice.order[j];
-        const Triple<double> x = lattice.in_cells(points.vector(position, p));
-        const Triple<double> g = {x.x - first.x, x.y - first.y, x.z - first.z};
-        const AxisWeight wx(g.x, kx), wy(g.y, ky), wz(g.z, kz);
-        const double weight = wx.weight * wy.weight * wz.weight;
-        if (!(weight > 0.0)) continue;
-        visit(p, ReachedFrom{.weight = weight,
-                             .gradient = {sign.x * (per_cell * wx.derivative * wy.weight * wz.weight),
-                                          sign.y * (wx.weight * (per_cell * wy.derivative) * wz.weight),
-                                          sign.z * (wx.weight * wy.weight * (per_cell * wz.derivative))},
-                             .distance = {sign.x * ((g.x - kx) * size), sign.y * ((g.y - ky) * size),
-                                          sign.z * ((g.z - kz) * size)},
-                             .sign = sign});
-      }
-    }
+    for_each_point_from(lattice, points, field, {along_x.at(sx), along_y.at(sy), along_z.at(sz)},
+                        {AxisOfReach::sign(sx), AxisOfReach::sign(sy), AxisOfReach::sign(sz)}, visit);
   }
 }
 
@@ -111,13 +115,14 @@ WHIPPLE_POINT inline void for_each_point_at(const Lattice& lattice, const Points
 /// contributions of particles and images cancel, and 1 for the others.
 [[nodiscard]] WHIPPLE_POINT inline Triple<double> off_planes(const Lattice& lattice, std::uint32_t field,
                                                              const Place& node) {
-  const auto along = [&](int axis, int at) {
-    const bool on_plane =
-        (at == 0 && is_bonded(lattice, field, axis, false)) ||
-        (at == lattice.cells[static_cast<std::size_t>(axis)] && is_bonded(lattice, field, axis, true));
-    return on_plane ? 0.0 : 1.0;
+  const auto along = [&](int axis) {
+    for (int face = 2 * axis; face < 2 * axis + 2; ++face) {
+      if (lattice.mirrors[static_cast<std::size_t>(face)].bonds(field) && lattice.inside_of(face, node) == 0)
+        return 0.0;
+    }
+    return 1.0;
   };
-  return {along(0, node.x), along(1, node.y), along(2, node.z)};
+  return {along(0), along(1), along(2)};
 }
 
 }  // namespace whipple::device
