@@ -101,8 +101,8 @@ struct SolveMomentum {
     node.set_velocity({p.x / m, p.y / m, p.z / m});
     node.set_relaxation(beta);
     node.set_increment(per_mass * f);
-    node.set_heat(role == nullptr || role[i] == ContactRole::none ? 0.0
-                                                                  : m);  // contact takes the mass from there
+    // Contact takes the mass from there.
+    node.set_heat(keeps_all_masses || (role != nullptr && role[i] != ContactRole::none) ? m : 0.0);
   }
 };
 
