@@ -10,6 +10,7 @@
 #include <random>
 
 #include "eos/models/polynomial.hpp"
+#include "eos/modifiers/floor.hpp"
 #include "eos/table/table_of_model.hpp"
 #include "src/device/material/describe.hpp"
 #include "src/device/material/update_point.hpp"
@@ -459,9 +460,14 @@ void expect_refused(const Material& material, const std::string& key, const std:
 TEST(DeviceRefusals, NameMaterialKeyAndWhatIsAccepted) {
   expect_refused(read_material("copper"), "[eos] model = \"gray\"", "equation_of_state = \"table\"");
   expect_refused(read_material("water_tait"), "[eos] model = \"tait\"", "mie_gruneisen");
+  expect_refused(read_material("kevlar_fabric_layer_mie_gruneisen"),
+                 "[eos] model = \"mie_gruneisen\" with pores", "without pores");
+  const Material copper = read_material("copper_taylor");
+  const auto floor = std::make_shared<eos::Floor>(copper.eos, eos::FloorConstants{});
+  expect_refused(make_material("liquid", floor), "[eos] model = \"mie_gruneisen\" with a modifier",
+                 "without modifiers");
   strength::VonMises kinematic = taylor_copper();
   kinematic.kinematic_modulus = 1e9;
-  const Material copper = read_material("copper_taylor");
   expect_refused(make_material("steel", copper.eos, std::make_shared<strength::VonMisesModel>(kinematic)),
                  "kinematic_modulus = 1000000000 Pa", "isotropic");
   expect_refused(read_material("copper_ofhc_ptw_mie_gruneisen"),
