@@ -19,7 +19,7 @@ std::vector<std::string> refusals(const Material& material);
 bool has_closed_form(const Material& material);
 
 /// Returns the constants of a material and of the artificial viscosity of a body of it. Time step, time and burn of the
-/// settings do not matter.
+/// settings do not matter; `lengths` of single points are not taken.
 /// @param tables  numbers of all materials, to which those of its equation of state are appended
 /// @throws InputError with the refusals
 MaterialConstants describe(const Material& material, const UpdateSettings& settings,
