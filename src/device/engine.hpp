@@ -49,6 +49,7 @@ struct Outcome {
   double wall_heat = 0.0;                           ///< of contact with images, J
   std::vector<Outflow::Result> outflow;             ///< of each body; empty: nothing leaves
   std::vector<MarkedMass::Result> squeezed;  ///< of each body; empty: no particle is at its greatest density
+  double held_pressures = 0.0;               ///< number of fluid particles that have parted
   double beside_voids = 0.0;  ///< mass under pressure in cells that it does not fill, before the step, kg
   std::uint32_t slots = 0, cells = 0;  ///< blocks with nodes, cells with particles
 };
@@ -64,6 +65,10 @@ class Engine {
   virtual void set_frame(const Triple<double>& velocity) = 0;
   /// Returns the totals and bounds of the present state.
   virtual EndOfStep measure() = 0;
+  /// Returns whether any particle is so long that it must be divided before the next step.
+  virtual bool must_divide() = 0;
+  /// Replaces the particles.
+  virtual void upload(const PointsOnHost& points) = 0;
   /// Copies the state to the host, in the order of `origin`, which becomes 0, 1, 2 ...
   virtual void download(PointsOnHost& points) = 0;
   /// Returns the closing rate (1/s) that at most the fraction `share` of the mass (kg) exceeds (rates.hpp).

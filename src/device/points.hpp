@@ -41,6 +41,7 @@ enum Component : std::uint32_t {
   damage,
   fragment_size,
   cold_work,
+  generation,  ///< divisions since the start
   state_components,
   // Results of a step, which end with it.
   gradient = state_components,  ///< L, row by row, 1/s

@@ -28,11 +28,13 @@ template <class Space>
 class Stepper final : public Engine {
  public:
   Stepper(const Problem& problem, const PointsOnHost& points)
-      : problem_(problem), cells_(problem), contact_(problem), store_(points) {
+      : problem_(problem), cells_(problem), contact_(problem) {
+    store_.upload(points);
     upload(initial_density_, problem_.initial_density);
     upload(tables_, problem_.tables);
     upload(field_of_body_, problem_.field_of_body);
     upload(conducting_, problem_.conducting);
+    upload(domains_, problem_.domains);
     upload(materials_, problem_.materials);
     for (std::size_t face = 0; face < 6; ++face) {
       if (problem_.faces[face] != FaceKind::outflow) reflecting_ |= 1U << face;
@@ -57,9 +59,13 @@ class Stepper final : public Engine {
     timed(Stage::grid, [&] { copy_mirrors(dt); });
     timed(Stage::gather, [&] { move(dt); });
     timed(Stage::material, [&] {
+      if (follows_domains()) {
+        space_.for_each(store_.points().size, DeformDomains{store_.points(), domains_.data(), dt});
+      }
       strain_all<Space>(space_, store_.points(), problem_.materials, materials_.data(), tables_.data(),
                         {.dt = dt, .time = input.end});
     });
+    timed(Stage::material, [&] { hold_back(); });
     timed(Stage::ends, [&] { end_step(); });
     return outcome_;
   }
@@ -68,6 +74,21 @@ class Stepper final : public Engine {
   EndOfStep measure() override {
     store_.clear_results(space_);
     return space_.reduce(store_.points().size, ends());
+  }
+  bool must_divide() override {
+    if (!follows_domains()) return false;
+    const EndStep all = ends();
+    return space_
+               .reduce(store_.points().size, AnyTooLong{.points = store_.points(),
+                                                        .bodies = domains_.data(),
+                                                        .limits = problem_.domain_limits,
+                                                        .lower = all.lower,
+                                                        .upper = all.upper})
+               .largest[0] > 0.0;
+  }
+  void upload(const PointsOnHost& points) override {
+    store_.upload(points);
+    steps_to_sort_ = 0;
   }
   void download(PointsOnHost& points) override { store_.download(points); }
   double rate_of_most(double total_mass, double share, double least, double largest) override {
@@ -210,6 +231,18 @@ class Stepper final : public Engine {
                                                         .dt = dt});
   }
 
+  [[nodiscard]] bool follows_domains() const {
+    return std::ranges::any_of(problem_.domains, &DomainsOfBody::deform);
+  }
+  void hold_back() {
+    if (std::ranges::none_of(problem_.domains, &DomainsOfBody::hold)) return;
+    outcome_.held_pressures =
+        space_
+            .reduce(store_.points().size,
+                    HoldBackPressure{store_.points(), domains_.data(), problem_.domain_limits})
+            .sum[0];
+  }
+
   void end_step() {
     const std::size_t size = store_.points().size;
     const auto bodies = static_cast<std::uint32_t>(problem_.field_of_body.size());
@@ -239,6 +272,7 @@ class Stepper final : public Engine {
   Array<double> initial_density_, tables_;
   Array<std::uint8_t> field_of_body_;
   Array<ConductingBody> conducting_;
+  Array<DomainsOfBody> domains_;
   Array<MaterialConstants> materials_;
   Array<Node> brought_;  // sums of the particles before folding
 };

@@ -20,7 +20,8 @@ class Store {
   template <class T>
   using Array = typename Space::template Array<T>;
 
-  explicit Store(const PointsOnHost& points) {
+  /// Replaces the particles.
+  void upload(const PointsOnHost& points) {
     const std::size_t n = points.size();
     numbers_.reserve(all_components * n);
     for (std::size_t c = 0; c < state_components; ++c) numbers_.upload(points.numbers[c].data(), n, c * n);

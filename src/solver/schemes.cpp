@@ -191,6 +191,11 @@ void step_symplectic(Stages& s, double until) {
 void step_on_device(Stages& s, double until) {
   s.time_step.begin(until);
   s.contact.watch_touches(s.time_step.accurate_step());
+  if (s.device->must_divide()) {  // rare: on the host
+    s.device->synchronize();
+    domains::split(s.state, s.carriers, s.particles);
+    s.device->upload();
+  }
   const bool looks = s.fill.is_due();
   const double beside_voids = s.device->step(s.time_step.accurate_step(), looks);
   if (looks) s.fill.judge(beside_voids);

@@ -39,6 +39,7 @@ void for_each_column(P& particles, Function&& f) {
   f(Component::unresolved, particles.unresolved_energy, 0.0);
   f(Component::allowance, particles.heat_allowance, 0.0);
   f(Component::closing_rate, particles.closing_rate, 0.0);
+  f(Component::generation, particles.generation, 0.0);
   const auto history = [&](Component component, const char* name) {
     if (particles.history.find(name) != nullptr) f(component, particles.history.scalar(name), 0.0);
   };

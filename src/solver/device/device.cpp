@@ -8,7 +8,6 @@
 #include "src/core/input/faults.hpp"
 #include "src/device/contact/constants.hpp"
 #include "src/device/material/describe.hpp"
-#include "src/solver/carriers/domains.hpp"
 
 namespace whipple::solver {
 namespace {
@@ -74,13 +73,6 @@ std::vector<InputFault> device_faults(const cases::Case& setup) {
     const cases::Body& body = setup.bodies[b];
     refuse_if(body.driven || !body.node_conditions.empty(), of_body, "driven", "a driven body");
     refuse_if(body.volumetric == cases::Volumetric::cell, of_body, "volumetric", "means over cells");
-    if (domains::may_divide(setup, b)) {
-      of_body.add(
-          "material",
-          fmt::format("{} may melt, and particles of fluids are split (splitting.length = 0 keeps them "
-                      "whole): {}",
-                      setup.materials[b]->name, elsewhere));
-    }
     for (const std::string& text : device::refusals(*setup.materials[b])) of_body.add("material", text);
   }
   return list;

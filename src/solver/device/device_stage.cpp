@@ -115,6 +115,7 @@ void DeviceStage::book(const device::Outcome& outcome) {
   const auto counted = [&](std::uint32_t event) {
     return sum[S::first_event + static_cast<std::size_t>(std::countr_zero(event))];
   };
+  booked.held_pressures += outcome.held_pressures;
   booked.below_cold_curve += counted(device::event::below_cold_curve);
   booked.limited_volume_changes += counted(device::event::limited_volume_change);
   booked.limited_densities += counted(device::event::limited_density);
@@ -158,6 +159,14 @@ void DeviceStage::fail(double first, const std::string& reason) {
   std::size_t p = 0;
   while (p + 1 < points_.origin.size() && points_.origin[p] < origin) ++p;
   throw StateError(state_.describe_particle(p, state_.run.time + state_.run.time_step, reason));
+}
+
+bool DeviceStage::must_divide() { return engine_->must_divide(); }
+
+void DeviceStage::upload() {
+  to_columns(state_.particles, points_);
+  engine_->upload(points_);
+  is_current_ = true;
 }
 
 void DeviceStage::synchronize() {

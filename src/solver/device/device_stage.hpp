@@ -28,6 +28,10 @@ class DeviceStage {
   double step(double accurate_step, bool looks_at_fill);
   /// Copies the particles to State, unless they are there already.
   void synchronize();
+  /// Returns whether particles of fluids must be divided before the step.
+  bool must_divide();
+  /// Copies the particles of State to the device.
+  void upload();
 
   [[nodiscard]] double fastest() const { return measured_.largest[device::StepSums::speed]; }
   [[nodiscard]] Totals totals() const;
