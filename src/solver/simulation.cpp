@@ -42,6 +42,7 @@ Simulation::Simulation(const cases::Case& setup, MPI_Comm communicator) {
   ledger.largest_heating = chemical_energy[0];
   stages_->applied_loads.weigh();
   stages_->plausibility.begin();
+  use(default_device());
 }
 
 Simulation::Simulation(const cases::Case& setup, Particles particles, const RunState& state,
@@ -52,9 +53,11 @@ Simulation::Simulation(const cases::Case& setup, Particles particles, const RunS
   for (Carrier* carrier : stages_->carriers) carrier->gather();
   stages_->particles.complete_read(domains::are_needed(*state_, stages_->contact.may_meet_images()));
   stages_->balance.sum();
-  if (state.step > 0) return;
-  stages_->applied_loads.weigh();
-  stages_->plausibility.begin();
+  if (state.step == 0) {
+    stages_->applied_loads.weigh();
+    stages_->plausibility.begin();
+  }
+  use(default_device());
 }
 
 Simulation::Simulation(Simulation&&) noexcept = default;

@@ -62,6 +62,11 @@ void check_contact(const cases::Case& setup, const Faults& faults) {
 
 }  // namespace
 
+Device& default_device() {
+  static Device device = Device::cpu;
+  return device;
+}
+
 std::vector<InputFault> device_faults(const cases::Case& setup) {
   std::vector<InputFault> list;
   const Faults faults(list);
