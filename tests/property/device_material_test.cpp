@@ -101,7 +101,7 @@ struct Differences {
     const auto& t = point.deviator;
     for (const double difference :
          {s.xx - t.xx, s.yy - t.yy, s.zz - t.zz, s.xy - t.xy, s.yz - t.yz, s.zx - t.zx}) {
-      add("deviator", difference, 0.0, 1e8 + std::sqrt(device::squared_norm(s)));
+      add("deviator", difference, 0.0, 1e8 + std::sqrt(material::formulas::squared_norm(s)));
     }
   }
 };

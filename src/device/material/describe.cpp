@@ -153,7 +153,8 @@ bool describe_criterion(const std::shared_ptr<const failure::Criterion>& criteri
   }
   if (const auto* growth = as<CriterionOf<failure::ViscousVoidGrowth>>(criterion)) {
     const failure::ViscousVoidGrowth& law = growth->law();
-    result.void_growth = {law.resistance, law.viscosity, law.nuclei, law.failure_porosity};
+    result.void_growth = {law.resistance, law.viscosity, law.nuclei, law.failure_porosity,
+                          failure::formulas::tension_at_nuclei(law.nuclei)};
     result.heals_growth = law.healing;
     return grow(VoidKind::viscous_growth);
   }
