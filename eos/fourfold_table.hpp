@@ -56,6 +56,16 @@ class FourfoldTable {
     return transposed({at_point(0), at_point(1), at_point(2), at_point(3)});
   }
   [[nodiscard]] std::size_t cells() const { return cells_.size(); }
+  /// Returns the centre of the first cell, and the inverse of their width.
+  [[nodiscard]] double first() const { return first_; }
+  [[nodiscard]] double per_width() const { return per_width_; }
+  /// Appends the coefficients: by cell, by power, and of the four functions.
+  void append_to(std::vector<double>& numbers) const {
+    for (const Cell& cell : cells_) {
+      for (const Lanes& of_power : cell)
+        numbers.insert(numbers.end(), {of_power[0], of_power[1], of_power[2], of_power[3]});
+    }
+  }
 
  private:
   static constexpr std::size_t terms = 6;

@@ -32,7 +32,12 @@ MAY_USE = {
     "src/particles": ["src/core/base", "src/core/parallel"],
     "src/grid": ["src/core/base", "src/core/parallel"],
     "src/material": ["src/core/base", "src/core/input", "eos", "eos/files", "src/particles"],
+    # The update of one material point, for the host and for kernels of a graphics processor.
+    "src/device/material": ["src/core/base", "eos", "src/particles", "src/material"],
     "src/transfer": ["src/core/base", "src/core/parallel", "src/particles", "src/grid"],
+    # The step on a graphics processor: kernels of single points and nodes, and their engine.
+    "src/device": ["src/core/base", "src/core/parallel", "eos", "src/particles", "src/material", "src/transfer",
+                   "src/device/material"],
     "src/fem": ["src/core/base", "src/core/parallel", "src/particles", "src/material"],
     "src/contact": ["src/core/base", "src/core/parallel", "src/particles", "src/grid", "src/transfer", "src/fem"],
     # Steps on a graphics processor, and their emulation on the host: kernels of the formulas of a point.
@@ -45,7 +50,7 @@ MAY_USE = {
     "src/case": ["src/core/base", "src/core/input", "src/core/parallel", "src/solids", "eos", "eos/files", "src/particles", "src/grid", "src/material",
                   "src/transfer", "src/fem", "src/contact", "src/io"],
     "src/solver": ["src/core/base", "src/core/parallel", "eos", "src/particles", "src/grid", "src/material", "src/transfer",
-                   "src/fem", "src/contact", "src/afemp", "src/io", "src/case"],
+                   "src/device", "src/device/material", "src/fem", "src/contact", "src/afemp", "src/io", "src/case"],
     # Reads what runs wrote, with the keys of a case; knows no solver.
     "src/analysis": ["src/core/base", "src/core/parallel", "src/core/hdf5", "src/grid", "src/material", "src/case"],
     # The loop around the solver: what a run writes, and what may be asked of it.
@@ -87,6 +92,7 @@ MAY_USE = {
 # CMake library -> module, where the name is not the last part of the folder.
 LIBRARY_OF = {"whipple_md_data_set": "md_fitting/data_set", "whipple_md_elements": "md_fitting/elements", "whipple_md_plan": "md_fitting/plan",
               "whipple_md_lammps": "md_fitting/lammps", "whipple_md_protocols": "md_fitting/protocols",
+              "whipple_device_material": "src/device/material",
               "whipple_fit": "md_fitting/fit", "whipple_eos": "eos", "whipple_eos_curves": "eos/curves",
               "whipple_eos_experiments": "eos/experiments", "whipple_eos_files": "eos/files",
               "whipple_md_simulated_crystal": "md_fitting/simulated_crystal"}

@@ -8,6 +8,7 @@
 
 #include "eos/constant_heat_capacity.hpp"
 #include "eos/fourfold_table.hpp"
+#include "eos/models/gruneisen_point.hpp"
 #include "src/core/base/error.hpp"
 
 namespace whipple::eos {
@@ -94,6 +95,32 @@ class GruneisenSolid {
     result.B = thin ? closed.B : result.B;
     result.C = thin ? closed.C : result.C;
     result.D = thin ? closed.D : result.D;
+    return result;
+  }
+
+  /// Returns the constants of an evaluation point by point, whose table is appended to an array of numbers.
+  /// @param least_temperature  K, @param least_squared  least c^2, m^2/s^2
+  [[nodiscard]] GruneisenPoint point(double least_temperature, double least_squared,
+                                     std::vector<double>& numbers) const {
+    GruneisenPoint result = {.cells = static_cast<std::uint32_t>(numbers.size()),
+                             .first = table_.first(),
+                             .per_width = table_.per_width(),
+                             .least_density = least_density_,
+                             .maximum_density = maximum_density_,
+                             .density = state_.density,
+                             .B0 = B0_[0],
+                             .linear = linear_[0],
+                             .quadratic = quadratic_[0],
+                             .gruneisen = law_.constant,
+                             .A0 = A0_,
+                             .A1 = A1_,
+                             .power = power_,
+                             .inverse_volume = inverse_volume_,
+                             .constant = constant_,
+                             .heat_capacity = state_.heat_capacity,
+                             .least_temperature = least_temperature,
+                             .least_squared = least_squared};
+    table_.append_to(numbers);
     return result;
   }
 

@@ -67,6 +67,7 @@ class MieGruneisenCurve {
     return solid_.usual_isochore(rho, places);
   }
   [[nodiscard]] double least_usual_density() const { return solid_.least_usual_density(); }
+  [[nodiscard]] const auto& solid() const { return solid_; }
   [[nodiscard]] double log_isentrope_temperature(double rho) const {
     return solid_.log_isentrope_temperature(rho);
   }

@@ -81,6 +81,41 @@ Table::Table(TableData data) : data_(std::move(data)) {
   layout_ = table::Layout(data_);
 }
 
+table::Point Table::point(std::vector<double>& numbers) const {
+  const auto here = [&] { return static_cast<std::uint32_t>(numbers.size()); };
+  const auto append = [&](const std::array<Lanes, 6>& curves) {
+    for (const Lanes& of_power : curves) {
+      numbers.insert(numbers.end(), {of_power[0], of_power[1], of_power[2], of_power[3]});
+    }
+  };
+  table::Point point = {.begin = layout_.begin,
+                        .end = layout_.end,
+                        .bins_per_length = layout_.bins_per_length,
+                        .thermal_energy = data_.thermal_energy,
+                        .bottom = std::log(data_.thermal_energy),
+                        .least_squared = data_.least_sound_speed * data_.least_sound_speed};
+  point.slabs = here();
+  for (const table::Slab& slab : layout_.slabs) {
+    append(slab.curves);
+    numbers.insert(numbers.end(), {slab.begin, slab.end, slab.top, slab.top_slope, double(slab.first_region),
+                                   double(slab.region_count), double(slab.more_curves), 0.0});
+  }
+  point.more_curves = here();
+  for (const std::array<Lanes, 6>& curves : layout_.more_curves) append(curves);
+  point.regions = here();
+  for (const table::RegionRecord& r : layout_.regions) {
+    numbers.insert(numbers.end(), {r.begin, r.inverse_length, r.nx, r.ny, r.first_cell, r.fraction_nx,
+                                   r.fraction_ny, r.first_fraction});
+  }
+  point.slab_of_bin = here();
+  numbers.insert(numbers.end(), layout_.slab_of_bin.begin(), layout_.slab_of_bin.end());
+  point.cells = here();
+  numbers.insert(numbers.end(), data_.cells.begin(), data_.cells.end());
+  point.fractions = here();
+  for (const auto& [melted, vaporised] : data_.fractions) numbers.push_back(melted * 65536.0 + vaporised);
+  return point;
+}
+
 double Table::minimum_density() const { return std::exp(layout_.begin); }
 double Table::maximum_density() const { return std::exp(layout_.end) * (1 - 1e-14); }
 

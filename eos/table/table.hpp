@@ -8,6 +8,7 @@
 
 #include "eos/equation_of_state.hpp"
 #include "eos/table/layout.hpp"
+#include "eos/table/point.hpp"
 #include "src/core/base/registers.hpp"
 
 /// Represents a complete equation of state by a table of its entropy (docs/theory/equations_of_state.md, section
@@ -76,6 +77,8 @@ class Table final : public EquationOfState {
   explicit Table(TableData data);
 
   [[nodiscard]] const TableData& data() const { return data_; }
+  /// Returns the constants of an evaluation point by point, whose numbers are appended to an array.
+  [[nodiscard]] table::Point point(std::vector<double>& numbers) const;
   [[nodiscard]] double minimum_density() const;
 
   [[nodiscard]] std::string_view model() const override { return name; }

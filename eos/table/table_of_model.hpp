@@ -15,6 +15,8 @@ class TableOfModel final : public EquationOfState {
   /// @param table table of this model
   TableOfModel(Table table, std::shared_ptr<const EquationOfState> model);
 
+  [[nodiscard]] const Table& table() const { return table_; }
+
   [[nodiscard]] std::string_view model() const override { return Table::name; }
   [[nodiscard]] double reference_density() const override { return table_.reference_density(); }
   [[nodiscard]] double reference_temperature() const override { return table_.reference_temperature(); }

@@ -39,6 +39,7 @@ struct BenchOptions {
   bool whole = false;
   bool force = false;
   bool laws = false;
+  solver::Device device = solver::Device::cpu;
   std::string json;
   std::string compare;
   std::string worker;  // file to which one measurement is written
@@ -51,8 +52,9 @@ bench::Length length(const BenchOptions& options) {
 /// Measures one problem on the ranks of this process. Each problem runs in separate processes, so that its peak memory
 /// is measured separately.
 void run_worker(const BenchOptions& options) {
-  const Measurement measurement = bench::measure(bench::find_problem(options.problems.front()),
-                                                 options.threads.front(), length(options), parallel::world());
+  const Measurement measurement =
+      bench::measure(bench::find_problem(options.problems.front()), options.threads.front(), length(options),
+                     options.device, parallel::world());
   if (parallel::rank(parallel::world()) == 0) {
     io::write_text_atomically(options.worker, json_text(bench::to_json(measurement), -1) + "\n");
   }
@@ -71,6 +73,10 @@ Measurement measure_in_own_processes(const BenchOptions& options, const std::str
                                       file.string()};
   if (options.quick) program.emplace_back("--quick");
   if (options.whole) program.emplace_back("--whole");
+  if (solver::is_device(options.device)) {
+    program.emplace_back("--device");
+    program.emplace_back(word_of(options.device));
+  }
   const int code = process::mpirun(ranks, program);
   if (code != 0) throw CLI::RuntimeError(code);
   const Measurement measurement = bench::from_json(parse_json(read_text(file)));
@@ -104,6 +110,11 @@ void print(const Measurement& m) {
   }
   row("whole step", m.nanoseconds, bytes, flops);
   fmt::print("{}", text_table(rows, "lr"));
+  if (!m.device.empty()) {
+    fmt::print("  device: {}; copy {:.0f} GB/s, multiply-adds in double precision {:.0f} Gflop/s\n", m.device,
+               1e-9 * m.machine.bandwidth, 1e-9 * m.machine.arithmetic);
+    return;
+  }
   fmt::print(
       "  {:.2f} times the reference kernel on as many cores ({:.1f} ns; triad {:.1f} GB/s, "
       "multiply-adds {:.1f} Gflop/s)\n",
@@ -206,7 +217,7 @@ void run_bench(BenchOptions options) {
     for (const int ranks : options.ranks) {
       for (const int threads : options.threads) {
         Measurement m = measure_in_own_processes(options, problem, ranks, threads);
-        m.machine = bench::measure_machine(m.cores());
+        if (!solver::is_device(options.device)) m.machine = bench::measure_machine(m.cores());
         print(m);
         all.push_back(std::move(m));
       }
@@ -240,6 +251,10 @@ void add_bench_command(CLI::App& app) {
   command->add_option("--ranks", options->ranks, "MPI ranks of this machine; several: one after the other")
       ->delimiter(',')
       ->check(CLI::Range(1, 4096))
+      ->excludes(laws);
+  add_word_option(*command, "--device", options->device,
+                  "cpu | gpu: a graphics processor | emulated: its kernels on the threads of this machine")
+      ->default_str("cpu")
       ->excludes(laws);
   CLI::Option* quick = command->add_flag("--quick", options->quick, "A fifth of the steps");
   command

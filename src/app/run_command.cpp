@@ -39,10 +39,7 @@
 namespace whipple::app {
 namespace {
 
-enum class Device { cpu, reference };
-constexpr auto words(Device /*unused*/) {
-  return std::array{Word<Device>{Device::cpu, "cpu"}, Word<Device>{Device::reference, "reference"}};
-}
+using solver::Device;
 
 struct Arguments {
   std::string case_file;
@@ -64,6 +61,7 @@ run::RunOptions run_options(const Arguments& arguments) {
       .restart = !arguments.restart.empty(),
       .force = arguments.force,
       .threads = arguments.threads,
+      .device = arguments.device,
       .wall_time = arguments.wall_time.empty()
                        ? 0.0
                        : option_quantity("--wall-time", arguments.wall_time, "s", range::positive()),
@@ -113,7 +111,7 @@ int run_on_ranks(const Arguments& arguments) {
   pass("--replay", arguments.replay);
   for (const std::string& entry : arguments.set) pass("--set", entry);
   if (arguments.threads > 0) pass("--threads", std::to_string(arguments.threads));
-  if (arguments.device == Device::reference) pass("--device", "reference");
+  if (arguments.device != Device::cpu) pass("--device", std::string(word_of(arguments.device)));
   if (arguments.force) program.emplace_back("--force");
   if (log::level() == log::Level::quiet) program.emplace_back("--quiet");
   if (log::level() == log::Level::verbose) program.emplace_back("--verbose");
@@ -230,7 +228,8 @@ void add_run_command(CLI::App& app) {
   add_word_option(
       *command, "--device", arguments->device,
       "cpu: kernels for the registers of the processor | reference: plain loops over single numbers, five "
-      "times slower, to compare with")
+      "times slower, to compare with | gpu: a graphics processor, which keeps the particles | emulated: the "
+      "kernels of a graphics processor on the threads of this machine, to compare with")
       ->default_str("cpu");
   command
       ->add_option("--wall-time", arguments->wall_time,

@@ -17,6 +17,7 @@
 #include "src/core/parallel/threads.hpp"
 #include "src/core/process/paths.hpp"
 #include "src/io/ranks.hpp"
+#include "src/solver/device/device_stage.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple::bench {
@@ -45,7 +46,10 @@ double point_count(const solver::Simulation& simulation) {
 }
 
 /// Counts the grid nodes of all ranks.
-double node_count(const solver::Simulation& simulation) {
+double node_count(solver::Simulation& simulation) {
+  if (simulation.device() != nullptr) {
+    return static_cast<double>(simulation.device()->engine().slots()) * grid::nodes_per_block;
+  }
   std::array<double, 1> nodes = {static_cast<double>(simulation.grid().slots()) * grid::nodes_per_block};
   parallel::sum(simulation.communicator(), nodes);
   return nodes[0];
@@ -77,9 +81,11 @@ Part time_steps(solver::Simulation& simulation, std::size_t steps) {
 
 }  // namespace
 
-Measurement measure(const Problem& problem, int threads, Length length, MPI_Comm communicator) {
+Measurement measure(const Problem& problem, int threads, Length length, solver::Device device,
+                    MPI_Comm communicator) {
   parallel::set_threads(threads);
   cases::Case setup = cases::read_case(process::find_data(problem.case_file).string(), problem.overrides);
+  if (solver::is_device(device)) solver::evaluate_by_tables(setup);
   cases::tabulate_materials(setup, io::Ranks(communicator));
   std::optional<solver::Simulation> simulation(std::in_place, setup, communicator);
   const bool whole = length == Length::whole;
@@ -91,6 +97,8 @@ Measurement measure(const Problem& problem, int threads, Length length, MPI_Comm
       simulation->advance(setup.time.end);
     }
   }
+  simulation->use(device);
+  if (simulation->device() != nullptr) simulation->device()->engine().measure_stages(true);
   Part best;
   const std::int64_t first_step = simulation->state().step;
   const std::size_t steps = static_cast<std::size_t>(problem.steps / share) / parts;
@@ -118,8 +126,14 @@ Measurement measure(const Problem& problem, int threads, Length length, MPI_Comm
                      .particles_per_block = points / nodes * grid::nodes_per_block,
                      .bytes_per_particle = memory[0] / points,
                      .peak_memory = peak[0],
+                     .device = {},
                      .stages = {},
                      .machine = {}};
+  if (simulation->device() != nullptr) {
+    const device::Rates rates = simulation->device()->engine().rates();
+    result.machine = {.bandwidth = rates.bandwidth, .arithmetic = rates.arithmetic};
+    result.device = simulation->device()->engine().device();
+  }
   for (const solver::Profile::Stage& stage : best.stages) {
     const StageCost cost = stage_cost(stage.name, setup, nodes / points);
     result.stages.push_back({stage.name, 1e9 * stage.seconds / best.particle_steps, cost.bytes, cost.flops});
@@ -145,6 +159,7 @@ nlohmann::json to_json(const Measurement& m) {
           {"particles_per_block", m.particles_per_block},
           {"bytes_per_particle", m.bytes_per_particle},
           {"peak_memory_bytes", m.peak_memory},
+          {"device", m.device},
           {"stages", stages},
           {"bandwidth_bytes_per_s", m.machine.bandwidth},
           {"arithmetic_flops_per_s", m.machine.arithmetic},
@@ -163,6 +178,7 @@ Measurement from_json(const nlohmann::json& json) {
       .particles_per_block = json.at("particles_per_block"),
       .bytes_per_particle = json.at("bytes_per_particle"),
       .peak_memory = json.at("peak_memory_bytes"),
+      .device = json.value("device", ""),
       .stages = {},
       .machine = {.bandwidth = json.at("bandwidth_bytes_per_s"),
                   .arithmetic = json.at("arithmetic_flops_per_s"),

@@ -11,6 +11,7 @@
 
 #include "src/bench/machine.hpp"
 #include "src/bench/problems.hpp"
+#include "src/solver/device/device.hpp"
 
 namespace whipple::bench {
 
@@ -34,6 +35,7 @@ struct Measurement {
   double particles_per_block = 0.0;
   double bytes_per_particle = 0.0;  ///< memory of the fields and the grid, all ranks
   double peak_memory = 0.0;         ///< bytes, resident, of the largest rank's process
+  std::string device;               ///< that kept the particles; empty: none
   std::vector<StageMeasurement> stages;
   MachineRates machine;  ///< rates of as many cores, measured immediately afterwards; 0: unknown
 
@@ -46,8 +48,10 @@ enum class Length {
   whole,  ///< from the start to the end of the case
 };
 
-/// Times a problem on the ranks of a communicator. Collective.
-Measurement measure(const Problem& problem, int threads, Length length, MPI_Comm communicator);
+/// Times a problem on the ranks of a communicator, or on a device. Collective.
+/// @throws InputError naming what a device does not compute of the problem
+Measurement measure(const Problem& problem, int threads, Length length, solver::Device device,
+                    MPI_Comm communicator);
 
 nlohmann::json to_json(const Measurement& measurement);
 /// Reads a measurement.

@@ -6,19 +6,15 @@
 
 #include "src/core/base/vector_math.hpp"
 #include "src/material/viscosity_formulas.hpp"
+#include "src/material/volume_formulas.hpp"
 
 namespace whipple::material {
 namespace {
 
-constexpr double least_volume_ratio = 0.5;  ///< limits of J in one step; stated in the report
-constexpr double greatest_volume_ratio = 2.0;
-/// Minimum density as a fraction of the reference density. Thinner material does not expand further: it then fills far
-/// more than the nodes on which its pressure acts, and without a bound isolated vapour would grow by the same factor in
-/// every step.
-constexpr double least_density_ratio = 1e-9;
-
-/// Maximum density as a fraction of the density at which the equation of state ends.
-constexpr double greatest_density_ratio = 0.999;
+using formulas::greatest_density_ratio;
+using formulas::greatest_volume_ratio;
+using formulas::least_density_ratio;
+using formulas::least_volume_ratio;
 
 /// Limits points to the maximum density of their equation of state, and counts them.
 WHIPPLE_KERNEL void hold_below_greatest_density(const Step& step, Chunk& chunk) {
@@ -50,7 +46,7 @@ WHIPPLE_KERNEL void advance_volume(const Step& step, Chunk& chunk) {
   for (std::size_t k = 0; k < chunk.size; ++k) {
     const double ratio = chunk.motion.ratio[k];
     const double room = std::max(chunk.old_density[k] * per_least_density, 1.0);
-    limited[k] = std::min(std::clamp(ratio, least_volume_ratio, greatest_volume_ratio), room);
+    limited[k] = formulas::limited_ratio(ratio, room);
     beyond += ratio < least_volume_ratio || ratio > greatest_volume_ratio ? 1 : 0;
     thinnest += std::min(ratio, greatest_volume_ratio) > room ? 1 : 0;
     chunk.volume_change[k] = chunk.old_volume[k] * (limited[k] - 1.0);
@@ -66,7 +62,7 @@ WHIPPLE_KERNEL void advance_volume(const Step& step, Chunk& chunk) {
     for (std::size_t k = 0; k < chunk.size; ++k) {
       const bool open = chunk.void_volume[k] > 0.0;
       const double before = chunk.old_volume[k] + chunk.void_volume[k], total = before * limited[k];
-      const double matter = std::min(chunk.old_volume[k] + (1.0 - share[k]) * (total - before), total);
+      const double matter = formulas::volume_beside_void(chunk.old_volume[k], share[k], before, total);
       chunk.volume[k] = open ? matter : chunk.volume[k];
       chunk.void_volume[k] = open ? total - matter : chunk.void_volume[k];
     }

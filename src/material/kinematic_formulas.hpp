@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/material/kinematics.hpp"
+#include "src/core/base/dialect.hpp"
+#include "src/material/stress_rotation.hpp"
 
 /// Kinematics of one point over a step (docs/theory/material.md, sections 1 and 2). T is the type of a component.
 namespace whipple::material::formulas {
@@ -17,27 +18,27 @@ struct Matrix {
 
 /// I + a M
 template <class T>
-inline Matrix<T> identity_plus(double a, const Matrix<T>& m) {
+WHIPPLE_POINT inline Matrix<T> identity_plus(double a, const Matrix<T>& m) {
   return {1.0 + a * m.xx, a * m.xy, a * m.xz, a * m.yx,      1.0 + a * m.yy,
           a * m.yz,       a * m.zx, a * m.zy, 1.0 + a * m.zz};
 }
 
 template <class T>
-inline T determinant(const Matrix<T>& m) {
+WHIPPLE_POINT inline T determinant(const Matrix<T>& m) {
   return m.xx * (m.yy * m.zz - m.yz * m.zy) - m.xy * (m.yx * m.zz - m.yz * m.zx) +
          m.xz * (m.yx * m.zy - m.yy * m.zx);
 }
 
 /// Adjugate: inverse times determinant.
 template <class T>
-inline Matrix<T> adjugate(const Matrix<T>& m) {
+WHIPPLE_POINT inline Matrix<T> adjugate(const Matrix<T>& m) {
   return {m.yy * m.zz - m.yz * m.zy, m.xz * m.zy - m.xy * m.zz, m.xy * m.yz - m.xz * m.yy,
           m.yz * m.zx - m.yx * m.zz, m.xx * m.zz - m.xz * m.zx, m.xz * m.yx - m.xx * m.yz,
           m.yx * m.zy - m.yy * m.zx, m.xy * m.zx - m.xx * m.zy, m.xx * m.yy - m.xy * m.yx};
 }
 
 template <class T>
-inline Matrix<T> multiply(const Matrix<T>& a, const Matrix<T>& b) {
+WHIPPLE_POINT inline Matrix<T> multiply(const Matrix<T>& a, const Matrix<T>& b) {
   return {a.xx * b.xx + a.xy * b.yx + a.xz * b.zx, a.xx * b.xy + a.xy * b.yy + a.xz * b.zy,
           a.xx * b.xz + a.xy * b.yz + a.xz * b.zz, a.yx * b.xx + a.yy * b.yx + a.yz * b.zx,
           a.yx * b.xy + a.yy * b.yy + a.yz * b.zy, a.yx * b.xz + a.yy * b.yz + a.yz * b.zz,
@@ -47,7 +48,7 @@ inline Matrix<T> multiply(const Matrix<T>& a, const Matrix<T>& b) {
 
 /// Strain and rotation of the step: sym m is the strain increment (eq. 2, 3).
 template <class T>
-inline Matrix<T> midpoint_displacement_gradient(const Matrix<T>& l, double dt) {
+WHIPPLE_POINT inline Matrix<T> midpoint_displacement_gradient(const Matrix<T>& l, double dt) {
   const Matrix<T> half = identity_plus(0.5 * dt, l);
   // The bound acts only where the half step nearly inverts the point; its volume change is limited anyway.
   const T scale = dt / std::max<T>(determinant(half), 0.1);
@@ -59,7 +60,7 @@ inline Matrix<T> midpoint_displacement_gradient(const Matrix<T>& l, double dt) {
 /// R = I + (W + W^2/2) / (1 + |w|^2/4), w the axial vector of W: closed form of (I - W/2)^-1 (I + W/2)
 /// (eq. 4).
 template <class T>
-inline Matrix<T> rotation(const Matrix<T>& m) {
+WHIPPLE_POINT inline Matrix<T> rotation(const Matrix<T>& m) {
   const T wx = 0.5 * (m.zy - m.yz), wy = 0.5 * (m.xz - m.zx), wz = 0.5 * (m.yx - m.xy);
   const T square = wx * wx + wy * wy + wz * wz;
   const T a = 1.0 / (1.0 + 0.25 * square), b = 0.5 * a;
@@ -76,7 +77,7 @@ struct Symmetric {
 
 /// R s R^T
 template <class T>
-inline Symmetric<T> turned(const Symmetric<T>& s, const Matrix<T>& r) {
+WHIPPLE_POINT inline Symmetric<T> turned(const Symmetric<T>& s, const Matrix<T>& r) {
   const Matrix<T> t = multiply(r, {s.xx, s.xy, s.zx, s.xy, s.yy, s.yz, s.zx, s.yz, s.zz});
   return {t.xx * r.xx + t.xy * r.xy + t.xz * r.xz, t.yx * r.yx + t.yy * r.yy + t.yz * r.yz,
           t.zx * r.zx + t.zy * r.zy + t.zz * r.zz, t.xx * r.yx + t.xy * r.yy + t.xz * r.yz,
@@ -85,7 +86,7 @@ inline Symmetric<T> turned(const Symmetric<T>& s, const Matrix<T>& r) {
 
 /// sym m
 template <class T>
-inline Symmetric<T> symmetric(const Matrix<T>& m) {
+WHIPPLE_POINT inline Symmetric<T> symmetric(const Matrix<T>& m) {
   return {m.xx, m.yy, m.zz, 0.5 * (m.xy + m.yx), 0.5 * (m.yz + m.zy), 0.5 * (m.zx + m.xz)};
 }
 
@@ -97,7 +98,7 @@ struct Motion {
 };
 
 template <StressRotation rule, class T>
-inline Motion<T> motion_of(const Matrix<T>& l, double dt) {
+WHIPPLE_POINT inline Motion<T> motion_of(const Matrix<T>& l, double dt) {
   const Matrix<T> m = midpoint_displacement_gradient(l, dt);
   const Motion<T> midpoint = {symmetric(m), rotation(m)};
   if constexpr (rule == StressRotation::hughes_winget) return midpoint;
@@ -133,7 +134,8 @@ struct Trial {
 /// @param deviator  before the step, Pa
 /// @param modulus   G, Pa
 template <class T>
-inline Trial<T> elastic_trial(const Symmetric<T>& deviator, const Motion<T>& motion, T modulus) {
+WHIPPLE_POINT inline Trial<T> elastic_trial(const Symmetric<T>& deviator, const Motion<T>& motion,
+                                            T modulus) {
   const Symmetric<T>& e = motion.strain;
   const Symmetric<T> t = turned(deviator, motion.rotation);
   const T twice = 2.0 * modulus, mean = (e.xx + e.yy + e.zz) / 3.0;

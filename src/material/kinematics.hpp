@@ -3,11 +3,10 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 
 #include "src/core/base/tensor.hpp"
-#include "src/core/base/words.hpp"
+#include "src/material/stress_rotation.hpp"
 
 /// Kinematics and elastic trial of one step (docs/theory/material.md, sections 1 and 2) for a chunk of points, with one
 /// array per tensor component, so that the compiler processes several points at a time.
@@ -22,16 +21,6 @@ using MatrixLanes = std::array<Lanes, 9>;     ///< row by row
 using SymmetricLanes = std::array<Lanes, 6>;  ///< xx, yy, zz, xy, yz, zx
 
 constexpr std::size_t padded(std::size_t size) { return (size + lane_count - 1) / lane_count * lane_count; }
-
-/// Selects how strain increment and rotation of a step follow from its velocity gradient (docs/theory/material.md,
-/// section 2).
-enum class StressRotation : std::uint8_t {
-  hughes_winget,  ///< both refer to the configuration in the middle of the step
-  polar,          ///< of the polar decomposition I + dt L = V R
-};
-constexpr std::array<Word<StressRotation>, 2> words(StressRotation) {
-  return {{{StressRotation::hughes_winget, "hughes_winget"}, {StressRotation::polar, "polar"}}};
-}
 
 /// Holds input and results of `volume_change` and `elastic_trial`, in one object so that the compiler can assume its
 /// arrays to be disjoint.

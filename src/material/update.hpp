@@ -9,6 +9,7 @@
 
 #include "src/core/base/tensor.hpp"
 #include "src/material/burn.hpp"
+#include "src/material/heating_viscosity.hpp"
 #include "src/material/kinematics.hpp"
 #include "src/material/material.hpp"
 
@@ -16,14 +17,6 @@
 /// functions process chunks of 64 points: kinematics and strength, one call of the equation of state, then failure.
 /// They do not allocate or throw, and may run in several threads on disjoint points.
 namespace whipple {
-
-/// Selects the part of the artificial viscosity that heats if losses are kept as unresolved energy
-/// (docs/theory/dissipation.md, eq. 6).
-enum class HeatingViscosity : std::uint8_t {
-  not_distinguished,  ///< losses become heat: points do not store such a part
-  whole,              ///< all of it
-  of_affine_field,    ///< the part that the affine field of a point represents
-};
 
 struct UpdateSettings {
   double time_step = 0.0;  ///< s

@@ -3,24 +3,25 @@
 
 #include <algorithm>
 
-#include "src/material/update.hpp"
+#include "src/core/base/dialect.hpp"
 
-/// Artificial viscosity of one point (docs/theory/material.md, eq. 8; docs/theory/dissipation.md, eq. 6).
+/// Artificial viscosity of one point (docs/theory/material.md, eq. 8; docs/theory/dissipation.md, eq. 6), with
+/// the coefficients of `UpdateSettings`.
 namespace whipple::material::formulas {
 
 /// Returns the artificial viscosity rho w (c2 w + c1 c) of a closing speed w = l |D|, Pa (eq. 8).
 /// @param closing  w, m/s
-template <class T>
-inline T artificial_viscosity(const UpdateSettings& settings, T density, T closing, T sound_speed) {
+template <class Settings, class T>
+WHIPPLE_POINT inline T artificial_viscosity(const Settings& settings, T density, T closing, T sound_speed) {
   return density * closing *
          (settings.quadratic_viscosity * closing + settings.linear_viscosity * sound_speed);
 }
 
 /// Returns the tension by which viscosity resists expansion, at most the pressure, Pa.
 /// @param opening  l D, m/s, >= 0
-template <class T>
-inline T expansion_viscosity(const UpdateSettings& settings, T density, T opening, T sound_speed,
-                             T pressure) {
+template <class Settings, class T>
+WHIPPLE_POINT inline T expansion_viscosity(const Settings& settings, T density, T opening, T sound_speed,
+                                           T pressure) {
   const T viscosity = density * opening * settings.expansion_viscosity * sound_speed;
   return std::min(viscosity, std::max(pressure, T{}));
 }
@@ -29,9 +30,9 @@ inline T expansion_viscosity(const UpdateSettings& settings, T density, T openin
 /// affine field of the particle in material that is not compressed yet.
 /// @param of_grid, of_field  closing speeds by either velocity gradient, m/s, >= 0
 /// @param compression        rho/rho_0 - 1
-template <class T>
-inline T heating_closing_speed(const UpdateSettings& settings, T of_grid, T of_field, T compression,
-                               double per_range) {
+template <class Settings, class T>
+WHIPPLE_POINT inline T heating_closing_speed(const Settings& settings, T of_grid, T of_field, T compression,
+                                             double per_range) {
   const T share = std::clamp(1.0 - compression * per_range, 0.0, 1.0);
   return of_grid - share * std::max(of_grid - settings.affine_gain * of_field, T{});
 }

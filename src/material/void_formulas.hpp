@@ -33,8 +33,8 @@ struct SharedVolume {
 /// @param modulus  rho c^2 (Pa), bounded from below
 /// @param least    Pa, <= 0
 template <class Number>
-inline SharedVolume<Number> share_volume(const PorousPoint<Number>& point, Number modulus, Number opening,
-                                         Number least) {
+WHIPPLE_POINT inline SharedVolume<Number> share_volume(const PorousPoint<Number>& point, Number modulus,
+                                                       Number opening, Number least) {
   const Number pressure = point.pressure, volume = point.volume, total = volume + point.void_volume;
   const Number limit = broadcast<Number>(greatest_void_step);
   const Number wanted = (pressure - least) / modulus;

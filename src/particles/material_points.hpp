@@ -10,6 +10,7 @@
 #include "src/core/base/prefetch.hpp"
 #include "src/core/base/tensor.hpp"
 #include "src/particles/history.hpp"
+#include "src/particles/phases.hpp"
 
 namespace whipple {
 
@@ -42,15 +43,6 @@ template <class Points, class Value>
 Field(const char*, const char*, std::vector<Value> Points::*, bool) -> Field<Points, Value>;
 template <class Points, class Value>
 Field(const char*, const char*, std::vector<Value> Points::*, bool, double) -> Field<Points, Value>;
-
-constexpr double never = -1.0;        ///< time of an event that has not occurred, s
-constexpr double melted_share = 0.5;  ///< melted mass fraction that counts as melted
-
-/// Returns the mass fraction of a solid that carries shear: 1 - melted; 0 in the presence of vapour, which fills the
-/// volume even if most of the mass is still solid.
-inline double shear_bearing_fraction(double melted_fraction, double vaporised_fraction) {
-  return vaporised_fraction > 0.0 ? 0.0 : 1.0 - melted_fraction;
-}
 
 /// Holds the state of material at points, one array per field (SI): the common part of MPM particles and Gauss points
 /// of finite elements, so that `update_material` is one code path.

@@ -90,6 +90,16 @@ io::RunDirectory new_directory(const cases::Case& setup, const fs::path& path, c
   return created ? *created : io::RunDirectory::open(path, name);
 }
 
+/// Builds the tables of the materials, and checks that the device computes what the case asks for.
+/// @throws InputError with all that it does not compute
+void prepare_materials(cases::Case& setup, const RunOptions& options, const io::Ranks& ranks) {
+  if (solver::is_device(options.device)) solver::evaluate_by_tables(setup);
+  cases::tabulate_materials(setup, ranks);
+  if (!solver::is_device(options.device)) return;
+  if (ranks.is_parallel()) throw InputError("--device: a device computes a run on one rank");
+  if (auto faults = solver::device_faults(setup); !faults.empty()) throw InputError(std::move(faults));
+}
+
 fs::path output_directory(const RunOptions& options, const fs::path& case_file) {
   return options.output_directory.empty() ? fs::path("run") / run_name(case_file) : options.output_directory;
 }
@@ -138,13 +148,14 @@ int begin(const RunOptions& options, MPI_Comm communicator) {
   cases::Case setup = cases::read_case(options.case_file, options.overrides);
   require_known_columns(setup, options.overrides);
   require_memory(setup, communicator);
-  cases::tabulate_materials(setup, ranks);
+  prepare_materials(setup, options, ranks);
   const io::RunDirectory directory =
       new_directory(setup, output_directory(options, options.case_file), options, ranks);
   if (ranks.is_root()) log::set_file(directory.log_file());
   log::info("{}: {}", setup.title.empty() ? directory.name() : setup.title, directory.path().string());
   for (const std::string& remark : cases::remarks(setup)) log::warning("{}", remark);
   solver::Simulation simulation(setup, communicator);
+  simulation.use(options.device);
   require_disk(simulation, directory, 3, ranks);
   Runner runner(simulation, observers_of(simulation, directory, options, ranks), options.wall_time);
   runner.begin();
@@ -180,12 +191,13 @@ int go_on(const RunOptions& options, MPI_Comm communicator) {
               setup.stops[static_cast<std::size_t>(ended_by - 1)].in_words());
     return 0;
   }
-  cases::tabulate_materials(setup, ranks);
+  prepare_materials(setup, options, ranks);
   const io::RunDirectory directory =
       io::RunDirectory::open(options.output_directory, checkpoint.values.text("run_name"));
   if (ranks.is_root()) log::set_file(directory.log_file());
   ranks.on_root([&] { directory.remove_partial_files(); });
   solver::Simulation simulation = resume(setup, checkpoint, communicator);
+  simulation.use(options.device);
   if (!options.overrides.empty()) {  // for the next restart
     ranks.on_root([&] {
       directory.write_input(cases::to_toml(setup, material_copies(setup)) +

@@ -130,13 +130,7 @@ void strain_particles(Stages& s) {
 }
 
 /// Updates the ledger of energy and momentum and the rates that bound the next step.
-void end_step(Stages& s) {
-  s.state.profile.time("boundaries", [&] {
-    // Elements first: this fixes the order of the sum of the outflow.
-    for (Carrier* carrier : s.carriers | std::views::drop(1)) carrier->remove_outside();
-    s.particles.remove_outside();
-    s.particles.retire_products();
-  });
+void close_step(Stages& s) {
   s.state.profile.time("ledger", [&] {
     RunState& run = s.state.run;
     s.time_step.take_rates();
@@ -148,6 +142,17 @@ void end_step(Stages& s) {
     s.balance.require_energy();
     s.plausibility.require();
   });
+}
+
+/// Removes what has left the domain and closes the step.
+void end_step(Stages& s) {
+  s.state.profile.time("boundaries", [&] {
+    // Elements first: this fixes the order of the sum of the outflow.
+    for (Carrier* carrier : s.carriers | std::views::drop(1)) carrier->remove_outside();
+    s.particles.remove_outside();
+    s.particles.retire_products();
+  });
+  close_step(s);
 }
 
 /// Performs a step of the symplectic scheme with exact energy (docs/theory/mpm.md, section 4).
@@ -180,6 +185,14 @@ void step_symplectic(Stages& s, double until) {
   });
   s.elements.advance();
   end_step(s);  // walls and outflow; energy and momentum
+}
+
+/// Performs the same step on a device.
+void step_on_device(Stages& s, double until) {
+  s.time_step.begin(until);
+  s.contact.watch_touches(s.time_step.accurate_step());
+  s.device->step(s.time_step.accurate_step());
+  close_step(s);
 }
 
 /// Performs a step of the scheme "update stress first" (Bardenhagen, J. Comput. Phys. 180 (2002) 383;
@@ -257,6 +270,7 @@ void bin_particles(Stages& s) {
 }
 
 void advance(Stages& s, double until) {
+  if (s.device) return step_on_device(s, until);
   switch (s.state.setup.time.scheme) {
     case cases::Scheme::symplectic:
       return step_symplectic(s, until);

@@ -61,6 +61,16 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
+void Simulation::use(Device device) {
+  if (!is_device(device)) return;
+  stages_->device = std::make_unique<DeviceStage>(*state_, stages_->contact, device);
+  state_->device = stages_->device.get();
+}
+
+void Simulation::synchronize() const {
+  if (state_->device != nullptr) state_->device->synchronize();
+}
+
 void Simulation::advance(double until) { solver::advance(*stages_, until); }
 
 void Simulation::add_load(Load load) { stages_->loads.add(std::move(load)); }
@@ -70,6 +80,7 @@ bool Simulation::is_one_with_image(std::size_t body, std::size_t face) const {
 }
 
 std::vector<const Carrier*> Simulation::carriers() const {
+  synchronize();
   return {stages_->carriers.begin(), stages_->carriers.end()};
 }
 
@@ -78,19 +89,22 @@ const std::vector<fem::Mesh>& Simulation::meshes() const { return stages_->hexah
 const std::vector<fem::Bars>& Simulation::bars() const { return stages_->trusses.bars(); }
 
 View Simulation::view() const {
+  synchronize();
   View view;
   for (const Carrier* carrier : stages_->carriers) carrier->show(view);
   return view;
 }
 
 Contents Simulation::contents() const {
+  synchronize();
   Contents contents;
   for (const Carrier* carrier : stages_->carriers) carrier->save(contents);
   return contents;
 }
 
 std::size_t Simulation::bytes() const {
-  std::size_t bytes = state_->grid.bytes();
+  std::size_t bytes =
+      state_->grid.bytes() + (state_->device != nullptr ? state_->device->engine().bytes() : 0);
   for (const Carrier* carrier : stages_->carriers) bytes += carrier->bytes();
   return bytes;
 }

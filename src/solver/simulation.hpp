@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "src/solver/carriers/carrier.hpp"
+#include "src/solver/device/device.hpp"
 #include "src/solver/loads.hpp"
 #include "src/solver/state.hpp"
 
@@ -31,6 +32,12 @@ class Simulation {
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
   ~Simulation();
+
+  /// Keeps the particles on a device from now on, which steps them; nothing for a processor.
+  /// @throws InputError naming what the case asks for that a device does not compute, StateError without a device
+  void use(Device device);
+  /// Returns the device that steps the particles; null without one.
+  [[nodiscard]] DeviceStage* device() { return state_->device; }
 
   /// Advances by one step of the case's scheme, at most to the time `until` (s).
   /// @throws StateError with step, time, body, particle and state if a state is undefined or out of range, or if the
@@ -57,7 +64,10 @@ class Simulation {
   /// Returns this rank's parts of the carriers of the material, particles first.
   [[nodiscard]] std::vector<const Carrier*> carriers() const;
   /// Returns the particles of this rank.
-  [[nodiscard]] const Particles& particles() const { return state_->particles; }
+  [[nodiscard]] const Particles& particles() const {
+    synchronize();
+    return state_->particles;
+  }
   /// Returns the bodies of elements, without converted elements: this rank's part, with copies of the nodes that it
   /// shares with other ranks (src/fem/distribution.hpp).
   [[nodiscard]] const std::vector<fem::Mesh>& meshes() const;
@@ -83,6 +93,9 @@ class Simulation {
   [[nodiscard]] double least_fill(double pressure);
 
  private:
+  /// Fetches the particles from a device.
+  void synchronize() const;
+
   std::unique_ptr<Stages> stages_;
   State* state_ = nullptr;  // owned by the stages
 };

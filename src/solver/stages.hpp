@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
+
 #include "src/solver/carriers/hexahedra.hpp"
 #include "src/solver/carriers/particle_carrier.hpp"
 #include "src/solver/carriers/trusses.hpp"
+#include "src/solver/device/device_stage.hpp"
 #include "src/solver/loads.hpp"
 #include "src/solver/stages/activity.hpp"
 #include "src/solver/stages/applied_loads.hpp"
@@ -44,6 +47,7 @@ struct Stages {
   FillWatch fill;
   Balance balance;
   Plausibility plausibility;
+  std::unique_ptr<DeviceStage> device;  ///< null: the stages step the particles
 };
 
 /// Performs one step of the scheme of the case, at most to the time `until` (s).

@@ -85,6 +85,8 @@ struct RunState {
   std::vector<double> loaded_mass;  ///< on which the force of each load acts at the start, kg; 0: no force
 };
 
+class DeviceStage;
+
 /// Holds the data that several stages of a step read and write, on one rank. Data of a single stage are kept there.
 struct State {
   State(const cases::Case& setup, MPI_Comm communicator, const RunState& run);
@@ -113,6 +115,7 @@ struct State {
     double element_compression = 0.0;  ///< of elements under pressure, 1/s
   } rates;
   Profile profile;
+  DeviceStage* device = nullptr;  ///< that steps the particles; null: the stages do
 
   /// Returns the shape functions of forces, velocities and their gradients.
   [[nodiscard]] transfer::ShapeFunctions functions() const { return {shape, setup.transfer.slope_smoothing}; }

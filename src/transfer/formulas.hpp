@@ -26,8 +26,8 @@ struct NodeChange {
 /// @param relaxation  beta
 template <class Number>
 [[gnu::always_inline]] WHIPPLE_POINT inline NodeChange<Number> change_by_node(const Number& difference,
-                                                                const Number& increment,
-                                                                const Number& relaxation) {
+                                                                              const Number& increment,
+                                                                              const Number& relaxation) {
   const Number relaxed = relaxation * difference, rest = difference - increment;
   return {increment - relaxed, multiply_add(relaxed, rest + rest, increment * increment)};
 }
@@ -36,7 +36,8 @@ template <class Number>
 /// @param loss    sum of N times the losses of the nodes, m^2/s^2
 /// @param change  sum of N times their changes of velocity, m/s
 template <class Number>
-[[gnu::always_inline]] WHIPPLE_POINT inline Number heat_of_velocity(const Number& loss, const Number& change) {
+[[gnu::always_inline]] WHIPPLE_POINT inline Number heat_of_velocity(const Number& loss,
+                                                                    const Number& change) {
   return 0.5 * (loss - change * change);
 }
 
@@ -51,7 +52,7 @@ struct FieldChange {
 /// @param per_inertia  1/I, 1/m^2; 0: the point carries no affine field
 template <class Number>
 [[gnu::always_inline]] WHIPPLE_POINT inline FieldChange<Number> change_of_field(const Number& moment,
-                                                                  const Number& per_inertia) {
+                                                                                const Number& per_inertia) {
   const Number change = per_inertia * moment;
   return {change, 0.5 * change * moment};
 }
@@ -63,8 +64,8 @@ template <class Number>
 /// @param gradient  columns of L, 1/s
 /// @returns the loss of |C|^2, 1/s^2
 template <class Vector>
-[[gnu::always_inline]] WHIPPLE_POINT inline auto convect(std::array<Vector, 3>& c, const std::array<Vector, 3>& gradient,
-                                           double dt) {
+[[gnu::always_inline]] WHIPPLE_POINT inline auto convect(std::array<Vector, 3>& c,
+                                                         const std::array<Vector, 3>& gradient, double dt) {
   const Vector f0 = unit_vector<Vector>(0) + dt * gradient[0];
   const Vector f1 = unit_vector<Vector>(1) + dt * gradient[1];
   const Vector f2 = unit_vector<Vector>(2) + dt * gradient[2];

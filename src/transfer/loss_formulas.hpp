@@ -61,7 +61,8 @@ WHIPPLE_POINT inline bool is_loose(const LossyPoint& point, double initial_densi
 /// Where gaps close, material collides: all of the loss is heat, and so is the fraction of the unresolved energy by which the volume decreases.
 /// Contact heats, but for fragmented material that expands, whose fragments hit those of another body as they hit
 /// one another.
-WHIPPLE_POINT inline DividedLosses divide_losses(const LossRates& rates, const LossyPoint& point, const LossyStep& step) {
+WHIPPLE_POINT inline DividedLosses divide_losses(const LossRates& rates, const LossyPoint& point,
+                                                 const LossyStep& step) {
   const bool loose = is_loose(point, rates.initial_density);
   if (loose && step.divergence < 0.0) {
     const double share = -std::expm1(rates.collision_rate * step.divergence * step.dt);

@@ -10,6 +10,7 @@
 #include "src/core/base/error.hpp"
 #include "src/core/base/simd.hpp"
 #include "src/grid/block_grid.hpp"
+#include "src/transfer/axis_weights.hpp"
 #include "src/transfer/shape_kind.hpp"
 
 /// Shape functions as policies: weights of the nodes of one direction. A three-dimensional weight is the
@@ -46,16 +47,6 @@ struct Cells {
 /// In the place of a smoothing, where nothing is weighted with slopes.
 inline constexpr double no_slopes = 0.0;
 
-/// Weights, slopes and distances of the nodes that a particle reaches along one direction, from its
-/// distance to the first of them in cells: `shift` to `shift` + 1 of the stencil.
-/// @tparam Number double, or Lanes for the three directions at once (lane = direction)
-template <int Count, class Number = double>
-struct AxisWeights {
-  std::array<Number, Count> weight;      ///< N
-  std::array<Number, Count> derivative;  ///< S: dN/dx, or its smoother form, 1/m
-  std::array<Number, Count> distance;    ///< node position minus particle position, m
-};
-
 /// Piecewise linear functions of the cells: two nodes per direction, gradients jump at the faces of cells.
 struct Linear {
   static constexpr auto kind = ShapeFunction::linear;
@@ -86,13 +77,7 @@ struct QuadraticBSpline {
 
   template <class Number>
   [[gnu::always_inline]] static AxisWeights<count, Number> weights(Number g, const Cells& cells) {
-    AxisWeights<count, Number> w;
-    const double per_cell = 1.0 / cells.size;
-    const Number y = g - 1.0, slope = y + (cells.smoothing<Number>() * y) * (0.25 - y * y);
-    w.weight = {0.5 * (1.5 - g) * (1.5 - g), 0.75 - (g - 1.0) * (g - 1.0), 0.5 * (g - 0.5) * (g - 0.5)};
-    w.derivative = {(slope - 0.5) * per_cell, slope * (-2.0 * per_cell), (slope + 0.5) * per_cell};
-    w.distance = {-g * cells.size, (1.0 - g) * cells.size, (2.0 - g) * cells.size};
-    return w;
+    return formulas::quadratic_weights<Number>(g, cells.size, cells.smoothing<Number>());
   }
 };
 

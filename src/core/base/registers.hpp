@@ -30,6 +30,9 @@ WHIPPLE_POINT inline double maximum(double a, double b) { return a > b ? a : b; 
 inline bool any(bool mask) { return mask; }
 inline bool all_positive(double x) { return x > 0.0; }
 WHIPPLE_POINT inline double select(bool mask, double a, double b) { return mask ? a : b; }
+/// Returns the logarithm (exponential) of a number, for formulas written for any width.
+WHIPPLE_POINT inline double natural_log(double x) { return std::log(x); }
+WHIPPLE_POINT inline double exponential(double x) { return std::exp(x); }
 
 #ifndef __CUDACC__  // kernels of a graphics processor take single numbers
 /// Holds four doubles: vector extension of the compiler.

@@ -14,6 +14,7 @@
 /// error 4 ulp). For batch loops; a single point and a batch of points must use the same function to agree bitwise.
 namespace whipple {
 
+#ifndef __CUDACC__
 namespace libmvec {
 extern "C" {
 // NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming): names of the library
@@ -30,9 +31,12 @@ inline Lanes exp(Lanes x) { return Lanes(libmvec::_ZGVdN4v_exp(__m256d(x))); }
 inline Lanes exp_minus_1(Lanes x) { return Lanes(libmvec::_ZGVdN4v_expm1(__m256d(x))); }
 /// Returns the natural logarithm; `log` is the namespace of the messages (src/core/base/log.hpp).
 inline Lanes natural_log(Lanes x) { return Lanes(libmvec::_ZGVdN4v_log(__m256d(x))); }
+inline Lanes exponential(Lanes x) { return exp(x); }
+inline Lanes pow(Lanes x, Lanes y) { return Lanes(libmvec::_ZGVdN4vv_pow(__m256d(x), __m256d(y))); }
+#endif
 /// Returns the natural logarithm of positive normal numbers to 4e-8, for initial guesses, at a third of the cost. Loops
 /// over it are vectorised by the compiler.
-inline double rough_log(double x) {
+WHIPPLE_POINT inline double rough_log(double x) {
   // x = 2^k m with m from sqrt(1/2) to sqrt(2)
   constexpr std::uint64_t least = 0x3fe6a09e667f3bcd, exponent = ~0xfffffffffffffULL,
                           one = 0x4330000000000000;
@@ -45,14 +49,10 @@ inline double rough_log(double x) {
   return 0.6931471805599453 * whole +
          s * (2.0 + square * (2.0 / 3.0 + square * (2.0 / 5.0 + square * (2.0 / 7.0))));
 }
-inline Lanes pow(Lanes x, Lanes y) { return Lanes(libmvec::_ZGVdN4vv_pow(__m256d(x), __m256d(y))); }
 
 /// Applies the function to whole arrays in place, eight numbers at a time if the processor supports it (errors as
 /// above; results may differ in the last bits). @param size a multiple of 8
 void exponentials(double* x, std::size_t size);
 void logarithms(double* x, std::size_t size);
-
-/// Returns the logarithm of a number, for formulas written for either type.
-inline double natural_log(double x) { return std::log(x); }
 
 }  // namespace whipple

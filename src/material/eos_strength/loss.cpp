@@ -6,19 +6,14 @@
 #include "src/core/base/simd.hpp"
 #include "src/core/base/vector_math.hpp"
 #include "src/material/eos_strength/parts.hpp"
-#include "src/material/void_formulas.hpp"
+#include "src/material/loss_formulas.hpp"
 
 namespace whipple::material::parts {
 namespace {
 
-constexpr double least_sound_speed_ratio = 0.1;  ///< minimum, as a fraction of the reference bulk sound speed
-
+using formulas::least_sound_speed_ratio;
+using formulas::Opening;
 using Four = whipple::Lanes;  // points at a time
-using Porous = formulas::PorousPoint<Four>;
-
-/// Selects the cause that opens voids in points that have not failed: none, damage, or a tension beyond
-/// `least_pressure`.
-enum class Opening : std::uint8_t { none, damage, tension };
 
 /// Reduces stress and energy of points that have failed, melt, or contain opening cracks or voids; sets `kept` to the
 /// fraction of the deviator that they retain.
@@ -27,39 +22,30 @@ template <Opening kind, bool viscous>
 inline void lose_strength(const EosStrength& model, Chunk& chunk, const Lanes& bulk, double least_sound_speed,
                           Lanes& squared) {
   const double least_squared = least_sound_speed * least_sound_speed;
-  constexpr bool brittle = kind == Opening::tension;
-  const LanesMask all = Four{} == Four{}, none = ~all;
   const Lanes& damages = chunk.history[model.damage];
   for (std::size_t k = 0; k < chunk.size; k += 4) {
     const auto of = [k](const Lanes& lanes) { return load(&lanes[k]); };
-    const LanesMask failed = of(chunk.intact) == 0.0, loose = brittle ? all : failed;
-    const Four damage = kind == Opening::damage ? of(damages) : Four{};
-    const Four melted = of(chunk.melted), density = of(chunk.density), softest = broadcast(least_squared);
-    const Four bearing = select(of(chunk.vaporised) > 0.0, Four{}, 1.0 - melted) * (1.0 - damage);
-    const Four solid = select(failed, Four{}, bearing), solid_before = of(chunk.solid_fraction);
-
-    const Four opening = select(loose, broadcast(1.0), damage);
-    const Four least = brittle ? select(failed, Four{}, of(chunk.least_pressure)) : Four{};
-    const Porous before = {of(chunk.acting_pressure), of(chunk.volume), of(chunk.void_volume)};
-    const auto [shared, limited] = formulas::share_volume(before, density * of(bulk), opening, least);
+    const formulas::SolidPoint<Four> before = {
+        .porous = {of(chunk.acting_pressure), of(chunk.volume), of(chunk.void_volume)},
+        .density = of(chunk.density),
+        .melted = of(chunk.melted),
+        .vaporised = of(chunk.vaporised),
+        .damage = kind == Opening::damage ? of(damages) : Four{},
+        .least_pressure = kind == Opening::tension ? of(chunk.least_pressure) : Four{},
+        .solid_before = of(chunk.solid_fraction),
+        .solid_modulus = of(chunk.solid_modulus),
+        .bulk = of(bulk),
+        .viscosity = of(chunk.artificial_viscosity),
+        .failed = of(chunk.intact) == 0.0};
+    const formulas::LoosePoint<Four> after = formulas::lose_strength<kind, viscous>(before, least_squared);
     const unsigned valid = (1U << std::min<std::size_t>(chunk.size - k, 4)) - 1U;
-    chunk.report.limited_void_steps += static_cast<std::size_t>(std::popcount(bits(limited) & valid));
-    const LanesMask parts = opening > 0.0;
-    const Four pressure = select(parts, shared.pressure, before.pressure);
-    const Four void_volume = select(parts, shared.void_volume, before.void_volume);
-    store(&chunk.acting_pressure[k], pressure);
-    store(&chunk.volume[k], select(parts, shared.volume, before.volume));
-    store(&chunk.void_volume[k], void_volume);
-
-    const LanesMask gaping = loose & (void_volume > 0.0);  // opened in this step or before
-    store(&chunk.artificial_viscosity[k], select(gaping, Four{}, of(chunk.artificial_viscosity)));
-    const Four of_solid = of(bulk) + 4.0 / 3.0 * solid * of(chunk.solid_modulus) / density;
-    const LanesMask slack = (failed & (pressure <= 0.0)) | (~failed & gaping);
-    store(&squared[k], select(slack, softest, select(failed, of(bulk), of_solid)));
-    const LanesMask melts = viscous ? none : solid < solid_before;
-    const Four of_intact = select(melts, solid / solid_before, broadcast(1.0));
-    const Four of_failed = viscous ? select(gaping, Four{}, broadcast(1.0)) : Four{};
-    store(&chunk.kept[k], select(failed, of_failed, of_intact));
+    chunk.report.limited_void_steps += static_cast<std::size_t>(std::popcount(bits(after.limited) & valid));
+    store(&chunk.acting_pressure[k], after.porous.pressure);
+    store(&chunk.volume[k], after.porous.volume);
+    store(&chunk.void_volume[k], after.porous.void_volume);
+    store(&chunk.artificial_viscosity[k], after.viscosity);
+    store(&squared[k], after.squared_sound_speed);
+    store(&chunk.kept[k], after.kept);
   }
 }
 

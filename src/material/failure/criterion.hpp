@@ -12,22 +12,9 @@
 
 #include "src/core/base/parameter_table.hpp"
 #include "src/core/base/tensor.hpp"
+#include "src/material/failure/code.hpp"
 
 namespace whipple::failure {
-
-/// Lists the values of `MaterialPoints::failed`: the cause of failure.
-enum Code : std::uint8_t {
-  intact = 0,
-  tensile = 1,           ///< tensile pressure
-  plastic = 2,           ///< plastic strain
-  principal_stress = 3,  ///< largest principal stress
-  principal_strain = 4,  ///< largest principal strain
-  fractured = 5,         ///< ductile fracture by accumulated damage
-  fragmented = 6,        ///< brittle fragmentation
-  void_growth = 7,       ///< growth and coalescence of voids
-  spalled = 8,           ///< accumulated tension
-};
-constexpr std::size_t code_count = 16;  ///< available codes: a new law may use the next free one, `Code{9}`
 
 /// Holds the components xx, yy, zz, xy, yz, zx of a symmetric tensor, one entry per point.
 template <class Number>
@@ -120,6 +107,7 @@ class CriterionModel final : public Criterion {
  public:
   /// @throws InputError if the constants are inconsistent
   explicit CriterionModel(const Law& law) : law_(law) { law_.require_consistent(); }
+  [[nodiscard]] const Law& law() const { return law_; }
   [[nodiscard]] std::string_view model() const override { return Law::name; }
   void mark(const State& state, std::span<double> damage, std::span<std::uint8_t> failed) const override {
     if constexpr (requires { law_.mark(state, damage, failed); }) law_.mark(state, damage, failed);

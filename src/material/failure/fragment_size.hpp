@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cmath>
-
 #include "src/material/failure/criterion.hpp"
+#include "src/material/failure/fracture_formulas.hpp"
 
 namespace whipple::failure {
 
@@ -37,11 +36,10 @@ class FragmentSize final : public Criterion {
   /// Returns the size (m) of the fragments of a point that fails; 0: none.
   /// @param density  kg/m^3, @param melted  mass fraction, @param rate  volumetric strain rate, 1/s
   [[nodiscard]] double size_of(double density, double melted, double rate) const {
-    const double root = std::cbrt(rate);
-    if (!(root > 0.0)) return 0.0;
-    return std::cbrt(24.0 * constants_.energy_per_area * (1.0 - melted) / density) / (root * root);
+    return formulas::fragment_size(constants_.energy_per_area, density, melted, rate);
   }
 
+  [[nodiscard]] const Constants& law() const { return constants_; }
   [[nodiscard]] std::string_view model() const override { return name; }
   void mark(const State& /*state*/, std::span<double> /*damage*/,
             std::span<std::uint8_t> /*failed*/) const override {}

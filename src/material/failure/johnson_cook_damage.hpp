@@ -8,6 +8,7 @@
 #include "src/core/base/error.hpp"
 #include "src/core/base/vector_math.hpp"
 #include "src/material/failure/criterion.hpp"
+#include "src/material/failure/fracture_formulas.hpp"
 
 namespace whipple::failure {
 
@@ -24,7 +25,6 @@ struct JohnsonCookDamage {
   static constexpr bool accumulates = true;
   static constexpr bool softens = false;
   static constexpr bool needs_strain = false;
-  static constexpr double tested_triaxiality = 1.5;
 
   double d1 = 0.0, d2 = 0.0, d3 = 0.0, d4 = 0.0, d5 = 0.0;
   double reference_rate = 1.0;         ///< rate_0, 1/s
@@ -84,15 +84,7 @@ struct JohnsonCookDamage {
     return failure_strain(broadcast(triaxiality), broadcast(rate), broadcast(temperature))[0];
   }
   [[nodiscard]] Lanes failure_strain(Lanes triaxiality, Lanes rate, Lanes temperature) const {
-    const Lanes one = broadcast(1.0),
-                greatest_exponent = broadcast(100.0);  // strong compression: no damage, and no overflow
-    const Lanes shape =
-        d1 + d2 * exp(minimum(d3 * minimum(triaxiality, broadcast(tested_triaxiality)), greatest_exponent));
-    const Lanes fast = 1.0 + d4 * natural_log(maximum(rate / reference_rate, one));
-    const Lanes homologous =
-        (temperature - reference_temperature) / (melting_temperature - reference_temperature);
-    const Lanes hot = 1.0 + d5 * select(homologous > 0.0, minimum(homologous, one), Lanes{});
-    return maximum(shape * fast * hot, broadcast(least_failure_strain));
+    return formulas::failure_strain(*this, triaxiality, rate, temperature);
   }
   void mark(const State& state, std::span<double> damage, std::span<std::uint8_t> failed) const {
     for (std::size_t i = 0; i < failed.size(); i += 4) {

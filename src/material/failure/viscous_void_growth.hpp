@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
 #include "src/material/failure/criterion.hpp"
+#include "src/material/failure/void_growth_formulas.hpp"
 
 namespace whipple::failure {
 
@@ -64,80 +62,13 @@ struct ViscousVoidGrowth : Threshold {
 
   [[nodiscard]] Code healing_code() const { return healing ? void_growth : intact; }
 
-  /// Returns P_s (Pa) for a resistance (Pa).
-  [[nodiscard]] static double static_pressure(double resistance, double alpha) {
-    return resistance / alpha * std::log(alpha / (alpha - 1.0));
-  }
-  /// Describes a point in the step: volume that is moved from the material to the void changes both alpha and the
-  /// pressure.
-  struct Point {
-    double volume, void_volume;  ///< m^3
-    double pressure, modulus;    ///< Pa
-    double resistance;           ///< with melting and scatter, Pa
-    double viscosity;            ///< with melting, Pa s
-  };
-  [[nodiscard]] double distension(const Point& point, double moved) const {
-    return 1.0 + nuclei + (point.void_volume + moved) / (point.volume - moved);
-  }
-  /// Returns the excess of the growth of alpha over that allowed by the rate; 0 at the end of the step.
-  /// @param moved  volume moved from material to void, m^3
-  /// @param sign   1: in tension, -1: in compression
-  [[nodiscard]] double excess(const Point& point, double moved, double sign, double time_step) const {
-    const double alpha = distension(point, moved);
-    const double mean = (point.pressure + point.modulus * moved / point.volume) / alpha;
-    const double drive = -mean - sign * static_pressure(point.resistance, alpha);
-    const double rate = std::cbrt(nuclei * nuclei * (alpha - 1.0)) * alpha / point.viscosity * drive;
-    return alpha - distension(point, 0.0) - time_step * rate;
-  }
-  /// Returns the volume (m^3) that moves from material to void in the step; negative if the void closes.
-  [[nodiscard]] double moved_volume(const Point& point, double time_step) const {
-    constexpr double greatest_step = 0.1;  // fraction of the material's volume
-    const double sign = point.pressure < 0.0 ? 1.0 : -1.0;
-    const double at_rest = excess(point, 0.0, sign, time_step);
-    if (sign * at_rest >= 0.0) return 0.0;  // within the static pressures
-    double from = 0.0, at_from = at_rest;
-    double to = sign > 0.0 ? -point.pressure / point.modulus * point.volume : -point.void_volume;
-    to = std::clamp(to, -greatest_step * point.volume, greatest_step * point.volume);
-    double at_to = excess(point, to, sign, time_step);
-    if (sign * at_to <= 0.0) return to;
-    double moved = to;
-    for (int iteration = 0; iteration < 100; ++iteration) {  // regula falsi (Illinois)
-      moved = (from * at_to - to * at_from) / (at_to - at_from);
-      const double value = excess(point, moved, sign, time_step);
-      if (std::abs(value) <= 1e-12 || std::abs(to - from) <= 1e-14 * point.volume) break;
-      if (sign * value < 0.0) {
-        from = moved;
-        at_from = value;
-        at_to *= 0.5;
-      } else {
-        to = moved;
-        at_to = value;
-        at_from *= 0.5;
-      }
-    }
-    return moved;
-  }
-
   void grow_voids(const PorousState& state, std::span<double> /*damage*/,
                   std::span<std::uint8_t> failed) const {
-    const double at_nuclei = static_pressure(1.0, 1.0 + nuclei) * (1.0 + nuclei);
     for (std::size_t i = 0; i < failed.size(); ++i) {
-      const double solid = 1.0 - state.melted_fraction[i];
-      const double strength = resistance * solid * state.threshold_factor[i];
-      const bool has_voids = state.void_volume[i] > 0.0;
-      if (failed[i] != intact || (!has_voids && state.pressure[i] >= -strength * at_nuclei)) continue;
-      if (!(strength > 0.0)) {
-        failed[i] = tensile;
-        continue;
-      }
-      const Point point = {state.volume[i], state.void_volume[i], state.pressure[i], state.bulk_modulus[i],
-                           strength,        viscosity * solid};
-      const double moved = moved_volume(point, state.time_step);
-      const double total = point.volume + point.void_volume;
-      state.pressure[i] += point.modulus * moved / point.volume;
-      state.volume[i] = std::min(point.volume - moved, total);
-      state.void_volume[i] = total - state.volume[i];
-      if (state.void_volume[i] >= failure_porosity * total) failed[i] = void_growth;
+      if (failed[i] != intact) continue;
+      failed[i] = formulas::grow_voids(*this, state.time_step, state.bulk_modulus[i],
+                                       state.melted_fraction[i], state.threshold_factor[i], state.pressure[i],
+                                       state.volume[i], state.void_volume[i]);
     }
   }
 };

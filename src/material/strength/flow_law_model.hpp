@@ -28,6 +28,7 @@ class FlowLawModel final : public Strength {
   /// @throws InputError if the constants are inconsistent
   explicit FlowLawModel(const Law& law) : law_(law), modulus_(law.stiffness()) { law.require_consistent(); }
 
+  [[nodiscard]] const Law& law() const { return law_; }
   [[nodiscard]] std::string_view model() const override { return Law::name; }
   void shear_modulus(const State&, std::span<double> modulus) const override {
     std::ranges::fill(modulus, modulus_);

@@ -4,15 +4,15 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 #include "src/core/base/simd.hpp"
 #include "src/core/base/vector_math.hpp"
+#include "src/material/strength/johnson_cook_formulas.hpp"
 
 namespace whipple::strength {
 namespace {
 
-constexpr double least_strain = 1e-300;  ///< largest strain whose power counts as 0
+using formulas::least_strain;
 
 /// Computes (1 + t)^n for 0 <= t <= 0.01 by its series; the neglected terms are below 1e-16.
 class Binomial {
@@ -158,20 +158,6 @@ void bracket(Work& w, LinearHardening& linear, const Constants& law, const Yield
   }
 }
 
-/// Returns the root of z + ln z = K by the asymptotic series of Wright's omega function (R. M. Corless and D. J.
-/// Jeffrey, LNCS 2385 (2002) 76), approximately for K < 1, and one step of fourth order (F. N. Fritsch, R. E. Shafer
-/// and W. P. Crowley, Commun. ACM 16 (1973) 123).
-/// @param exponential  exp(min(K, 1))
-double omega(double argument, double exponential) {
-  const double K = std::max(argument, 1.0), ln_K = rough_log(K), inverse = 1.0 / K;
-  double z = argument < 1.0 ? exponential / (1.0 + exponential)
-                            : K - ln_K + ln_K * inverse * (1.0 + (0.5 * ln_K - 1.0) * inverse);
-  z = std::max(z, std::numeric_limits<double>::min());
-  const double miss = argument - z - rough_log(z), after = 1.0 + z,
-               q = 2.0 * after * (after + (2.0 / 3.0) * miss);
-  return z + z * (miss * (q - miss)) / (after * (q - 2.0 * miss));
-}
-
 /// Replaces x by the root with the rate effect for linear hardening, corrected for the contribution of the rate to the
 /// hardening.
 void include_rate(Work& w, const LinearHardening& linear, const Constants& law) {
@@ -183,7 +169,7 @@ void include_rate(Work& w, const LinearHardening& linear, const Constants& law) 
   }
   exponentials(start.data(), w.size);
   for (std::size_t k = 0; k < w.size; ++k) {
-    double z = omega(argument[k], start[k]);
+    double z = formulas::omega(argument[k], start[k]);
     const double rate_logarithm = argument[k] - z + logarithm[k];
     z -=
         z * z / (1.0 + z) * ((linear.slope[k] - w.stiffness[k]) / linear.slope[k] * (law.C * rate_logarithm));

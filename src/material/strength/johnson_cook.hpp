@@ -7,6 +7,7 @@
 #include "src/core/base/parameter_table.hpp"
 #include "src/material/strength/elastic_constants.hpp"
 #include "src/material/strength/flow_law_model.hpp"
+#include "src/material/strength/law_formulas.hpp"
 
 namespace whipple::strength {
 
@@ -60,10 +61,7 @@ struct JohnsonCook : ElasticConstants {
   }
   /// Returns 1 - T*^m; without a temperature (NaN) of the equation of state there is no softening.
   [[nodiscard]] double thermal_factor(double temperature) const {
-    const double homologous =
-        (temperature - reference_temperature) / (melting_temperature - reference_temperature);
-    if (!(homologous > 0.0)) return 1.0;
-    return homologous >= 1.0 ? 0.0 : 1.0 - std::pow(homologous, thermal_exponent);
+    return formulas::thermal_softening(*this, temperature);
   }
   [[nodiscard]] double flow_stress(double plastic_strain, double rate, double temperature) const {
     const double hardening =

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/core/base/dialect.hpp"
+
 namespace whipple::strength {
 
 /// Flow stress of the solid (Pa) and its slope by the increment of the equivalent plastic strain.
@@ -21,12 +23,14 @@ struct FlowStress {
 /// @param solid    w
 /// @param least    Y_least, a lower bound of Y(x) for all x >= 0, Pa
 /// @param flow     flow(x) -> FlowStress for x > 0; q - 3 G x - w Y(x) must fall with x
+/// @param start    from which the iteration starts, if it lies inside the bracket
 template <class Flow>
-double radial_return(double trial, double modulus, double solid, double least, Flow&& flow) {
+WHIPPLE_POINT double radial_return_from(double start, double trial, double modulus, double solid,
+                                        double least, Flow&& flow) {
   const double stiffness = 3.0 * modulus;
   if (trial <= solid * least) return 0.0;
   double lower = 0.0, upper = (trial - solid * least) / stiffness;
-  double x = upper;
+  double x = start > lower && start < upper ? start : upper;
   for (int iteration = 0; iteration < 60; ++iteration) {
     const FlowStress y = flow(x);
     const double residual = trial - stiffness * x - solid * y.value;
@@ -37,6 +41,12 @@ double radial_return(double trial, double modulus, double solid, double least, F
     x = newton > lower && newton < upper ? newton : lower > 0.0 ? std::sqrt(lower * upper) : 1e-3 * upper;
   }
   return x;
+}
+
+/// Finds the same from the upper end of the bracket.
+template <class Flow>
+WHIPPLE_POINT double radial_return(double trial, double modulus, double solid, double least, Flow&& flow) {
+  return radial_return_from(0.0, trial, modulus, solid, least, flow);
 }
 
 }  // namespace whipple::strength

@@ -7,6 +7,7 @@
 #include "src/core/base/error.hpp"
 #include "src/core/base/parameter_table.hpp"
 #include "src/core/base/vector_math.hpp"
+#include "src/material/strength/law_formulas.hpp"
 #include "src/material/strength/radial_return.hpp"
 #include "src/material/strength/return_in_batch.hpp"
 #include "src/material/strength/strength.hpp"
@@ -60,19 +61,11 @@ struct SteinbergGuinan {
   /// temperature (NaN) of the equation of state there is no softening.
   template <class Number>
   [[nodiscard]] Number stiffness_ratio(Number density, Number pressure, Number temperature) const {
-    using std::exp, whipple::exp;
-    const Number compression = exp(natural_log(Number(density / reference_density)) / 3.0);
-    const Number thermal =
-        select(temperature == temperature, temperature_coefficient * (temperature - 300.0), Number{});
-    return maximum(Number(1.0 + pressure_coefficient * pressure / compression - thermal),
-                   broadcast<Number>(1e-3));
+    return formulas::stiffness_ratio(*this, density, pressure, temperature);
   }
   /// Returns the flow stress at 300 K and zero pressure, with its slope.
   [[nodiscard]] FlowStress hardening(double plastic_strain) const {
-    const double base = 1.0 + hardening_coefficient * (plastic_strain + initial_plastic_strain);
-    const double power = yield_stress * std::pow(base, hardening_exponent);
-    if (power >= maximum_flow_stress) return {maximum_flow_stress, 0.0};
-    return {power, power * hardening_exponent * hardening_coefficient / base};
+    return formulas::power_hardening(*this, plastic_strain);
   }
 
   /// Returns false if a point remains elastic: Y >= Y_0 G/G_0 avoids the powers for most elastic points.
@@ -95,6 +88,7 @@ class SteinbergGuinanModel final : public Strength {
     }
   }
 
+  [[nodiscard]] const SteinbergGuinan& law() const { return constants_; }
   [[nodiscard]] std::string_view model() const override { return SteinbergGuinan::name; }
   void shear_modulus(const State& state, std::span<double> modulus) const override {
     for (std::size_t i = 0; i < modulus.size(); i += 4) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
 #include <limits>
 
 #include "src/core/base/error.hpp"
 #include "src/material/strength/hardening_law.hpp"
+#include "src/material/strength/law_formulas.hpp"
 
 namespace whipple::strength {
 
@@ -43,20 +43,12 @@ struct VonMises : HardeningLaw<VonMises> {
       throw InputError("'maximum_flow_stress' is less than 'yield_stress'");
     }
   }
-  [[nodiscard]] FlowStress flow(double strain) const {
-    const double hardened = yield_stress + hardening_modulus * strain;
-    return hardened < maximum_flow_stress ? FlowStress{hardened, hardening_modulus}
-                                          : FlowStress{maximum_flow_stress, 0.0};
-  }
+  [[nodiscard]] FlowStress flow(double strain) const { return formulas::linear_hardening(*this, strain); }
 
   /// Returns the increment of the equivalent plastic strain from the equivalent trial stress.
   [[nodiscard]] double increment(double trial, double plastic_strain, double /*temperature*/, double modulus,
                                  double solid, double /*dt*/) const {
-    const double yield = solid * flow(plastic_strain).value;
-    if (trial <= yield) return 0.0;
-    const double hardening = (trial - yield) / (3.0 * modulus + solid * hardening_modulus);
-    const double plateau = (trial - solid * maximum_flow_stress) / (3.0 * modulus);
-    return std::max(hardening, plateau);  // the larger one has the smaller flow stress
+    return formulas::linear_return(*this, trial, plastic_strain, modulus, solid);
   }
 };
 

@@ -12,6 +12,7 @@
 #include "src/core/parallel/threads.hpp"
 #include "src/solver/carriers/explosives.hpp"
 #include "src/solver/carriers/figures.hpp"
+#include "src/solver/device/device_stage.hpp"
 
 namespace whipple::solver {
 
@@ -42,7 +43,12 @@ std::vector<std::uint8_t> ParticleCarrier::stays_since(std::size_t& arrangement)
   return stays;
 }
 
+std::size_t ParticleCarrier::particle_count() const {
+  return state_.device != nullptr ? state_.device->particle_count() : state_.particles.size();
+}
+
 double ParticleCarrier::fastest() {
+  if (state_.device != nullptr) return state_.device->fastest();
   const Particles& particles = state_.particles;
   const Explosives explosives(state_);
   const std::vector<std::uint8_t> stays = stays_since(fastest_.arrangement);
@@ -78,6 +84,10 @@ void ParticleCarrier::reallocated() {
 }
 
 void ParticleCarrier::add_totals(Totals& sum) {
+  if (state_.device != nullptr) {
+    sum += state_.device->totals();
+    return;
+  }
   sum += totals_of(state_.particles, state_.particle_affine_inertia(), totals_.values,
                    stays_since(totals_.arrangement));
 }
@@ -103,6 +113,7 @@ void ParticleCarrier::add_figures(Figures& figures) const {
 void ParticleCarrier::add_releasable(Releasable& sum) const { add_releasable_of(state_.particles, sum); }
 
 double ParticleCarrier::largest_speed(const Vector3& frame) {
+  if (state_.device != nullptr) return state_.device->largest_speed(frame);
   const std::vector<Vector3>& velocity = state_.particles.velocity;
   if (frame != frame_of_speeds_) largest_squares_.arrangement = 0;
   frame_of_speeds_ = frame;

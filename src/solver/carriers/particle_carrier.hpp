@@ -38,7 +38,7 @@ class ParticleCarrier : public Carrier {
   void add_figures(Figures& figures) const override;
   [[nodiscard]] double largest_speed(const Vector3& frame) override;
   void add_releasable(Releasable& sum) const override;
-  [[nodiscard]] std::size_t particle_count() const override { return state_.particles.size(); }
+  [[nodiscard]] std::size_t particle_count() const override;
   [[nodiscard]] std::uint64_t largest_particle_id() const override;
   [[nodiscard]] std::size_t bytes() const override;
   [[nodiscard]] double mass_in(const cases::LoadedRegion& region) const override;

@@ -10,7 +10,9 @@
 
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/parallel/threads.hpp"
+#include "src/device/rates.hpp"
 #include "src/solver/carriers/explosives.hpp"
+#include "src/solver/device/device_stage.hpp"
 #include "src/solver/stages/time_step.hpp"
 
 namespace whipple::solver {
@@ -20,22 +22,8 @@ namespace {
 /// debris and a wall must not delay the entire run.
 constexpr double free_share = 1e-3;
 
-/// Bins positive numbers by exponent and first four bits of the mantissa: bins 3 to 6 % wide, from 1 to 2^40.
-struct Bins {
-  static constexpr std::size_t count = 40 * 16;
-  static std::size_t of(double x) {
-    const std::uint64_t bits = std::bit_cast<std::uint64_t>(x) >> 48U,
-                        one = std::bit_cast<std::uint64_t>(1.0) >> 48U;
-    return bits <= one ? 0 : std::min<std::size_t>(bits - one, count - 1);
-  }
-  static double end(std::size_t bin) {
-    const std::uint64_t one = std::bit_cast<std::uint64_t>(1.0) >> 48U;
-    return std::bit_cast<double>((one + bin + 1) << 48U);
-  }
-};
-
-// Unit of mass as an integer, so that sums do not depend on the order
-constexpr double parts_of_mass = 0x1p40;
+using Bins = device::RateBins;
+using device::parts_of_mass;
 
 }  // namespace
 
@@ -47,6 +35,7 @@ double TimeStep::compression_rate_of_most(double largest) const {
   const cases::TimeControl& control = state_.setup.time;
   const double harmless = control.compression_limit / (control.maximum_growth * state_.run.unclipped_step);
   if (largest <= harmless) return largest;
+  if (state_.device != nullptr) return state_.device->rate_of_most(free_share, harmless, largest);
   const auto mass = std::make_unique<std::array<std::atomic<std::int64_t>, Bins::count>>();
   for (auto& bin : *mass) bin.store(0, std::memory_order_relaxed);
   const double per_mass = parts_of_mass / state_.totals.mass;

@@ -7,6 +7,8 @@
 
 #include "src/contact/contact.hpp"
 #include "src/contact/grid_update.hpp"
+#include "src/device/contact/constants.hpp"
+#include "src/device/contact/touches.hpp"
 #include "src/solver/carriers/hexahedra.hpp"
 #include "src/solver/state.hpp"
 #include "src/transfer/conduction.hpp"
@@ -46,6 +48,12 @@ class ContactStage {
   /// Predicts, at the end of a step, the next first contact of bodies. Collective.
   /// @param accurate_step  time step that the state allowed, s
   void foresee_touches(double accurate_step);
+  /// Returns the minimum closing speed (m/s) of first contacts that limit the time step.
+  [[nodiscard]] double least_closing_speed(double accurate_step) const;
+  /// Records what a device found of first contacts.
+  void see(const device::DecidingApproaches& of_pair);
+  /// Returns the constants of contact on a device.
+  [[nodiscard]] device::ContactConstants constants_for_device() const;
 
  private:
   void set_up_walls();

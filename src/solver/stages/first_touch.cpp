@@ -13,8 +13,12 @@ constexpr double small_step_ratio = 1.01;
 }  // namespace
 
 void ContactStage::watch_touches(double accurate_step) {
+  first_touches_->begin_step(state_.run.time_step, least_closing_speed(accurate_step));
+}
+
+double ContactStage::least_closing_speed(double accurate_step) const {
   const double strain = state_.setup.time.compression_limit;
-  first_touches_->begin_step(state_.run.time_step, strain * state_.setup.domain.cell_size / accurate_step);
+  return strain * state_.setup.domain.cell_size / accurate_step;
 }
 
 void ContactStage::foresee_touches(double accurate_step) {

@@ -30,9 +30,6 @@ UpdateSettings update_settings(const State& state, std::size_t body) {
           .burn = state.setup.burn.settings(state.setup.domain.cell_size)};
 }
 
-namespace {
-
-/// Returns which part of the artificial viscosity of particles heats in this case.
 HeatingViscosity heating_viscosity(const State& state) {
   using enum HeatingViscosity;
   if (!state.keeps_losses()) return not_distinguished;
@@ -40,6 +37,8 @@ HeatingViscosity heating_viscosity(const State& state) {
       state.particle_affine_inertia() > 0.0 && state.setup.dissipation.affine_compression > 0.0;
   return by_field ? of_affine_field : whole;
 }
+
+namespace {
 
 /// Returns tr C of the listed particles, 1/s.
 std::span<const double> affine_divergence(const Particles& particles, std::span<const std::uint32_t> list) {

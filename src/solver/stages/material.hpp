@@ -25,6 +25,8 @@ namespace whipple::solver {
 
 /// Returns the settings of the constitutive update of a body in the current step.
 UpdateSettings update_settings(const State& state, std::size_t body);
+/// Returns which part of the artificial viscosity of particles heats in this case.
+HeatingViscosity heating_viscosity(const State& state);
 
 /// Describes a point of an update for a message, with the reason.
 using DescribePoint = std::function<std::string(std::size_t point, const std::string& reason)>;

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "src/device/contact/touches.hpp"
+#include "src/device/ends.hpp"
+#include "src/device/problem.hpp"
+
+/// The step on a device: an accelerator, or its emulation on the threads of the host.
+namespace whipple::device {
+
+/// Stages of a step, whose times are measured.
+enum class Stage : std::uint8_t { bins, conduction, scatter, grid, contact, gather, material, ends };
+constexpr std::size_t stage_count = 8;
+/// Names of the stages, those of the host's.
+constexpr std::array<const char*, stage_count> stage_names = {
+    "bin particles", "conduction",        "particles to grid", "grid",
+    "contact",       "grid to particles", "material",          "ledger"};
+
+/// What a device can do at most.
+struct Rates {
+  double bandwidth;   ///< bytes per second, read and written, of a copy
+  double arithmetic;  ///< floating-point operations per second, in double precision
+};
+
+/// Result of a step.
+struct Outcome {
+  EndOfStep sums;                         ///< totals at its end, contributions, bounds of the next step
+  double conducted_heat = 0.0;            ///< J
+  std::array<double, 3> plane_impulse{};  ///< by mirror planes on nodes, N s
+  /// Heat of contact and of friction (J), their impulses (N s), number of places that more than two fields reach.
+  std::array<double, 5> contact{};
+  std::vector<DecidingApproaches> approaches;  ///< of each pair of fields; empty: none meet
+  std::vector<Outflow::Result> outflow;        ///< of each body; empty: nothing leaves
+  std::vector<MarkedMass::Result> squeezed;  ///< of each body; empty: no particle is at its greatest density
+  std::uint32_t slots = 0, cells = 0;        ///< blocks with nodes, cells with particles
+};
+
+/// Keeps the particles of a run on a device and steps them.
+class Engine {
+ public:
+  virtual ~Engine() = default;
+  /// Performs a step.
+  /// @param dt   s
+  /// @param end  time at its end, s
+  /// @param least_closing_speed  of first contacts that limit the time step, m/s
+  /// @throws StateError if more than two fields meet at a node
+  virtual Outcome step(double dt, double end, double least_closing_speed) = 0;
+  /// Sets the velocity (m/s) of the frame in which the largest speed is measured.
+  virtual void set_frame(const Triple<double>& velocity) = 0;
+  /// Returns the totals and bounds of the present state.
+  virtual EndOfStep measure() = 0;
+  /// Copies the state to the host, in the order of `origin`, which becomes 0, 1, 2 ...
+  virtual void download(PointsOnHost& points) = 0;
+  /// Returns the closing rate (1/s) that at most the fraction `share` of the mass (kg) exceeds (rates.hpp).
+  virtual double rate_of_most(double total_mass, double share, double least, double largest) = 0;
+  [[nodiscard]] virtual std::size_t size() const = 0;
+  [[nodiscard]] virtual std::size_t bytes() const = 0;
+  /// Returns the number of blocks with nodes in the last step.
+  [[nodiscard]] virtual std::size_t slots() const = 0;
+  [[nodiscard]] virtual std::string device() const = 0;
+  /// Measures what the device can do at most.
+  virtual Rates rates() = 0;
+  /// Measures the time of the stages from now on, which waits for the device after each of them.
+  virtual void measure_stages(bool measure) = 0;
+  /// Returns the time of each stage, s, since they have been measured.
+  [[nodiscard]] virtual const std::array<double, stage_count>& stage_times() const = 0;
+};
+
+/// Starts on the emulated device.
+std::unique_ptr<Engine> emulated_engine(const Problem& problem, const PointsOnHost& points);
+/// Returns whether the program was built with the compiler of a graphics processor.
+bool has_gpu_engine();
+/// Starts on the graphics processor.
+/// @throws StateError without one, or without memory
+std::unique_ptr<Engine> gpu_engine(const Problem& problem, const PointsOnHost& points);
+
+}  // namespace whipple::device

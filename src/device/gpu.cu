@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/device/engine.hpp"
+#include "src/device/gpu_space.cuh"
+#include "src/device/stepper.hpp"
+
+namespace whipple::device {
+
+bool has_gpu_engine() { return true; }
+
+std::unique_ptr<Engine> gpu_engine(const Problem& problem, const PointsOnHost& points) {
+  return std::make_unique<Stepper<GpuSpace>>(problem, points);
+}
+
+}  // namespace whipple::device

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/core/base/error.hpp"
+#include "src/device/engine.hpp"
+
+namespace whipple::device {
+
+bool has_gpu_engine() { return false; }
+
+std::unique_ptr<Engine> gpu_engine(const Problem&, const PointsOnHost&) {
+  throw InputError("this program was built without the compiler of a graphics processor (nvcc 12 or later)");
+}
+
+}  // namespace whipple::device

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "src/device/conduction.hpp"
+#include "src/device/contact/constants.hpp"
+#include "src/device/ends.hpp"
+#include "src/device/gather.hpp"
+#include "src/device/lattice.hpp"
+#include "src/device/material/material_constants.hpp"
+
+/// What a device must know of a run, in numbers only.
+namespace whipple::device {
+
+/// Describes the run: the symplectic scheme in three dimensions with quadratic B-splines, affine fields and stores.
+struct Problem {
+  double cell_size = 0.0;  ///< m
+  Triple<double> lower{};  ///< m
+  std::array<int, 3> cells{};
+  std::array<FaceKind, 6> faces{};
+  std::array<Mirror, 6> mirrors{};
+  double slope_smoothing = 0.0;
+  double kappa = 0.0;  ///< of the relaxation of affine fields
+  LossConstants losses{};
+  double shock_conduction = 0.0, conduction_onset = 0.0, conduction_rise = 1.0;  ///< 0: no conduction
+  std::uint32_t fields = 1;
+  ContactConstants contact{};
+
+  // Of each body.
+  std::vector<std::uint8_t> field_of_body;
+  std::vector<double> initial_density;  ///< kg/m^3
+  std::vector<ConductingBody> conducting;
+  std::vector<MaterialConstants> materials;
+  std::vector<double> tables;  ///< of all materials
+
+  [[nodiscard]] double inertia() const {
+    return 0.25 * cell_size * cell_size;
+  }  ///< of affine fields, per mass
+};
+
+/// Holds the particles on the host, component by component.
+struct PointsOnHost {
+  std::array<std::vector<double>, state_components> numbers;
+  std::vector<std::uint32_t> body;
+  std::vector<std::uint32_t> origin;  ///< place of each at the last exchange
+
+  [[nodiscard]] std::size_t size() const { return body.size(); }
+};
+
+}  // namespace whipple::device
