@@ -75,9 +75,7 @@ struct FoldCapacity {
   Plane plane;
   WHIPPLE_POINT void operator()(std::size_t i) const {
     const auto node = static_cast<std::uint32_t>(i);
-    const Place at = lattice.place_of(node);
-    if (plane.beyond(at) != -1) return;
-    const std::int32_t other = lattice.node_at(lattice.field_of(node), plane.mirrored(at));
+    const std::int32_t other = plane.mirror_of(lattice, node, 1);
     if (other == nowhere) return;
     for (std::size_t k = 0; k < 3; ++k) lattice.nodes[node].n[k] += lattice.nodes[other].n[k];
   }
@@ -102,9 +100,7 @@ struct CopyShares {
   Plane plane;
   WHIPPLE_POINT void operator()(std::size_t i) const {
     const auto node = static_cast<std::uint32_t>(i);
-    const Place at = lattice.place_of(node);
-    if (plane.beyond(at) != 1) return;
-    const std::int32_t image = lattice.node_at(lattice.field_of(node), plane.mirrored(at));
+    const std::int32_t image = plane.mirror_of(lattice, node, -1);
     if (image == nowhere) return;
     for (std::size_t k = 0; k < 2; ++k) lattice.nodes[node].n[k] = lattice.nodes[image].n[k];
   }

@@ -36,8 +36,10 @@ struct Outcome {
   std::array<double, 3> plane_impulse{};  ///< by mirror planes on nodes, N s
   /// Heat of contact and of friction (J), their impulses (N s), number of places that more than two fields reach.
   std::array<double, 5> contact{};
-  std::vector<DecidingApproaches> approaches;  ///< of each pair of fields; empty: none meet
-  std::vector<Outflow::Result> outflow;        ///< of each body; empty: nothing leaves
+  std::vector<DecidingApproaches> approaches;       ///< of each pair of fields; empty: none meet
+  std::vector<DecidingApproaches> face_approaches;  ///< of each face; empty: nothing meets its image
+  double wall_heat = 0.0;                           ///< of contact with images, J
+  std::vector<Outflow::Result> outflow;             ///< of each body; empty: nothing leaves
   std::vector<MarkedMass::Result> squeezed;  ///< of each body; empty: no particle is at its greatest density
   std::uint32_t slots = 0, cells = 0;        ///< blocks with nodes, cells with particles
 };

@@ -140,16 +140,6 @@ struct Lattice {
     (face / 2 == 0 ? image.x : face / 2 == 1 ? image.y : image.z) += shift;
     return image;
   }
-  /// Returns whether a node is beyond a mirror plane.
-  [[nodiscard]] WHIPPLE_POINT bool is_image(const Place& at) const {
-    for (int axis = 0; axis < 3; ++axis) {
-      if (mirrors[static_cast<std::size_t>(2 * axis)].active && along(at, axis) < 0) return true;
-      if (mirrors[static_cast<std::size_t>(2 * axis + 1)].active &&
-          along(at, axis) > cells[static_cast<std::size_t>(axis)])
-        return true;
-    }
-    return false;
-  }
 };
 
 }  // namespace whipple::device

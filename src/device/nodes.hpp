@@ -14,31 +14,27 @@ constexpr double no_mass = 1e-300;  ///< kg; below it momentum / mass may overfl
 
 /// Mirror plane of the domain.
 struct Plane {
-  int axis;
-  int at;    ///< node on the plane
-  int sign;  ///< of the direction outward
+  int face;
   bool reverses_all;
 
   /// Returns the signs of the components of the image of a vector.
   [[nodiscard]] WHIPPLE_POINT Triple<double> reflection() const {
-    const auto of = [this](int a) { return reverses_all || a == axis ? -1.0 : 1.0; };
+    const auto of = [this](int a) { return reverses_all || a == face / 2 ? -1.0 : 1.0; };
     return {of(0), of(1), of(2)};
   }
-  /// Returns how far a node is beyond the plane, in cells.
-  [[nodiscard]] WHIPPLE_POINT int beyond(const Place& place) const {
-    return sign * (Lattice::along(place, axis) - at);
-  }
-  /// Returns the mirror place.
-  [[nodiscard]] WHIPPLE_POINT Place mirrored(const Place& place) const {
-    const auto of = [this](int a, int x) { return a == axis ? 2 * at - x : x; };
-    return {of(0, place.x), of(1, place.y), of(2, place.z)};
+  /// Returns the node of the same field at the mirror place of one that lies `inside` cells inside of the plane, or
+  /// nowhere; also where the field is not one with its image.
+  [[nodiscard]] WHIPPLE_POINT std::int32_t mirror_of(const Lattice& lattice, std::uint32_t node,
+                                                     int inside) const {
+    const Place at = lattice.place_of(node);
+    if (lattice.inside_of(face, at) != inside) return nowhere;
+    const std::uint32_t field = lattice.field_of(node);
+    if (!lattice.mirrors[static_cast<std::size_t>(face)].bonds(field)) return nowhere;
+    return lattice.node_at(field, lattice.mirrored(face, at));
   }
 };
 WHIPPLE_POINT inline Plane plane_of(const Lattice& lattice, int face) {
-  const int axis = face / 2;
-  const bool upper = face % 2 != 0;
-  return {axis, upper ? lattice.cells[static_cast<std::size_t>(axis)] : 0, upper ? 1 : -1,
-          lattice.mirrors[static_cast<std::size_t>(face)].reverses_all};
+  return {face, lattice.mirrors[static_cast<std::size_t>(face)].reverses_all};
 }
 
 WHIPPLE_POINT inline Triple<double> by_component(const Triple<double>& a, const Triple<double>& b) {
@@ -52,9 +48,7 @@ struct FoldMirror {
 
   WHIPPLE_POINT void operator()(std::size_t i) const {
     const auto node = static_cast<std::uint32_t>(i);
-    const Place at = lattice.place_of(node);
-    if (plane.beyond(at) != -1) return;
-    const std::int32_t other = lattice.node_at(lattice.field_of(node), plane.mirrored(at));
+    const std::int32_t other = plane.mirror_of(lattice, node, 1);
     if (other == nowhere) return;
     const Node& outside = lattice.nodes[other];
     const Triple<double> r = plane.reflection();
@@ -76,7 +70,7 @@ struct RestrictToMirror {
   Plane plane;
 
   WHIPPLE_POINT void operator()(std::size_t i) const {
-    if (plane.beyond(lattice.place_of(static_cast<std::uint32_t>(i))) != 0) return;
+    if (plane.mirror_of(lattice, static_cast<std::uint32_t>(i), 0) == nowhere) return;
     Node& node = lattice.nodes[i];
     const Triple<double> r = plane.reflection();
     if (r.x < 0.0) node.n[1] = node.n[5] = 0.0;
@@ -91,11 +85,13 @@ struct SolveMomentum {
   double dt;
   double rate;              ///< kappa dt / dx, s/m
   const ContactRole* role;  ///< of each node; null: one velocity field
+  bool keeps_all_masses;    ///< whether contact with images follows
 
   WHIPPLE_POINT void operator()(std::size_t i) const {
     Node& node = lattice.nodes[i];
     const double m = node.mass();
-    if (m < no_mass || lattice.is_image(lattice.place_of(static_cast<std::uint32_t>(i)))) {
+    if (m < no_mass || lattice.is_image(lattice.place_of(static_cast<std::uint32_t>(i)),
+                                        lattice.field_of(static_cast<std::uint32_t>(i)))) {
       node = {};
       return;
     }
@@ -110,6 +106,12 @@ struct SolveMomentum {
   }
 };
 
+/// Clears the heat of all nodes, in whose place the momentum equation has stored their mass.
+struct ClearHeat {
+  Node* nodes;
+  WHIPPLE_POINT void operator()(std::size_t i) const { nodes[i].set_heat(0.0); }
+};
+
 /// Sets the motion beyond a plane to the reflected one.
 struct CopyMirror {
   Lattice lattice;
@@ -117,9 +119,7 @@ struct CopyMirror {
 
   WHIPPLE_POINT void operator()(std::size_t i) const {
     const auto node = static_cast<std::uint32_t>(i);
-    const Place at = lattice.place_of(node);
-    if (plane.beyond(at) != 1) return;
-    const std::int32_t image = lattice.node_at(lattice.field_of(node), plane.mirrored(at));
+    const std::int32_t image = plane.mirror_of(lattice, node, -1);
     if (image == nowhere) return;
     const Node& from = lattice.nodes[image];
     Node& to = lattice.nodes[node];
@@ -134,16 +134,17 @@ struct CopyMirror {
 struct ImpulseAtMirrors {
   using Result = Reduction<3, 0>;
   Lattice lattice;
-  const Node* brought;  ///< sums of the particles before folding
-  double dt;
+  const Node* brought;       ///< sums of the particles before folding
+  double dt;                 ///< s
+  std::uint32_t reflecting;  ///< faces with mirror planes or walls, one bit each
 
   WHIPPLE_POINT void operator()(std::size_t i, Result& result) const {
     const Place at = lattice.place_of(static_cast<std::uint32_t>(i));
+    constexpr int reach = 2;  // of contact with images, cells
     bool near = false;
     for (int face = 0; face < 6; ++face) {
-      if (!lattice.mirrors[static_cast<std::size_t>(face)].active) continue;
-      const int beyond = plane_of(lattice, face).beyond(at);
-      near = near || (beyond >= -1 && beyond <= 1);
+      const int inside = lattice.inside_of(face, at);
+      near = near || ((reflecting >> face & 1U) != 0 && inside >= -reach && inside <= reach);
     }
     const Node& sums = brought[i];
     if (!near || !(sums.mass() > 0.0)) return;

@@ -8,6 +8,7 @@
 
 #include "src/device/conduction.hpp"
 #include "src/device/contact/constants.hpp"
+#include "src/device/contact/walls.hpp"
 #include "src/device/ends.hpp"
 #include "src/device/gather.hpp"
 #include "src/device/lattice.hpp"
@@ -29,6 +30,7 @@ struct Problem {
   double shock_conduction = 0.0, conduction_onset = 0.0, conduction_rise = 1.0;  ///< 0: no conduction
   std::uint32_t fields = 1;
   ContactConstants contact{};
+  WallConstants walls{};
 
   // Of each body.
   std::vector<std::uint8_t> field_of_body;

@@ -6,6 +6,7 @@
 
 #include "src/device/contact/constants.hpp"
 #include "src/device/contact/nodes.hpp"
+#include "src/device/contact/walls.hpp"
 #include "src/device/reduction.hpp"
 
 namespace whipple::device {
@@ -28,6 +29,29 @@ struct SumBalances {
     result.sum[2] += of_pair.impulse;
     result.sum[3] += of_pair.friction_impulse;
     result.sum[4] += of_pair.crowded;
+  }
+};
+
+/// Sums the heat (J) of contact with images over the particles that nodes move.
+struct SumHeatAtWalls {
+  using Result = Reduction<1, 0>;
+  Lattice lattice;
+  const Node* brought;  ///< sums of the particles before folding
+  const std::int32_t* number;
+  const WallNode* at;
+
+  WHIPPLE_POINT void operator()(std::size_t i, Result& result) const {
+    const double m = brought[i].mass();
+    if (!(m > 0.0)) return;
+    const auto node = static_cast<std::uint32_t>(i);
+    const std::uint32_t field = lattice.field_of(node);
+    Place place = lattice.place_of(node);
+    for (int face = 0; face < 6; ++face) {  // beyond a plane of a bonded field: that of the image
+      if (lattice.mirrors[static_cast<std::size_t>(face)].bonds(field) && lattice.inside_of(face, place) < 0)
+        place = lattice.mirrored(face, place);
+    }
+    const std::int32_t real = lattice.node_at(field, place);
+    if (real != nowhere && number[real] != nowhere) result.sum[0] += m * at[number[real]].heat;
   }
 };
 

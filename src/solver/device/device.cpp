@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "src/case/build/placement.hpp"
 #include "src/core/input/faults.hpp"
 #include "src/device/contact/constants.hpp"
 #include "src/device/material/describe.hpp"
@@ -59,24 +58,6 @@ void check_contact(const cases::Case& setup, const Faults& faults) {
   if (fields.several() && cases::count_of(fields.of_body) > device::most_contact_fields) {
     faults.add("body",
                fmt::format("more than {} velocity fields: {}", device::most_contact_fields, elsewhere));
-  }
-  const std::vector<std::uint8_t> touched = cases::faces_touched(setup);
-  for (std::size_t face = 0; face < 6; ++face) {
-    refuse_if(grid::lets_part(setup.geometry.boundary[face]), faults, "domain.boundary",
-              "a wall from which material parts");
-    if (!setup.geometry.mirrors(face)) continue;
-    // A field is one with its image if one of its bodies touches the plane.
-    for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
-      const auto same_field = [&](std::size_t other) {
-        return !fields.several() || fields.of_body[other] == fields.of_body[b];
-      };
-      bool one = false;
-      for (std::size_t other = 0; other < setup.bodies.size(); ++other) {
-        one = one || (same_field(other) && (touched[other] >> face & 1U) != 0);
-      }
-      refuse_if(!one, faults.in("body").in(b), "shape",
-                "a body that does not touch a mirror plane at the start, and meets its image there");
-    }
   }
 }
 

@@ -97,7 +97,7 @@ void DeviceStage::book(const device::Outcome& outcome) {
   booked.dissipation += sum[S::dissipation_];
   booked.plastic_heat += sum[S::plastic_heat_];
   booked.conducted_heat += outcome.conducted_heat;
-  booked.contact_heat += outcome.contact[0];
+  booked.contact_heat += outcome.contact[0] + outcome.wall_heat;
   booked.friction_heat += outcome.contact[1];
   booked.contact_impulse += outcome.contact[2];
   booked.friction_impulse += outcome.contact[3];
@@ -121,6 +121,9 @@ void DeviceStage::book(const device::Outcome& outcome) {
   state_.rates.squared_change = outcome.sums.largest[S::change];
   state_.rates.compression = outcome.sums.largest[S::rate];
   for (const device::DecidingApproaches& of_pair : outcome.approaches) contact_.see(of_pair);
+  for (std::size_t face = 0; face < outcome.face_approaches.size(); ++face) {
+    contact_.see_face(face, outcome.face_approaches[face]);
+  }
 }
 
 /// Ends the run if the state of a particle is not defined or out of the range of its material.

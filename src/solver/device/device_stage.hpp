@@ -47,7 +47,7 @@ class DeviceStage {
   device::EndOfStep measured_;
   Vector3 frame_ = Vector3::Zero();
   std::array<double, device::stage_count> times_{};  // of the stages, s
-  bool is_current_ = true;  // the particles of State are those of the device
+  bool is_current_ = true;                           // the particles of State are those of the device
 };
 
 }  // namespace whipple::solver

@@ -21,6 +21,23 @@ device::FaceKind face_kind(grid::Boundary boundary) {
   }
 }
 
+device::WallKind wall_kind(grid::Boundary boundary) {
+  using enum device::WallKind;
+  switch (boundary) {
+    case grid::Boundary::symmetry:
+      return symmetry;
+    case grid::Boundary::no_slip:
+      return no_slip;
+    case grid::Boundary::separating:
+      return separating;
+    case grid::Boundary::friction:
+      return friction;
+    case grid::Boundary::outflow:
+      break;
+  }
+  return none;
+}
+
 }  // namespace
 
 device::Problem device_problem(const State& state, const ContactStage& contact) {
@@ -33,8 +50,11 @@ device::Problem device_problem(const State& state, const ContactStage& contact) 
   for (std::size_t face = 0; face < 6; ++face) {
     problem.faces[face] = face_kind(geometry.boundary[face]);
     problem.mirrors[face] = {.active = geometry.mirrors(face),
-                             .reverses_all = geometry.boundary[face] == grid::Boundary::no_slip};
+                             .reverses_all = geometry.boundary[face] == grid::Boundary::no_slip,
+                             .fields = 0};
+    problem.walls.kind[face] = wall_kind(geometry.boundary[face]);
   }
+  problem.walls.friction = geometry.friction;
   problem.slope_smoothing = setup.transfer.slope_smoothing;
   problem.kappa = setup.transfer.kappa;
   const cases::Dissipation& dissipation = setup.dissipation;
@@ -53,7 +73,16 @@ device::Problem device_problem(const State& state, const ContactStage& contact) 
                                   .quadratic_viscosity = viscosity.quadratic});
     const std::vector<std::uint8_t>& fields = setup.contact_fields.of_body;
     problem.field_of_body.push_back(setup.contact_fields.several() ? fields[b] : 0);
-    problem.fields = std::max<std::uint32_t>(problem.fields, problem.field_of_body.back() + 1U);
+    const std::uint32_t field = problem.field_of_body.back();
+    problem.fields = std::max(problem.fields, field + 1);
+    for (std::size_t face = 0; face < 6; ++face) {
+      if (geometry.boundary[face] == grid::Boundary::outflow) continue;
+      if (contact.is_one_with_image(b, face)) {
+        problem.mirrors[face].fields |= 1U << field;
+      } else {
+        problem.walls.apart |= 1U << face;
+      }
+    }
     UpdateSettings settings = update_settings(state, b);
     settings.heating = heating_viscosity(state);
     problem.materials.push_back(device::describe(*setup.materials[b], settings, problem.tables));
@@ -79,6 +108,12 @@ device::ContactConstants ContactStage::constants_for_device() const {
       constants.reflecting_faces |= 1U << face;
   }
   return constants;
+}
+
+void ContactStage::see_face(std::size_t face, const device::DecidingApproaches& of_face) {
+  for (const device::Approach& approach : {of_face.soonest, of_face.hardest}) {
+    first_touches_->see_face(face, approach.open, approach.closing);
+  }
 }
 
 void ContactStage::see(const device::DecidingApproaches& of_pair) {

@@ -52,6 +52,7 @@ class ContactStage {
   [[nodiscard]] double least_closing_speed(double accurate_step) const;
   /// Records what a device found of first contacts.
   void see(const device::DecidingApproaches& of_pair);
+  void see_face(std::size_t face, const device::DecidingApproaches& of_face);
   /// Returns the constants of contact on a device.
   [[nodiscard]] device::ContactConstants constants_for_device() const;
 
