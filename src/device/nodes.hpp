@@ -101,8 +101,8 @@ struct SolveMomentum {
     node.set_velocity({p.x / m, p.y / m, p.z / m});
     node.set_relaxation(beta);
     node.set_increment(per_mass * f);
-    node.set_heat(role == nullptr || role[i] == ContactRole::none ? 0.0
-                                                                  : m);  // contact takes the mass from there
+    const bool in_contact = role != nullptr && role[i] != ContactRole::none;
+    node.set_heat(in_contact || keeps_all_masses ? m : 0.0);  // contact takes the mass from there
   }
 };
 
