@@ -88,16 +88,17 @@ Measurement measure(const Problem& problem, int threads, Length length, solver::
   if (solver::is_device(device)) solver::evaluate_by_tables(setup);
   cases::tabulate_materials(setup, io::Ranks(communicator));
   std::optional<solver::Simulation> simulation(std::in_place, setup, communicator);
+  simulation->use(device);
   const bool whole = length == Length::whole;
   const int share = length == Length::quick ? 5 : 1;
   if (!whole) {
     for (int i = 0; i < problem.steps_before / share; ++i) simulation->advance(setup.time.end);
     if (problem.thinning > 0.0) {
       simulation.emplace(thinned(setup, *simulation, problem.thinning));
+      simulation->use(device);
       simulation->advance(setup.time.end);
     }
   }
-  simulation->use(device);
   if (simulation->device() != nullptr) simulation->device()->engine().measure_stages(true);
   Part best;
   const std::int64_t first_step = simulation->state().step;

@@ -29,6 +29,14 @@ struct Rates {
   double arithmetic;  ///< floating-point operations per second, in double precision
 };
 
+/// What a step is told.
+struct StepInput {
+  double dt;                   ///< s
+  double end;                  ///< time at its end, s
+  double least_closing_speed;  ///< of first contacts that limit the time step, m/s
+  bool looks_at_fill;          ///< for material under pressure in cells that it does not fill
+};
+
 /// Result of a step.
 struct Outcome {
   EndOfStep sums;                         ///< totals at its end, contributions, bounds of the next step
@@ -41,7 +49,8 @@ struct Outcome {
   double wall_heat = 0.0;                           ///< of contact with images, J
   std::vector<Outflow::Result> outflow;             ///< of each body; empty: nothing leaves
   std::vector<MarkedMass::Result> squeezed;  ///< of each body; empty: no particle is at its greatest density
-  std::uint32_t slots = 0, cells = 0;        ///< blocks with nodes, cells with particles
+  double beside_voids = 0.0;  ///< mass under pressure in cells that it does not fill, before the step, kg
+  std::uint32_t slots = 0, cells = 0;  ///< blocks with nodes, cells with particles
 };
 
 /// Keeps the particles of a run on a device and steps them.
@@ -49,11 +58,8 @@ class Engine {
  public:
   virtual ~Engine() = default;
   /// Performs a step.
-  /// @param dt   s
-  /// @param end  time at its end, s
-  /// @param least_closing_speed  of first contacts that limit the time step, m/s
   /// @throws StateError if more than two fields meet at a node
-  virtual Outcome step(double dt, double end, double least_closing_speed) = 0;
+  virtual Outcome step(const StepInput& input) = 0;
   /// Sets the velocity (m/s) of the frame in which the largest speed is measured.
   virtual void set_frame(const Triple<double>& velocity) = 0;
   /// Returns the totals and bounds of the present state.

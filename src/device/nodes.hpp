@@ -101,8 +101,8 @@ struct SolveMomentum {
     node.set_velocity({p.x / m, p.y / m, p.z / m});
     node.set_relaxation(beta);
     node.set_increment(per_mass * f);
-    const bool in_contact = role != nullptr && role[i] != ContactRole::none;
-    node.set_heat(in_contact || keeps_all_masses ? m : 0.0);  // contact takes the mass from there
+    // Contact takes the mass from there.
+    node.set_heat(keeps_all_masses || (role != nullptr && role[i] != ContactRole::none) ? m : 0.0);
   }
 };
 
@@ -151,11 +151,7 @@ struct ImpulseAtMirrors {
     const Node& node = lattice.nodes[i];
     const double m = sums.mass();
     const Triple<double> d = node.increment(), v = node.velocity(), p = sums.momentum(), f = sums.force();
-    const double beta = node.relaxation(), per_mass = dt / m;
-    // Round-off only, where neither planes nor contact act
-    if (v.x == p.x / m && v.y == p.y / m && v.z == p.z / m && d.x == per_mass * f.x &&
-        d.y == per_mass * f.y && d.z == per_mass * f.z)
-      return;
+    const double beta = node.relaxation();
     result.sum[0] += m * d.x - dt * f.x - beta * (p.x - m * v.x);
     result.sum[1] += m * d.y - dt * f.y - beta * (p.y - m * v.y);
     result.sum[2] += m * d.z - dt * f.z - beta * (p.z - m * v.z);

@@ -28,6 +28,8 @@ struct Problem {
   double kappa = 0.0;  ///< of the relaxation of affine fields
   LossConstants losses{};
   double shock_conduction = 0.0, conduction_onset = 0.0, conduction_rise = 1.0;  ///< 0: no conduction
+  /// Of material beside voids: pressure over rho c^2 above which it counts, fraction of the cells that it should fill.
+  double strong_pressure = 0.0, filled = 0.0;
   std::uint32_t fields = 1;
   ContactConstants contact{};
   WallConstants walls{};

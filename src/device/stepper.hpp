@@ -11,6 +11,7 @@
 #include "src/device/conduction.hpp"
 #include "src/device/contact/stage.hpp"
 #include "src/device/engine.hpp"
+#include "src/device/fill.hpp"
 #include "src/device/gather.hpp"
 #include "src/device/nodes.hpp"
 #include "src/device/peak.hpp"
@@ -38,13 +39,15 @@ class Stepper final : public Engine {
     }
   }
 
-  Outcome step(double dt, double end, double least_closing_speed) override {
+  Outcome step(const StepInput& input) override {
+    const double dt = input.dt;
     outcome_ = {};
     timed(Stage::bins, [&] { bin(); });
+    if (input.looks_at_fill) look_at_fill();
     timed(Stage::conduction, [&] { conduct(dt); });
     timed(Stage::scatter, [&] { scatter(); });
     timed(Stage::contact,
-          [&] { contact_.find(space_, lattice(), store_.points(), dt, least_closing_speed); });
+          [&] { contact_.find(space_, lattice(), store_.points(), dt, input.least_closing_speed); });
     timed(Stage::grid, [&] { solve_momentum(dt); });
     timed(Stage::contact, [&] {
       contact_.remember(space_, lattice());
@@ -55,7 +58,7 @@ class Stepper final : public Engine {
     timed(Stage::gather, [&] { move(dt); });
     timed(Stage::material, [&] {
       strain_all<Space>(space_, store_.points(), problem_.materials, materials_.data(), tables_.data(),
-                        {.dt = dt, .time = end});
+                        {.dt = dt, .time = input.end});
     });
     timed(Stage::ends, [&] { end_step(); });
     return outcome_;
@@ -132,6 +135,23 @@ class Stepper final : public Engine {
                [&](const std::uint32_t* order, std::size_t size) { store_.rearrange(space_, order, size); });
     outcome_.slots = lattice().slots;
     outcome_.cells = lattice().stencil_cells;
+  }
+
+  void look_at_fill() {
+    space_.for_each(cells_.stencils(), SumVolumes{lattice(), store_.points(), cells_.sums()});
+    space_.for_each(cells_.nodes(), SumNodes{lattice(), cells_.sums(), lattice().nodes});
+    for (int face = 0; face < 6; ++face) {
+      if ((reflecting_ >> face & 1U) != 0) space_.for_each(cells_.nodes(), FoldVolumes{lattice(), face});
+    }
+    space_.for_each(cells_.nodes(), JoinVolumes{lattice(), reflecting_});
+    outcome_.beside_voids =
+        space_
+            .reduce(store_.points().size, MassBesideVoids{.lattice = lattice(),
+                                                          .points = store_.points(),
+                                                          .cell_of_ordered = cells_.cell_of_ordered(),
+                                                          .strong = problem_.strong_pressure,
+                                                          .filled = problem_.filled})
+            .sum[0];
   }
 
   void conduct(double dt) {

@@ -191,7 +191,9 @@ void step_symplectic(Stages& s, double until) {
 void step_on_device(Stages& s, double until) {
   s.time_step.begin(until);
   s.contact.watch_touches(s.time_step.accurate_step());
-  s.device->step(s.time_step.accurate_step());
+  const bool looks = s.fill.is_due();
+  const double beside_voids = s.device->step(s.time_step.accurate_step(), looks);
+  if (looks) s.fill.judge(beside_voids);
   close_step(s);
 }
 

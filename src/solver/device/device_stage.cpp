@@ -66,13 +66,19 @@ double DeviceStage::rate_of_most(double share, double least, double largest) {
   return engine_->rate_of_most(state_.totals.mass, share, least, largest);
 }
 
-void DeviceStage::step(double accurate_step) {
+double DeviceStage::step(double accurate_step, bool looks_at_fill) {
   const double dt = state_.run.time_step;
   is_current_ = false;
+  state_.run.particles_at_rest = 0;  // a device steps all of them
+  double beside_voids = 0.0;
   state_.profile.time("device", [&] {
     const device::Outcome outcome =
-        engine_->step(dt, state_.run.time + dt, contact_.least_closing_speed(accurate_step));
+        engine_->step({.dt = dt,
+                       .end = state_.run.time + dt,
+                       .least_closing_speed = contact_.least_closing_speed(accurate_step),
+                       .looks_at_fill = looks_at_fill});
     measured_ = outcome.sums;
+    beside_voids = outcome.beside_voids;
     book(outcome);
     require_valid(outcome);
   });
@@ -82,6 +88,7 @@ void DeviceStage::step(double accurate_step) {
     state_.profile.reassign("device", device::stage_names[stage], times[stage] - times_[stage]);
     times_[stage] = times[stage];
   }
+  return beside_voids;
 }
 
 /// Adds the sums of a step to the contributions of the step.

@@ -22,7 +22,10 @@ class DeviceStage {
   ~DeviceStage();
 
   /// Performs the present step and books its sums.
-  void step(double accurate_step);
+  /// @param accurate_step  time step that the state allows, s
+  /// @param looks_at_fill  whether to look for material under pressure in cells that it does not fill
+  /// @returns its mass at the beginning of the step (kg), 0 if not asked for
+  double step(double accurate_step, bool looks_at_fill);
   /// Copies the particles to State, unless they are there already.
   void synchronize();
 

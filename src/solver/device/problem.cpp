@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "src/device/material/describe.hpp"
+#include "src/solver/stages/fill.hpp"
 #include "src/solver/stages/material.hpp"
 
 namespace whipple::solver {
@@ -64,6 +65,8 @@ device::Problem device_problem(const State& state, const ContactStage& contact) 
   problem.shock_conduction = dissipation.shock_conduction;
   problem.conduction_onset = dissipation.conduction_onset;
   problem.conduction_rise = dissipation.conduction_rise;
+  problem.strong_pressure = FillWatch::strong;
+  problem.filled = FillWatch::filled;
   problem.initial_density = state.initial_density;
   problem.fields = 1;
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
