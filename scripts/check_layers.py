@@ -40,9 +40,6 @@ MAY_USE = {
                    "src/device/material"],
     "src/fem": ["src/core/base", "src/core/parallel", "src/particles", "src/material"],
     "src/contact": ["src/core/base", "src/core/parallel", "src/particles", "src/grid", "src/transfer", "src/fem"],
-    # Steps on a graphics processor, and their emulation on the host: kernels of the formulas of a point.
-    "src/device": ["src/core/base", "src/core/parallel", "src/material", "src/transfer", "eos"],
-    "src/device/contact": ["src/core/base", "src/device"],
     "src/afemp": ["src/core/base", "src/core/parallel", "src/particles", "src/grid", "src/material", "src/transfer", "src/fem"],
     "src/io": ["src/core/base", "src/core/parallel", "src/core/hdf5", "src/particles", "src/material", "src/fem"],
     # Solids from files of other programs, and generated ones.

@@ -151,7 +151,11 @@ struct ImpulseAtMirrors {
     const Node& node = lattice.nodes[i];
     const double m = sums.mass();
     const Triple<double> d = node.increment(), v = node.velocity(), p = sums.momentum(), f = sums.force();
-    const double beta = node.relaxation();
+    const double beta = node.relaxation(), per_mass = dt / m;
+    // Round-off only, where neither planes nor contact act
+    if (v.x == p.x / m && v.y == p.y / m && v.z == p.z / m && d.x == per_mass * f.x &&
+        d.y == per_mass * f.y && d.z == per_mass * f.z)
+      return;
     result.sum[0] += m * d.x - dt * f.x - beta * (p.x - m * v.x);
     result.sum[1] += m * d.y - dt * f.y - beta * (p.y - m * v.y);
     result.sum[2] += m * d.z - dt * f.z - beta * (p.z - m * v.z);
