@@ -7,15 +7,26 @@
 #include "src/afemp/transition.hpp"
 #include "src/case/build/placement.hpp"
 #include "src/case/build/seeding.hpp"
+#include "src/case/build/tables.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/parallel/mpi.hpp"
+#include "src/io/ranks.hpp"
 #include "src/solver/carriers/domains.hpp"
 #include "src/solver/carriers/explosives.hpp"
 #include "src/solver/stages.hpp"
 
 namespace whipple::solver {
 
-Simulation::Simulation(const cases::Case& setup, MPI_Comm communicator) {
+/// Returns the case as the default device runs it: with tables of the models that it does not have in closed form.
+static cases::Case on_default_device(cases::Case setup, MPI_Comm communicator) {
+  if (!is_device(default_device())) return setup;
+  evaluate_by_tables(setup);
+  cases::tabulate_materials(setup, io::Ranks(communicator));
+  return setup;
+}
+
+Simulation::Simulation(const cases::Case& of_case, MPI_Comm communicator) {
+  const cases::Case setup = on_default_device(of_case, communicator);
   if (parallel::rank(communicator) == 0) {
     for (const std::string& text : cases::placement_warnings(setup)) log::warning("{}", text);
     for (const std::string& text : setup.contact_fields.warnings) log::warning("{}", text);
@@ -45,9 +56,10 @@ Simulation::Simulation(const cases::Case& setup, MPI_Comm communicator) {
   use(default_device());
 }
 
-Simulation::Simulation(const cases::Case& setup, Particles particles, const RunState& state,
+Simulation::Simulation(const cases::Case& of_case, Particles particles, const RunState& state,
                        MPI_Comm communicator, std::vector<fem::Mesh> meshes, std::vector<fem::Bars> bars)
-    : stages_(std::make_unique<Stages>(setup, communicator, state, std::move(meshes), std::move(bars))),
+    : stages_(std::make_unique<Stages>(on_default_device(of_case, communicator), communicator, state,
+                                       std::move(meshes), std::move(bars))),
       state_(&stages_->state) {
   state_->particles = std::move(particles);
   for (Carrier* carrier : stages_->carriers) carrier->gather();
@@ -117,6 +129,7 @@ double Simulation::next_event() const { return stages_->activity.next_event(); }
 double Simulation::accurate_time_step() { return stages_->time_step.accurate(); }
 
 double Simulation::least_fill(double pressure) {
+  synchronize();
   bin_particles(*stages_);
   return stages_->fill.least(pressure);
 }

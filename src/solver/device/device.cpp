@@ -85,8 +85,7 @@ std::vector<InputFault> device_faults(const cases::Case& setup) {
 
 void evaluate_by_tables(cases::Case& setup) {
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
-    if (!device::has_closed_form(*setup.materials[b]))
-      setup.bodies[b].equation_of_state = cases::Evaluation::table;
+    if (device::needs_table(*setup.materials[b])) setup.bodies[b].equation_of_state = cases::Evaluation::table;
   }
 }
 
