@@ -9,19 +9,19 @@ whipple_test(test_solver STARTS_MPI
           verification/solver_contact_test.cpp verification/solver_bars_test.cpp verification/solver_element_contact_test.cpp verification/solver_orders_test.cpp
           verification/solver_methods_test.cpp verification/solver_failure_test.cpp
           verification/solver_viscous_test.cpp verification/solver_wall_test.cpp validation/solver_debris_cloud_test.cpp
-          validation/solver_table_test.cpp regression/solver_regression_test.cpp fuzz/case_fuzz.cpp
+          validation/solver_table_test.cpp regression/solver_regression_test.cpp fuzz/case_fuzz.cpp property/device_of_tests.cpp
   DEPENDS whipple_run GTest::gmock LABELS fast)
 whipple_test(test_run STARTS_MPI
   SOURCES parallel/run_restart_test.cpp unit/run_signal_control_test.cpp unit/run_history_columns_test.cpp property/run_forecast_test.cpp property/run_gauges_test.cpp property/solver_plausibility_test.cpp verification/run_steering_test.cpp
   DEPENDS whipple_run nlohmann_json::nlohmann_json GTest::gmock LABELS fast)
 whipple_test(test_force_gauges STARTS_MPI SOURCES property/run_force_gauges_test.cpp DEPENDS whipple_run LABELS fast)
 whipple_test(test_damping STARTS_MPI SOURCES verification/solver_damping_test.cpp verification/solver_plate_test.cpp DEPENDS whipple_solver LABELS fast)
-whipple_test(test_contact STARTS_MPI SOURCES property/contact_pressing_test.cpp verification/solver_gap_test.cpp verification/solver_first_touch_test.cpp verification/solver_conduction_test.cpp
+whipple_test(test_contact STARTS_MPI SOURCES property/contact_pressing_test.cpp verification/solver_gap_test.cpp verification/solver_first_touch_test.cpp verification/solver_conduction_test.cpp property/device_of_tests.cpp
              DEPENDS whipple_run LABELS fast)
 whipple_test(test_cracks STARTS_MPI SOURCES verification/solver_cracks_test.cpp verification/solver_fragment_size_test.cpp DEPENDS whipple_run LABELS fast)
 # The steady flow of grains: half a minute.
 whipple_test(test_granular_flow STARTS_MPI SOURCES verification/solver_granular_flow_test.cpp DEPENDS whipple_solver LABELS long)
-whipple_test(test_driven STARTS_MPI SOURCES verification/solver_driven_test.cpp verification/solver_tool_test.cpp verification/solver_friction_wall_test.cpp verification/solver_averages_test.cpp verification/solver_loads_test.cpp verification/solver_water_test.cpp verification/solver_many_bodies_test.cpp verification/solver_tank_test.cpp verification/solver_cavitation_test.cpp DEPENDS whipple_solver LABELS fast)
+whipple_test(test_driven STARTS_MPI SOURCES verification/solver_driven_test.cpp verification/solver_tool_test.cpp verification/solver_friction_wall_test.cpp verification/solver_averages_test.cpp verification/solver_loads_test.cpp verification/solver_water_test.cpp verification/solver_many_bodies_test.cpp verification/solver_tank_test.cpp verification/solver_cavitation_test.cpp property/device_of_tests.cpp DEPENDS whipple_solver LABELS fast)
 whipple_test(test_burn STARTS_MPI SOURCES verification/burn_test.cpp verification/burn_contact_test.cpp verification/lighting_times_test.cpp verification/reaction_test.cpp DEPENDS whipple_run GTest::gmock LABELS fast)
 add_test(NAME burn.fine_slab COMMAND test_burn --gtest_filter=PlanarDetonation.FollowsTheTaylorWaveOfTnt)
 set_tests_properties(burn.fine_slab PROPERTIES ENVIRONMENT "WHIPPLE_FINE_BURN=1;OMP_NUM_THREADS=1" LABELS long)
@@ -126,10 +126,10 @@ add_executable(exact_suite EXCLUDE_FROM_ALL verification/exact_suite.cpp)
 target_link_libraries(exact_suite PRIVATE whipple_exact)
 whipple_test(test_exact STARTS_MPI
   SOURCES verification/exact_solutions_test.cpp verification/exact_gas_test.cpp verification/exact_impact_test.cpp
-          verification/exact_solid_test.cpp
+          verification/exact_solid_test.cpp property/device_of_tests.cpp
   DEPENDS whipple_exact LABELS fast)
 # Finer resolutions are long.
-whipple_test(test_expansion STARTS_MPI SOURCES verification/solver_expansion_test.cpp DEPENDS whipple_solver LABELS fast)
+whipple_test(test_expansion STARTS_MPI SOURCES verification/solver_expansion_test.cpp property/device_of_tests.cpp DEPENDS whipple_solver LABELS fast)
 set(expansion_labels ${CMAKE_CURRENT_BINARY_DIR}/test_expansion_labels.cmake)
 file(WRITE ${expansion_labels} [=[
 foreach(test IN LISTS test_expansion_TESTS)

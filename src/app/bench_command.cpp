@@ -24,6 +24,7 @@
 #include "src/core/process/mpirun.hpp"
 #include "src/core/process/paths.hpp"
 #include "src/io/run_directory.hpp"
+#include "src/solver/device/device.hpp"
 
 namespace whipple::app {
 namespace {
@@ -52,9 +53,9 @@ bench::Length length(const BenchOptions& options) {
 /// Measures one problem on the ranks of this process. Each problem runs in separate processes, so that its peak memory
 /// is measured separately.
 void run_worker(const BenchOptions& options) {
-  const Measurement measurement =
-      bench::measure(bench::find_problem(options.problems.front()), options.threads.front(), length(options),
-                     options.device, parallel::world());
+  solver::default_device() = options.device;
+  const Measurement measurement = bench::measure(bench::find_problem(options.problems.front()),
+                                                 options.threads.front(), length(options), parallel::world());
   if (parallel::rank(parallel::world()) == 0) {
     io::write_text_atomically(options.worker, json_text(bench::to_json(measurement), -1) + "\n");
   }

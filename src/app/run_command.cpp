@@ -61,7 +61,6 @@ run::RunOptions run_options(const Arguments& arguments) {
       .restart = !arguments.restart.empty(),
       .force = arguments.force,
       .threads = arguments.threads,
-      .device = arguments.device,
       .wall_time = arguments.wall_time.empty()
                        ? 0.0
                        : option_quantity("--wall-time", arguments.wall_time, "s", range::positive()),
@@ -124,6 +123,7 @@ int run_on_ranks(const Arguments& arguments) {
 int run_here(const Arguments& arguments) {
   try {
     if (arguments.device == Device::reference) kernel_set() = KernelSet::plain;
+    solver::default_device() = arguments.device;
     return run::run_case(run_options(arguments), parallel::world());
   } catch (const std::exception& error) {
     log::record_error(error.what());  // also to log.txt, if the run directory exists

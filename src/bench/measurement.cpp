@@ -81,21 +81,18 @@ Part time_steps(solver::Simulation& simulation, std::size_t steps) {
 
 }  // namespace
 
-Measurement measure(const Problem& problem, int threads, Length length, solver::Device device,
-                    MPI_Comm communicator) {
+Measurement measure(const Problem& problem, int threads, Length length, MPI_Comm communicator) {
   parallel::set_threads(threads);
   cases::Case setup = cases::read_case(process::find_data(problem.case_file).string(), problem.overrides);
-  if (solver::is_device(device)) solver::evaluate_by_tables(setup);
+  if (is_device(solver::default_device())) solver::evaluate_by_tables(setup);
   cases::tabulate_materials(setup, io::Ranks(communicator));
   std::optional<solver::Simulation> simulation(std::in_place, setup, communicator);
-  simulation->use(device);
   const bool whole = length == Length::whole;
   const int share = length == Length::quick ? 5 : 1;
   if (!whole) {
     for (int i = 0; i < problem.steps_before / share; ++i) simulation->advance(setup.time.end);
     if (problem.thinning > 0.0) {
       simulation.emplace(thinned(setup, *simulation, problem.thinning));
-      simulation->use(device);
       simulation->advance(setup.time.end);
     }
   }

@@ -11,7 +11,6 @@
 
 #include "src/bench/machine.hpp"
 #include "src/bench/problems.hpp"
-#include "src/solver/device/device.hpp"
 
 namespace whipple::bench {
 
@@ -48,10 +47,9 @@ enum class Length {
   whole,  ///< from the start to the end of the case
 };
 
-/// Times a problem on the ranks of a communicator, or on a device. Collective.
+/// Times a problem on the ranks of a communicator, or on solver::default_device(). Collective.
 /// @throws InputError naming what a device does not compute of the problem
-Measurement measure(const Problem& problem, int threads, Length length, solver::Device device,
-                    MPI_Comm communicator);
+Measurement measure(const Problem& problem, int threads, Length length, MPI_Comm communicator);
 
 nlohmann::json to_json(const Measurement& measurement);
 /// Reads a measurement.

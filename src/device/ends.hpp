@@ -38,6 +38,7 @@ struct StepSums {
     plastic_work_,
     dissipation_,
     plastic_heat_,
+    external_work_,
     wall_impulse,
     leaving = wall_impulse + 3,  ///< number of particles
     first_event,                 ///< number of particles with each event
@@ -160,6 +161,7 @@ struct EndStep {
     result.sum[S::plastic_work_] += points.at(plastic_work, p);
     result.sum[S::dissipation_] += points.at(dissipation, p);
     result.sum[S::plastic_heat_] += points.at(plastic_heat, p);
+    result.sum[S::external_work_] += points.at(external_work, p);
     const double vx = std::fabs(points.at(velocity, p)), vy = std::fabs(points.at(velocity + 1, p)),
                  vz = std::fabs(points.at(velocity + 2, p));
     result.raise(S::speed, points.at(sound_speed, p) + std::fmax(vx, std::fmax(vy, vz)));

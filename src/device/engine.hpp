@@ -31,10 +31,12 @@ struct Rates {
 
 /// What a step is told.
 struct StepInput {
-  double dt;                   ///< s
-  double end;                  ///< time at its end, s
-  double least_closing_speed;  ///< of first contacts that limit the time step, m/s
-  bool looks_at_fill;          ///< for material under pressure in cells that it does not fill
+  double dt;                    ///< s
+  double end;                   ///< time at its end, s
+  Triple<double> acceleration;  ///< of all particles by loads, m/s^2
+  double least_closing_speed;   ///< of first contacts that limit the time step, m/s
+  bool looks_at_fill;           ///< for material under pressure in cells that it does not fill
+  bool sorts;                   ///< the particles in memory, by body and cell
 };
 
 /// Result of a step.
@@ -44,11 +46,13 @@ struct Outcome {
   std::array<double, 3> plane_impulse{};  ///< by mirror planes on nodes, N s
   /// Heat of contact and of friction (J), their impulses (N s), number of places that more than two fields reach.
   std::array<double, 5> contact{};
+  Triple<double> crowded_at{};                      ///< one of these places, m
   std::vector<DecidingApproaches> approaches;       ///< of each pair of fields; empty: none meet
   std::vector<DecidingApproaches> face_approaches;  ///< of each face; empty: nothing meets its image
   double wall_heat = 0.0;                           ///< of contact with images, J
   std::vector<Outflow::Result> outflow;             ///< of each body; empty: nothing leaves
   std::vector<MarkedMass::Result> squeezed;  ///< of each body; empty: no particle is at its greatest density
+  double held_pressures = 0.0;               ///< number of fluid particles that have parted
   double beside_voids = 0.0;  ///< mass under pressure in cells that it does not fill, before the step, kg
   std::uint32_t slots = 0, cells = 0;  ///< blocks with nodes, cells with particles
 };
@@ -58,13 +62,16 @@ class Engine {
  public:
   virtual ~Engine() = default;
   /// Performs a step.
-  /// @throws StateError if more than two fields meet at a node
   virtual Outcome step(const StepInput& input) = 0;
   /// Sets the velocity (m/s) of the frame in which the largest speed is measured.
   virtual void set_frame(const Triple<double>& velocity) = 0;
   /// Returns the totals and bounds of the present state.
   virtual EndOfStep measure() = 0;
-  /// Copies the state to the host, in the order of `origin`, which becomes 0, 1, 2 ...
+  /// Returns whether any particle is so long that it must be divided before the next step.
+  virtual bool must_divide() = 0;
+  /// Replaces the particles.
+  virtual void upload(const PointsOnHost& points) = 0;
+  /// Copies the state to the host, in its order: `origin` is the place of each particle in the former one.
   virtual void download(PointsOnHost& points) = 0;
   /// Returns the closing rate (1/s) that at most the fraction `share` of the mass (kg) exceeds (rates.hpp).
   virtual double rate_of_most(double total_mass, double share, double least, double largest) = 0;

@@ -9,6 +9,7 @@
 #include "src/device/conduction.hpp"
 #include "src/device/contact/constants.hpp"
 #include "src/device/contact/walls.hpp"
+#include "src/device/domains.hpp"
 #include "src/device/ends.hpp"
 #include "src/device/gather.hpp"
 #include "src/device/lattice.hpp"
@@ -33,11 +34,13 @@ struct Problem {
   std::uint32_t fields = 1;
   ContactConstants contact{};
   WallConstants walls{};
+  DomainLimits domain_limits{};
 
   // Of each body.
   std::vector<std::uint8_t> field_of_body;
   std::vector<double> initial_density;  ///< kg/m^3
   std::vector<ConductingBody> conducting;
+  std::vector<DomainsOfBody> domains;
   std::vector<MaterialConstants> materials;
   std::vector<double> tables;  ///< of all materials
 
@@ -50,7 +53,7 @@ struct Problem {
 struct PointsOnHost {
   std::array<std::vector<double>, state_components> numbers;
   std::vector<std::uint32_t> body;
-  std::vector<std::uint32_t> origin;  ///< place of each at the last exchange
+  std::vector<std::uint32_t> origin;  ///< place of each at the exchange before this one
 
   [[nodiscard]] std::size_t size() const { return body.size(); }
 };

@@ -91,24 +91,15 @@ WHIPPLE_KERNEL void advance_volume(const Step& step, Chunk& chunk) {
 
 namespace {
 
-/// Computes the part of the artificial viscosity whose work is heat (docs/theory/dissipation.md, eq. 5 and 6): all of
-/// it in a shock, whose rate the affine field of the particle follows; at first contact the part of the jump that the
-/// affine field represents; all of it in fragmented material, which collides.
+/// Computes the part of the artificial viscosity whose work is heat.
 WHIPPLE_KERNEL void find_heating_viscosity(const Step& step, Chunk& chunk) {
   const UpdateSettings& settings = step.settings;
   const double per_initial = 1.0 / settings.initial_density;
   const double per_range = 1.0 / settings.affine_compression;
   for (std::size_t k = 0; k < chunk.size; ++k) {
-    const double of_grid = std::max(-chunk.motion.divergence[k], 0.0) * settings.cell_size;
-    const double of_field = std::max(-step.affine_divergence[k], 0.0) * settings.cell_size;
-    const double compression = chunk.density[k] * per_initial - 1.0;
-    const double closing =
-        formulas::heating_closing_speed(settings, of_grid, of_field, compression, per_range);
-    const double viscosity =
-        formulas::artificial_viscosity(settings, chunk.density[k], closing, chunk.sound_speed[k]);
-    const bool tight = chunk.intact[k] != 0.0 && compression >= 0.0;
-    const double whole = chunk.artificial_viscosity[k];
-    chunk.heating_viscosity[k] = tight && whole > 0.0 ? std::min(viscosity, whole) : whole;
+    chunk.heating_viscosity[k] = formulas::heating_viscosity(
+        settings, chunk.motion.divergence[k], step.affine_divergence[k], chunk.density[k],
+        chunk.sound_speed[k], chunk.intact[k] != 0.0, chunk.artificial_viscosity[k], per_initial, per_range);
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "src/material/chunk.hpp"
+#include "src/material/kinematic_formulas.hpp"
 
 /// Parts of the constitutive update that are common to all models (docs/theory/material.md, sections 1 and 4).
 namespace whipple::material {
@@ -33,8 +34,9 @@ inline void energy_ahead(const Step& step, Chunk& chunk, WithoutElastic without_
       step.distinguishes_heating() ? chunk.heating_viscosity : chunk.artificial_viscosity;
   for (std::size_t k = 0; k < chunk.size; ++k) {
     const SymmetricTensor s = tensor(lanes, k);
-    const double deviatoric = s.xx * l[0][k] + s.yy * l[4][k] + s.zz * l[8][k] + s.xy * (l[1][k] + l[3][k]) +
-                              s.yz * (l[5][k] + l[7][k]) + s.zx * (l[2][k] + l[6][k]);
+    const double deviatoric = formulas::power<double>(
+        {s.xx, s.yy, s.zz, s.xy, s.yz, s.zx},
+        {l[0][k], l[1][k], l[2][k], l[3][k], l[4][k], l[5][k], l[6][k], l[7][k], l[8][k]});
     const double power = deviatoric - (chunk.pressure[k] + viscosity[k]) * chunk.motion.divergence[k];
     const double specific_volume = chunk.volume[k] / chunk.mass[k];
     chunk.energy[k] =

@@ -2,31 +2,23 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 
+#include "src/material/fluid_formulas.hpp"
 #include "src/material/material.hpp"
 #include "src/particles/material_points.hpp"
 
 namespace whipple {
 
-/// States when a material has no shear strength.
-enum class Fluidity : std::uint8_t {
-  never,
-  when_molten,  ///< if liquid, vapour or burnt: its equation of state has phases
-  always,       ///< gas, or detonation products: no tension either
-};
-
+/// Returns when a material has no shear strength.
 inline Fluidity fluidity(const Material& material) {
   if (!material.eos->condensed() && !material.strength->carries_deviator()) return Fluidity::always;
   return material.eos->has_phases() ? Fluidity::when_molten : Fluidity::never;
 }
 
-/// Returns whether a point is a fluid that fills its volume: without shear strength, under pressure, without a void.
-/// Liquid that breaks into drops does not: in tension it fails, its void opens and its pressure is 0.
+/// Returns whether a point is a fluid that fills its volume.
 inline bool is_filling_fluid(Fluidity fluidity, const MaterialPoints& points, std::size_t p) {
-  if (fluidity == Fluidity::never || !(points.pressure[p] > 0.0) || points.void_volume[p] > 0.0) return false;
-  return fluidity == Fluidity::always ||
-         shear_bearing_fraction(points.melted_fraction[p], points.vaporised_fraction[p]) <= 0.0;
+  return is_filling_fluid(fluidity, points.pressure[p], points.void_volume[p], points.melted_fraction[p],
+                          points.vaporised_fraction[p]);
 }
 
 /// Returns whether a filling fluid is also continuous: not failed, unless more than half of it is vapour.

@@ -75,6 +75,19 @@ struct Symmetric {
   T xx, yy, zz, xy, yz, zx;
 };
 
+/// s:s
+template <class T>
+WHIPPLE_POINT inline T squared_norm(const Symmetric<T>& s) {
+  return s.xx * s.xx + s.yy * s.yy + s.zz * s.zz + 2.0 * (s.xy * s.xy + s.yz * s.yz + s.zx * s.zx);
+}
+
+/// s:L, the power of a deviator per volume
+template <class T>
+WHIPPLE_POINT inline T power(const Symmetric<T>& s, const Matrix<T>& l) {
+  return s.xx * l.xx + s.yy * l.yy + s.zz * l.zz + s.xy * (l.xy + l.yx) + s.yz * (l.yz + l.zy) +
+         s.zx * (l.xz + l.zx);
+}
+
 /// R s R^T
 template <class T>
 WHIPPLE_POINT inline Symmetric<T> turned(const Symmetric<T>& s, const Matrix<T>& r) {
@@ -142,8 +155,7 @@ WHIPPLE_POINT inline Trial<T> elastic_trial(const Symmetric<T>& deviator, const 
   const Symmetric<T> s = {t.xx + twice * (e.xx - mean), t.yy + twice * (e.yy - mean),
                           t.zz + twice * (e.zz - mean), t.xy + twice * e.xy,
                           t.yz + twice * e.yz,          t.zx + twice * e.zx};
-  const T norm = s.xx * s.xx + s.yy * s.yy + s.zz * s.zz + 2.0 * (s.xy * s.xy + s.yz * s.yz + s.zx * s.zx);
-  return {s, std::sqrt(1.5 * norm)};
+  return {s, std::sqrt(1.5 * squared_norm(s))};
 }
 
 }  // namespace whipple::material::formulas

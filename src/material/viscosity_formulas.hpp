@@ -37,4 +37,21 @@ WHIPPLE_POINT inline T heating_closing_speed(const Settings& settings, T of_grid
   return of_grid - share * std::max(of_grid - settings.affine_gain * of_field, T{});
 }
 
+/// Returns the part of the artificial viscosity whose work is heat (dissipation, eq. 5 and 6), Pa: all of it in a shock,
+/// whose rate the affine field of the particle follows; at first contact the part of the jump that the affine field
+/// represents; all of it in fragmented material, which collides.
+/// @param whole  artificial viscosity, Pa
+template <class Settings, class T>
+WHIPPLE_POINT inline T heating_viscosity(const Settings& settings, T divergence, T affine_divergence,
+                                         T density, T sound_speed, bool intact, T whole, double per_initial,
+                                         double per_range) {
+  const T of_grid = std::max(-divergence, 0.0) * settings.cell_size;
+  const T of_field = std::max(-affine_divergence, 0.0) * settings.cell_size;
+  const T compression = density * per_initial - 1.0;
+  const T closing = heating_closing_speed(settings, of_grid, of_field, compression, per_range);
+  const T viscosity = artificial_viscosity(settings, density, closing, sound_speed);
+  const bool tight = intact && compression >= 0.0;
+  return tight && whole > 0.0 ? std::min(viscosity, whole) : whole;
+}
+
 }  // namespace whipple::material::formulas

@@ -39,6 +39,7 @@
 #include "src/run/runner.hpp"
 #include "src/run/signal_control.hpp"
 #include "src/run/status.hpp"
+#include "src/solver/device/device.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple::run {
@@ -92,10 +93,11 @@ io::RunDirectory new_directory(const cases::Case& setup, const fs::path& path, c
 
 /// Builds the tables of the materials, and checks that the device computes what the case asks for.
 /// @throws InputError with all that it does not compute
-void prepare_materials(cases::Case& setup, const RunOptions& options, const io::Ranks& ranks) {
-  if (solver::is_device(options.device)) solver::evaluate_by_tables(setup);
+void prepare_materials(cases::Case& setup, const io::Ranks& ranks) {
+  const bool on_device = is_device(solver::default_device());
+  if (on_device) solver::evaluate_by_tables(setup);
   cases::tabulate_materials(setup, ranks);
-  if (!solver::is_device(options.device)) return;
+  if (!on_device) return;
   if (ranks.is_parallel()) throw InputError("--device: a device computes a run on one rank");
   if (auto faults = solver::device_faults(setup); !faults.empty()) throw InputError(std::move(faults));
 }
@@ -148,14 +150,13 @@ int begin(const RunOptions& options, MPI_Comm communicator) {
   cases::Case setup = cases::read_case(options.case_file, options.overrides);
   require_known_columns(setup, options.overrides);
   require_memory(setup, communicator);
-  prepare_materials(setup, options, ranks);
+  prepare_materials(setup, ranks);
   const io::RunDirectory directory =
       new_directory(setup, output_directory(options, options.case_file), options, ranks);
   if (ranks.is_root()) log::set_file(directory.log_file());
   log::info("{}: {}", setup.title.empty() ? directory.name() : setup.title, directory.path().string());
   for (const std::string& remark : cases::remarks(setup)) log::warning("{}", remark);
   solver::Simulation simulation(setup, communicator);
-  simulation.use(options.device);
   require_disk(simulation, directory, 3, ranks);
   Runner runner(simulation, observers_of(simulation, directory, options, ranks), options.wall_time);
   runner.begin();
@@ -191,13 +192,12 @@ int go_on(const RunOptions& options, MPI_Comm communicator) {
               setup.stops[static_cast<std::size_t>(ended_by - 1)].in_words());
     return 0;
   }
-  prepare_materials(setup, options, ranks);
+  prepare_materials(setup, ranks);
   const io::RunDirectory directory =
       io::RunDirectory::open(options.output_directory, checkpoint.values.text("run_name"));
   if (ranks.is_root()) log::set_file(directory.log_file());
   ranks.on_root([&] { directory.remove_partial_files(); });
   solver::Simulation simulation = resume(setup, checkpoint, communicator);
-  simulation.use(options.device);
   if (!options.overrides.empty()) {  // for the next restart
     ranks.on_root([&] {
       directory.write_input(cases::to_toml(setup, material_copies(setup)) +

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "src/case/case.hpp"
-#include "src/solver/device/device.hpp"
 
 namespace whipple::run {
 
@@ -21,10 +20,9 @@ struct RunOptions {
   bool force = false;                      ///< remove the outputs of an earlier run in output_directory; on
                                            ///< restart: continue although rows of its tables are missing
   int threads = 0;                         ///< of each rank; 0: an equal part of the cores
-  solver::Device device = solver::Device::cpu;  ///< that computes the steps
-  double wall_time = 0.0;             ///< s, after which the run ends with a checkpoint; 0: no limit
-  std::filesystem::path replay = {};  ///< steering.csv with the requests to repeat; empty: none
-  std::string program = "whipple";    ///< name and version, for provenance
+  double wall_time = 0.0;                  ///< s, after which the run ends with a checkpoint; 0: no limit
+  std::filesystem::path replay = {};       ///< steering.csv with the requests to repeat; empty: none
+  std::string program = "whipple";         ///< name and version, for provenance
   std::vector<std::pair<std::string, std::string>> overrides;  ///< --set
 };
 

@@ -7,15 +7,27 @@
 #include "src/afemp/transition.hpp"
 #include "src/case/build/placement.hpp"
 #include "src/case/build/seeding.hpp"
+#include "src/case/build/tables.hpp"
+#include "src/core/base/error.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/parallel/mpi.hpp"
+#include "src/io/ranks.hpp"
 #include "src/solver/carriers/domains.hpp"
 #include "src/solver/carriers/explosives.hpp"
 #include "src/solver/stages.hpp"
 
 namespace whipple::solver {
 
-Simulation::Simulation(const cases::Case& setup, MPI_Comm communicator) {
+/// Returns the case as the default device runs it: with tables of the models that it does not have in closed form.
+static cases::Case on_default_device(cases::Case setup, MPI_Comm communicator) {
+  if (!is_device(default_device())) return setup;
+  evaluate_by_tables(setup);
+  cases::tabulate_materials(setup, io::Ranks(communicator));
+  return setup;
+}
+
+Simulation::Simulation(const cases::Case& of_case, MPI_Comm communicator) {
+  const cases::Case setup = on_default_device(of_case, communicator);
   if (parallel::rank(communicator) == 0) {
     for (const std::string& text : cases::placement_warnings(setup)) log::warning("{}", text);
     for (const std::string& text : setup.contact_fields.warnings) log::warning("{}", text);
@@ -30,6 +42,7 @@ Simulation::Simulation(const cases::Case& setup, MPI_Comm communicator) {
   state_->bodies = std::move(seeding.bodies);
   for (Carrier* carrier : stages_->carriers) carrier->keep_share();
   stages_->particles.complete_seeded(domains::are_needed(*state_, stages_->contact.may_meet_images()));
+  use(default_device());
   stages_->balance.sum();
   Ledger& ledger = state_->run.ledger;
   ledger.initial = state_->totals;
@@ -44,17 +57,20 @@ Simulation::Simulation(const cases::Case& setup, MPI_Comm communicator) {
   stages_->plausibility.begin();
 }
 
-Simulation::Simulation(const cases::Case& setup, Particles particles, const RunState& state,
+Simulation::Simulation(const cases::Case& of_case, Particles particles, const RunState& state,
                        MPI_Comm communicator, std::vector<fem::Mesh> meshes, std::vector<fem::Bars> bars)
-    : stages_(std::make_unique<Stages>(setup, communicator, state, std::move(meshes), std::move(bars))),
+    : stages_(std::make_unique<Stages>(on_default_device(of_case, communicator), communicator, state,
+                                       std::move(meshes), std::move(bars))),
       state_(&stages_->state) {
   state_->particles = std::move(particles);
   for (Carrier* carrier : stages_->carriers) carrier->gather();
   stages_->particles.complete_read(domains::are_needed(*state_, stages_->contact.may_meet_images()));
+  use(default_device());
   stages_->balance.sum();
-  if (state.step > 0) return;
-  stages_->applied_loads.weigh();
-  stages_->plausibility.begin();
+  if (state.step == 0) {
+    stages_->applied_loads.weigh();
+    stages_->plausibility.begin();
+  }
 }
 
 Simulation::Simulation(Simulation&&) noexcept = default;
@@ -73,7 +89,12 @@ void Simulation::synchronize() const {
 
 void Simulation::advance(double until) { solver::advance(*stages_, until); }
 
-void Simulation::add_load(Load load) { stages_->loads.add(std::move(load)); }
+void Simulation::add_load(Load load) {
+  if (state_->device != nullptr && !load.of_all) {
+    throw InputError("load \"" + load.name + "\" differs from point to point: a device does not compute it");
+  }
+  stages_->loads.add(std::move(load));
+}
 
 bool Simulation::is_one_with_image(std::size_t body, std::size_t face) const {
   return stages_->contact.is_one_with_image(body, face);
@@ -114,6 +135,7 @@ double Simulation::next_event() const { return stages_->activity.next_event(); }
 double Simulation::accurate_time_step() { return stages_->time_step.accurate(); }
 
 double Simulation::least_fill(double pressure) {
+  synchronize();
   bin_particles(*stages_);
   return stages_->fill.least(pressure);
 }

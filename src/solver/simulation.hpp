@@ -20,7 +20,8 @@ struct Stages;
 /// equal on all ranks. Constructors and `advance` are collective.
 class Simulation {
  public:
-  /// Creates the bodies of the case.
+  /// Creates the bodies of the case, on default_device().
+  /// @throws InputError naming what the case asks for that a device does not compute, StateError without a device
   explicit Simulation(const cases::Case& setup, MPI_Comm communicator);
   /// Resumes from a checkpoint.
   /// @param particles this rank's part, in any distribution
@@ -33,9 +34,6 @@ class Simulation {
   Simulation& operator=(Simulation&&) noexcept;
   ~Simulation();
 
-  /// Keeps the particles on a device from now on, which steps them; nothing for a processor.
-  /// @throws InputError naming what the case asks for that a device does not compute, StateError without a device
-  void use(Device device);
   /// Returns the device that steps the particles; null without one.
   [[nodiscard]] DeviceStage* device() { return state_->device; }
 
@@ -93,6 +91,8 @@ class Simulation {
   [[nodiscard]] double least_fill(double pressure);
 
  private:
+  /// Keeps the particles on a device from now on.
+  void use(Device device);
   /// Fetches the particles from a device.
   void synchronize() const;
 

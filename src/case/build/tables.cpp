@@ -32,12 +32,16 @@ std::shared_ptr<const Material> tabulated(const Material& material, double error
   return std::make_shared<const Material>(with_eos(material, std::move(table)));
 }
 
+bool is_table(const Material& material) {
+  return dynamic_cast<const eos::TableOfModel*>(material.eos.get()) != nullptr;
+}
+
 void replace_models(Case& setup) {
   // Bodies that share a material also share its table.
   std::map<std::pair<std::shared_ptr<const Material>, double>, std::shared_ptr<const Material>> tables;
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     const Body& body = setup.bodies[b];
-    if (body.equation_of_state != Evaluation::table) continue;
+    if (body.equation_of_state != Evaluation::table || is_table(*setup.materials[b])) continue;
     auto& table = tables[{setup.materials[b], body.table_error}];
     try {
       if (!table) table = tabulated(*setup.materials[b], body.table_error);

@@ -5,11 +5,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <type_traits>
 #include <utility>
 
 #include "eos/model_equation_of_state.hpp"
+#include "eos/models/ideal_gas.hpp"
 #include "eos/models/mie_gruneisen.hpp"
 #include "eos/models/polynomial.hpp"
 #include "eos/table/builder.hpp"
@@ -54,9 +56,31 @@ bool describe_gruneisen(const Material& material, MaterialConstants& result, std
   return true;
 }
 
+/// Describes an ideal gas: a solid without cold pressure that is always expanded, Gamma = gamma - 1.
+bool describe_gas(const Material& material, MaterialConstants& result) {
+  const auto* model = as<eos::ModelEquationOfState<eos::IdealGas>>(material.eos);
+  if (model == nullptr) return false;
+  const eos::IdealGasCurve& gas = model->underlying().curve();
+  const double least = eos::IdealGas::least_sound_speed_ratio * gas.reference_sound_speed();
+  result.eos = EosKind::gruneisen;
+  result.gruneisen = {.least_density = std::numeric_limits<double>::infinity(),
+                      .maximum_density = gas.maximum_density(),
+                      .density = gas.reference_density(),
+                      .gruneisen = gas.constants().heat_capacity_ratio - 1.0,
+                      .heat_capacity = gas.heat_capacity(),
+                      .least_temperature = eos::IdealGas::least_temperature,
+                      .least_squared = least * least};
+  return true;
+}
+
+/// Describes a model that a kernel has in closed form.
+bool describe_closed_form(const Material& material, MaterialConstants& result, std::vector<double>& tables) {
+  return describe_gruneisen<eos::MieGruneisen>(material, result, tables) ||
+         describe_gruneisen<eos::Polynomial>(material, result, tables) || describe_gas(material, result);
+}
+
 bool describe_eos(const Material& material, MaterialConstants& result, std::vector<double>& tables) {
-  if (describe_gruneisen<eos::MieGruneisen>(material, result, tables)) return true;
-  if (describe_gruneisen<eos::Polynomial>(material, result, tables)) return true;
+  if (describe_closed_form(material, result, tables)) return true;
   const auto* backed = as<eos::TableOfModel>(material.eos);
   const auto* table = backed != nullptr ? &backed->table() : as<eos::Table>(material.eos);
   if (table == nullptr) return false;
@@ -153,7 +177,8 @@ bool describe_criterion(const std::shared_ptr<const failure::Criterion>& criteri
   }
   if (const auto* growth = as<CriterionOf<failure::ViscousVoidGrowth>>(criterion)) {
     const failure::ViscousVoidGrowth& law = growth->law();
-    result.void_growth = {law.resistance, law.viscosity, law.nuclei, law.failure_porosity};
+    result.void_growth = {law.resistance, law.viscosity, law.nuclei, law.failure_porosity,
+                          failure::formulas::tension_at_nuclei(law.nuclei)};
     result.heals_growth = law.healing;
     return grow(VoidKind::viscous_growth);
   }
@@ -196,7 +221,8 @@ std::vector<std::string> describe_parts(const Material& material, MaterialConsta
                        : modified ? " with a modifier"
                                   : ""),
            porous ? "material without pores"
-                  : "\"mie_gruneisen\" and \"polynomial\" without modifiers, and tables of other models: "
+                  : "\"mie_gruneisen\", \"polynomial\" and \"ideal_gas\" without modifiers, and tables of "
+                    "other models: "
                     "equation_of_state = \"table\" of the body");
   }
   if (!describe_strength(material, result)) {
@@ -220,11 +246,10 @@ std::vector<std::string> describe_parts(const Material& material, MaterialConsta
 
 }  // namespace
 
-bool has_closed_form(const Material& material) {
+bool needs_table(const Material& material) {
   MaterialConstants unused;
   std::vector<double> tables;
-  return describe_gruneisen<eos::MieGruneisen>(material, unused, tables) ||
-         describe_gruneisen<eos::Polynomial>(material, unused, tables);
+  return !describe_eos(material, unused, tables);
 }
 
 std::vector<std::string> refusals(const Material& material) {

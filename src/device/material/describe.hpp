@@ -15,11 +15,11 @@ namespace whipple::device {
 /// Empty: all of it.
 std::vector<std::string> refusals(const Material& material);
 
-/// Returns whether a kernel has the equation of state of a material in closed form; any other is evaluated from its table.
-bool has_closed_form(const Material& material);
+/// Returns whether a kernel has the equation of state of a material neither in closed form nor as a table.
+bool needs_table(const Material& material);
 
 /// Returns the constants of a material and of the artificial viscosity of a body of it. Time step, time and burn of the
-/// settings do not matter.
+/// settings do not matter; `lengths` of single points are not taken.
 /// @param tables  numbers of all materials, to which those of its equation of state are appended
 /// @throws InputError with the refusals
 MaterialConstants describe(const Material& material, const UpdateSettings& settings,

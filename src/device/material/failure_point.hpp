@@ -24,11 +24,6 @@ struct FailurePoint {
   double divergence;        ///< tr L, 1/s
 };
 
-/// Returns s:s.
-WHIPPLE_POINT inline double squared_norm(const material::formulas::Symmetric<double>& s) {
-  return s.xx * s.xx + s.yy * s.yy + s.zz * s.zz + 2 * (s.xy * s.xy + s.yz * s.yz + s.zx * s.zx);
-}
-
 /// Returns the tensile pressure that the point bears, Pa.
 WHIPPLE_POINT inline double spall_strength_of(const MaterialConstants& material, const MaterialState& state) {
   return material.spall_strength * (1.0 - state.melted) * state.threshold_factor;
@@ -50,12 +45,24 @@ WHIPPLE_POINT inline void cut_off(const MaterialConstants& material, const Failu
   state.void_volume = shared.void_volume;
 }
 
+/// Grows the voids of material that they weaken at a rate.
+WHIPPLE_POINT inline void grow_voids(const VoidGrowthConstants& law, const FailurePoint& at,
+                                     MaterialState& state) {
+  const double solid = 1.0 - state.melted, strength = law.resistance * solid * state.threshold_factor;
+  if (!state.intact() ||
+      !failure::formulas::may_grow(law.at_nuclei, strength, state.pressure, state.void_volume)) {
+    return;
+  }
+  state.fail(failure::formulas::grow_voids(law, at.dt, at.density * at.bulk_sound_speed * at.bulk_sound_speed,
+                                           solid, strength, state.pressure, state.volume, state.void_volume));
+}
+
 /// Accumulates the damage of Johnson-Cook.
 /// @returns whether the point fractures
 WHIPPLE_POINT inline bool fractures(const JohnsonCookDamageConstants& law, const FailurePoint& at,
                                     MaterialState& state) {
   if (!(at.increment > 0.0) || !state.intact()) return false;
-  const double equivalent = std::sqrt(1.5 * squared_norm(state.deviator));
+  const double equivalent = std::sqrt(1.5 * material::formulas::squared_norm(state.deviator));
   const double triaxiality = -state.pressure / equivalent;
   // At an equivalent stress of 0 there is no solid.
   if (!(equivalent > 0.0) || triaxiality < law.least_triaxiality || triaxiality > law.greatest_triaxiality) {
@@ -78,11 +85,7 @@ WHIPPLE_POINT inline bool update_failure(const MaterialConstants& material, cons
     state.fail(failure::intact);  // the deviator starts from zero
   }
   if (material.voids == VoidKind::cut_off) cut_off(material, at, state);
-  if (material.voids == VoidKind::viscous_growth && state.intact()) {
-    state.fail(failure::formulas::grow_voids(
-        material.void_growth, at.dt, at.density * at.bulk_sound_speed * at.bulk_sound_speed, state.melted,
-        state.threshold_factor, state.pressure, state.volume, state.void_volume));
-  }
+  if (material.voids == VoidKind::viscous_growth) grow_voids(material.void_growth, at, state);
   for (int i = 0; i < material.criteria; ++i) {
     if (!state.intact()) break;
     switch (material.order[static_cast<std::size_t>(i)]) {

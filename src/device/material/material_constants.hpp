@@ -52,6 +52,7 @@ struct JohnsonCookDamageConstants {
 /// failure::ViscousVoidGrowth.
 struct VoidGrowthConstants {
   double resistance = 0.0, viscosity = 0.0, nuclei = 0.0, failure_porosity = 0.0;
+  double at_nuclei = 0.0;  ///< tension from which nuclei grow, over the resistance
 };
 
 /// Describes a material and the artificial viscosity of a body of it. `linear_viscosity` to `rotation` are those of

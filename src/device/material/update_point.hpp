@@ -76,11 +76,10 @@ WHIPPLE_POINT inline double energy_ahead(const MaterialConstants& material, doub
   const double viscosity = material.heating == HeatingViscosity::not_distinguished
                                ? state.artificial_viscosity
                                : state.heating_viscosity;
-  const double deviatoric = s.xx * l.xx + s.yy * l.yy + s.zz * l.zz + s.xy * (l.xy + l.yx) +
-                            s.yz * (l.yz + l.zy) + s.zx * (l.xz + l.zx);
-  const double power = deviatoric - (state.pressure + viscosity) * divergence;
+  const double power = formulas::power(s, l) - (state.pressure + viscosity) * divergence;
   const double gained = 0.5 * dt * power;
-  const double without_elastic = modulus > 0.0 ? gained - squared_norm(s) / (4.0 * modulus) : gained;
+  const double without_elastic =
+      modulus > 0.0 ? gained - formulas::squared_norm(s) / (4.0 * modulus) : gained;
   const double energy = state.energy + without_elastic * (state.volume / state.mass);
   return material.stores_cold_work ? energy - state.cold_work : energy;
 }
@@ -119,7 +118,7 @@ WHIPPLE_POINT inline void lose_strength(const MaterialConstants& material, const
   if (solid.modulus > 0.0) {
     // A part w of the modulus that is left keeps the part w of the energy, as the stress is that of its part of the
     // material.
-    const double energy = squared_norm(state.deviator) / (4.0 * solid.modulus) * state.volume;
+    const double energy = formulas::squared_norm(state.deviator) / (4.0 * solid.modulus) * state.volume;
     result.dissipation += (1.0 - after.kept * after.kept) * energy;
     result.plastic_heat += (1.0 - after.kept) * energy;
   }

@@ -64,14 +64,9 @@ WHIPPLE_POINT inline void advance_viscosity(const MaterialConstants& material, c
   state.artificial_viscosity = viscosity;
   if (material.heating == HeatingViscosity::whole) state.heating_viscosity = viscosity;
   if (material.heating != HeatingViscosity::of_affine_field) return;
-  const double of_grid = std::max(-motion.divergence, 0.0) * material.cell_size;
-  const double of_field = std::max(-motion.affine_divergence, 0.0) * material.cell_size;
-  const double compression = density * (1.0 / material.initial_density) - 1.0;
-  const double heats = formulas::heating_closing_speed(material, of_grid, of_field, compression,
-                                                       1.0 / material.affine_compression);
-  const double of_heat = formulas::artificial_viscosity(material, density, heats, state.sound_speed);
-  const bool tight = state.intact() && compression >= 0.0;
-  state.heating_viscosity = tight && viscosity > 0.0 ? std::min(of_heat, viscosity) : viscosity;
+  state.heating_viscosity = formulas::heating_viscosity(
+      material, motion.divergence, motion.affine_divergence, density, state.sound_speed, state.intact(),
+      viscosity, 1.0 / material.initial_density, 1.0 / material.affine_compression);
 }
 
 }  // namespace whipple::device

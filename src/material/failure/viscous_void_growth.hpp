@@ -64,11 +64,16 @@ struct ViscousVoidGrowth : Threshold {
 
   void grow_voids(const PorousState& state, std::span<double> /*damage*/,
                   std::span<std::uint8_t> failed) const {
+    const double at_nuclei = formulas::tension_at_nuclei(nuclei);
     for (std::size_t i = 0; i < failed.size(); ++i) {
-      if (failed[i] != intact) continue;
-      failed[i] = formulas::grow_voids(*this, state.time_step, state.bulk_modulus[i],
-                                       state.melted_fraction[i], state.threshold_factor[i], state.pressure[i],
-                                       state.volume[i], state.void_volume[i]);
+      const double solid = 1.0 - state.melted_fraction[i];
+      const double strength = resistance * solid * state.threshold_factor[i];
+      if (failed[i] != intact ||
+          !formulas::may_grow(at_nuclei, strength, state.pressure[i], state.void_volume[i])) {
+        continue;
+      }
+      failed[i] = formulas::grow_voids(*this, state.time_step, state.bulk_modulus[i], solid, strength,
+                                       state.pressure[i], state.volume[i], state.void_volume[i]);
     }
   }
 };

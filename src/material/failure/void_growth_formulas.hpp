@@ -73,19 +73,25 @@ WHIPPLE_POINT inline double moved_volume(const Law& law, const VoidPoint& point,
   return moved;
 }
 
-/// Grows the voids of an intact point over the step.
-/// @param bulk_modulus  rho c^2, Pa, @param melted  mass fraction, @param threshold_factor  scatter of the threshold
+/// Returns the tension (Pa) from which the nuclei grow, over the resistance.
+WHIPPLE_POINT inline double tension_at_nuclei(double nuclei) {
+  return static_pressure(1.0, 1.0 + nuclei) * (1.0 + nuclei);
+}
+
+/// Returns whether an intact point has voids, or opens them.
+/// @param at_nuclei  tension_at_nuclei(law.nuclei)
+/// @param strength   resistance of the point, Pa
+WHIPPLE_POINT inline bool may_grow(double at_nuclei, double strength, double pressure, double void_volume) {
+  return void_volume > 0.0 || !(pressure >= -strength * at_nuclei);
+}
+
+/// Grows the voids of such a point over the step.
+/// @param bulk_modulus  rho c^2, Pa, @param solid  mass fraction that has not melted, @param strength  Pa
 /// @param pressure, volume, void_volume  Pa, m^3; in and out
 /// @returns the cause of its failure, or `intact`
 template <class Law>
-WHIPPLE_POINT inline Code grow_voids(const Law& law, double time_step, double bulk_modulus, double melted,
-                                     double threshold_factor, double& pressure, double& volume,
-                                     double& void_volume) {
-  const double at_nuclei = static_pressure(1.0, 1.0 + law.nuclei) * (1.0 + law.nuclei);
-  const double solid = 1.0 - melted;
-  const double strength = law.resistance * solid * threshold_factor;
-  const bool has_voids = void_volume > 0.0;
-  if (!has_voids && pressure >= -strength * at_nuclei) return intact;
+WHIPPLE_POINT inline Code grow_voids(const Law& law, double time_step, double bulk_modulus, double solid,
+                                     double strength, double& pressure, double& volume, double& void_volume) {
   if (!(strength > 0.0)) return tensile;
   const VoidPoint point = {volume, void_volume, pressure, bulk_modulus, strength, law.viscosity * solid};
   const double moved = moved_volume(law, point, time_step);

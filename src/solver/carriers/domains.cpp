@@ -126,12 +126,16 @@ std::size_t deform(State& state, std::span<const std::uint32_t> particles,
   return larger;
 }
 
+double parted_square(const cases::Case& setup) {
+  const double dx = setup.domain.cell_size, length = setup.splitting.length;
+  return std::max(0.75, 0.25 * length * length) * dx * dx;
+}
+
 std::size_t hold_back_pressure(Particles& particles, std::span<const std::uint32_t> list, const State& state,
                                std::size_t body) {
   const Fluidity fluid = fluidity_of(state, body);
   if (!may_divide(state.setup) || fluid == Fluidity::never) return 0;
-  const double dx = state.setup.domain.cell_size, length = state.setup.splitting.length;
-  const double parted = std::max(0.75, 0.25 * length * length) * dx * dx;  // lambda of (2.8)
+  const double parted = parted_square(state.setup);
   std::size_t held = 0;
   for (const std::uint32_t p : list) {
     if (largest_at_most(particles.extent[p]) <= parted ||

@@ -28,6 +28,10 @@ bool are_needed(const State& state, bool may_meet_images);
 std::size_t deform(State& state, std::span<const std::uint32_t> particles,
                    std::span<const Matrix3> gradients);
 
+/// Returns the square of the half-edge beyond which a particle of a fluid has parted from its neighbours, lambda of (2.8),
+/// m^2.
+double parted_square(const cases::Case& setup);
+
 /// Removes the pressure of fluid particles of a body along the directions in which they are separated from their
 /// neighbours (2.8). Call after the material update, which sets the stress.
 /// @returns number of such particles

@@ -39,6 +39,7 @@ void for_each_column(P& particles, Function&& f) {
   f(Component::unresolved, particles.unresolved_energy, 0.0);
   f(Component::allowance, particles.heat_allowance, 0.0);
   f(Component::closing_rate, particles.closing_rate, 0.0);
+  f(Component::generation, particles.generation, 0.0);
   const auto history = [&](Component component, const char* name) {
     if (particles.history.find(name) != nullptr) f(component, particles.history.scalar(name), 0.0);
   };
@@ -81,10 +82,8 @@ void to_columns(const Particles& particles, device::PointsOnHost& points) {
 }
 
 void from_columns(const device::PointsOnHost& points, Particles& particles) {
-  if (points.size() != particles.size()) {
-    SortBuffers buffers;
-    reorder(particles, points.origin, buffers);
-  }
+  SortBuffers buffers;
+  reorder(particles, points.origin, buffers);
   for_each_column(particles, [&]<class Value>(Component first, std::vector<Value>& values, double) {
     for (std::size_t k = 0; k < numbers_in<Value>; ++k) {
       const std::vector<double>& column = points.numbers[first + k];

@@ -8,7 +8,6 @@
 #include "src/core/input/faults.hpp"
 #include "src/device/contact/constants.hpp"
 #include "src/device/material/describe.hpp"
-#include "src/solver/carriers/domains.hpp"
 
 namespace whipple::solver {
 namespace {
@@ -43,8 +42,7 @@ void check_scheme(const cases::Case& setup, const Faults& faults) {
 }
 
 void check_loads(const cases::Case& setup, const Faults& faults) {
-  refuse_if(!setup.gravity.acceleration.isZero(0.0), faults, "gravity.acceleration", "gravity");
-  refuse_if(!setup.loads.empty(), faults, "load", "a load");
+  refuse_if(!setup.loads.empty(), faults, "load", "a load other than gravity");
   refuse_if(!setup.force_gauges.empty(), faults, "force_gauge", "a force gauge");
   refuse_if(setup.has_burn(), faults, "detonation", "an explosive that burns");
   refuse_if(setup.has_elements() || setup.has_bars(), faults, "body", "a body of elements or bars");
@@ -63,6 +61,11 @@ void check_contact(const cases::Case& setup, const Faults& faults) {
 
 }  // namespace
 
+Device& default_device() {
+  static Device device = Device::cpu;
+  return device;
+}
+
 std::vector<InputFault> device_faults(const cases::Case& setup) {
   std::vector<InputFault> list;
   const Faults faults(list);
@@ -74,13 +77,6 @@ std::vector<InputFault> device_faults(const cases::Case& setup) {
     const cases::Body& body = setup.bodies[b];
     refuse_if(body.driven || !body.node_conditions.empty(), of_body, "driven", "a driven body");
     refuse_if(body.volumetric == cases::Volumetric::cell, of_body, "volumetric", "means over cells");
-    if (domains::may_divide(setup, b)) {
-      of_body.add(
-          "material",
-          fmt::format("{} may melt, and particles of fluids are split (splitting.length = 0 keeps them "
-                      "whole): {}",
-                      setup.materials[b]->name, elsewhere));
-    }
     for (const std::string& text : device::refusals(*setup.materials[b])) of_body.add("material", text);
   }
   return list;
@@ -88,7 +84,7 @@ std::vector<InputFault> device_faults(const cases::Case& setup) {
 
 void evaluate_by_tables(cases::Case& setup) {
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
-    if (!device::has_closed_form(*setup.materials[b]))
+    if (device::needs_table(*setup.materials[b]))
       setup.bodies[b].equation_of_state = cases::Evaluation::table;
   }
 }

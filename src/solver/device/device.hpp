@@ -27,6 +27,10 @@ constexpr std::array<Word<Device>, 4> words(Device) {
 /// Returns whether the particles are kept in the memory of a device.
 constexpr bool is_device(Device device) { return device == Device::emulated || device == Device::gpu; }
 
+/// Returns the device that new simulations use: cpu, unless the program or a test selects another, as it selects
+/// kernel_set().
+Device& default_device();
+
 /// Returns what a case asks for that a device does not compute, each with its key; empty if a device can run it.
 std::vector<InputFault> device_faults(const cases::Case& setup);
 

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "src/device/material/describe.hpp"
+#include "src/material/fluid.hpp"
+#include "src/solver/carriers/domains.hpp"
 #include "src/solver/stages/fill.hpp"
 #include "src/solver/stages/material.hpp"
 
@@ -65,6 +67,11 @@ device::Problem device_problem(const State& state, const ContactStage& contact) 
   problem.shock_conduction = dissipation.shock_conduction;
   problem.conduction_onset = dissipation.conduction_onset;
   problem.conduction_rise = dissipation.conduction_rise;
+  const double size = geometry.cell_size, length = setup.splitting.length;
+  problem.domain_limits = {.longest = 0.25 * length * length * size * size,
+                           .parted = domains::parted_square(setup),
+                           .generations = static_cast<double>(setup.splitting.maximum_generations),
+                           .divides_all = setup.splitting.of == cases::Divided::all};
   problem.strong_pressure = FillWatch::strong;
   problem.filled = FillWatch::filled;
   problem.initial_density = state.initial_density;
@@ -86,6 +93,11 @@ device::Problem device_problem(const State& state, const ContactStage& contact) 
         problem.walls.apart |= 1U << face;
       }
     }
+    const Fluidity fluid = fluidity(*setup.materials[b]);
+    problem.domains.push_back({.deform = domains::follow_deformation(state, b),
+                               .hold = domains::may_divide(setup) && fluid != Fluidity::never,
+                               .fluidity = fluid,
+                               .initial_density = state.initial_density[b]});
     UpdateSettings settings = update_settings(state, b);
     settings.heating = heating_viscosity(state);
     problem.materials.push_back(device::describe(*setup.materials[b], settings, problem.tables));
