@@ -8,10 +8,14 @@
 #include <cstdio>
 #include <numeric>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include "src/case/build/tables.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/parallel/threads.hpp"
+#include "src/io/ranks.hpp"
 #include "src/solver/device/device.hpp"
 #include "tests/unit/temporary_folder.hpp"
 #include "tests/verification/same_state.hpp"
@@ -39,6 +43,7 @@ struct Problem {
   std::string name, text;
   double after_one, after_many;  ///< bounds of the differences, relative to the greatest value of a field
 };
+void PrintTo(const Problem& problem, std::ostream* out) { *out << problem.name; }
 
 constexpr const char* common = R"([transfer]
 rest_tolerance = 0.0
@@ -63,7 +68,7 @@ Problem ball_at_wall(const std::string& wall) {
               body("ball", "copper_johnson_cook.toml", "[\"-500 m/s\", \"0 m/s\", \"150 m/s\"]",
                    "sphere = { center = [\"3.3 mm\", \"0 mm\", \"0 mm\"], radius = \"3 mm\" }") +
               body("second", "lead_mie_gruneisen.toml", "[\"-600 m/s\", \"0 m/s\", \"0 m/s\"]",
-                   "sphere = { center = [\"8.4 mm\", \"2.4 mm\", \"0 mm\"], radius = \"2 mm\" }"),
+                   "sphere = { center = [\"8.4 mm\", \"2.4 mm\", \"0.7 mm\"], radius = \"2 mm\" }"),
           1e-12, 1e-8};
 }
 
@@ -83,7 +88,7 @@ Problem melting() {
           body("plate", "aluminium.toml", "[\"0 m/s\", \"0 m/s\", \"0 m/s\"]",
                "box = { lower = [\"0 mm\", \"0 mm\", \"0 mm\"], upper = [\"8 mm\", \"8 mm\", \"2.25 mm\"] }",
                table),
-      1e-12, 1e-6};
+      1e-10, 1e-6};
 }
 
 /// A block that slides on a slab under gravity.
@@ -96,34 +101,51 @@ Problem incline() {
           "[domain]\nlower = [\"0 mm\", \"0 mm\", \"0 mm\"]\nupper = [\"20 mm\", \"12 mm\", \"1 mm\"]\n"
           "cell_size = \"1 mm\"\nboundary = { x_lower = \"symmetry\", x_upper = \"symmetry\", y_lower = "
           "\"no_slip\", z_lower = \"symmetry\", z_upper = \"symmetry\" }\n[time]\nend = \"1 ms\"\n" +
-          body("slab", "elastic_aluminium.toml", "[\"0 m/s\", \"0 m/s\", \"0 m/s\"]",
+          body("slab", "aluminium_6061_mie_gruneisen.toml", "[\"0 m/s\", \"0 m/s\", \"0 m/s\"]",
                "box = { lower = [\"0 mm\", \"0 mm\", \"0 mm\"], upper = [\"20 mm\", \"4 mm\", \"1 mm\"] }") +
-          body("block", "elastic_aluminium.toml", "[\"0 m/s\", \"0 m/s\", \"0 m/s\"]",
+          body("block", "aluminium_6061_mie_gruneisen.toml", "[\"0 m/s\", \"0 m/s\", \"0 m/s\"]",
                "box = { lower = [\"4.3 mm\", \"4 mm\", \"0 mm\"], upper = [\"12.3 mm\", \"9 mm\", \"1 mm\"] "
                "}"),
       1e-11, 1e-8};
 }
 
-cases::Case read(const Problem& problem) { return cases::read_case_text(problem.text, "device.toml"); }
+cases::Case read(const Problem& problem) {
+  cases::Case setup = cases::read_case_text(problem.text, "device.toml");
+  cases::tabulate_materials(setup, io::Ranks(parallel::world()));
+  return setup;
+}
 
 void advance(Simulation& simulation, int steps) {
   for (int i = 0; i < steps; ++i) simulation.advance(simulation.setup().time.end);
 }
 
-std::vector<std::size_t> by_id(const Particles& particles) {
+/// Returns the particles in the order of their places: halves of divided particles have their numbers in the order of the
+/// particles in memory, which a device sorts in its own way.
+std::vector<std::size_t> by_place(const Particles& particles) {
   std::vector<std::size_t> order(particles.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::sort(order, {}, [&](std::size_t p) { return particles.id[p]; });
+  const Vector3 along(1.0, 1.37, 2.11);  // no direction of symmetry
+  std::ranges::sort(order, {}, [&](std::size_t p) { return along.dot(particles.position[p]); });
   return order;
+}
+
+/// Returns the smallest magnitude of a field that is no round-off, by its unit.
+double scale_of(const std::string& unit) {
+  if (unit == "Pa") return 1e9;
+  if (unit == "J/kg") return 1e4;
+  if (unit == "m/s") return 1e2;
+  if (unit == "1/s") return 1e5;
+  return 0.0;
 }
 
 /// Returns the largest difference of any field of two sets of particles, over the largest value of the field.
 double largest_difference(const Particles& a, const Particles& b) {
   EXPECT_EQ(a.size(), b.size());
   if (a.size() != b.size()) return 1.0;
-  const std::vector<std::size_t> of_a = by_id(a), of_b = by_id(b);
+  const std::vector<std::size_t> of_a = by_place(a), of_b = by_place(b);
   double largest = 0.0;
   for_each_field(a, [&](const auto& field) {
+    if (std::string_view(field.name) == "id") return;
     const auto& x = field.of(a);
     const auto& y = field.of(b);
     using Value = typename std::decay_t<decltype(x)>::value_type;
@@ -131,7 +153,7 @@ double largest_difference(const Particles& a, const Particles& b) {
       EXPECT_EQ(x.size(), y.size()) << field.name;
       return;
     }
-    double difference = 0.0, scale = 0.0;
+    double difference = 0.0, scale = scale_of(field.unit);
     constexpr std::size_t numbers = std::is_arithmetic_v<Value> ? 1 : sizeof(Value) / sizeof(double);
     const auto number = [](const Value& value, std::size_t k) {
       if constexpr (std::is_arithmetic_v<Value>) {
@@ -163,7 +185,7 @@ TEST_P(DeviceStep, IsThatOfTheHost) {
     advance(host, steps);
     advance(device, steps);
     EXPECT_EQ(device.state().step, host.state().step);
-    EXPECT_NEAR(device.state().time, host.state().time, 1e-9 * host.state().time);
+    EXPECT_NEAR(device.state().time, host.state().time, 1e-8 * host.state().time);
     return largest_difference(host.particles(), device.particles());
   };
   const double one = compare(1), many = compare(199);
@@ -267,7 +289,7 @@ TEST(DeviceFaults, NameWhatADeviceDoesNotCompute) {
     changed.text.replace(changed.text.find(from), from.size(), to);
     std::string keys;
     for (const InputFault& fault : solver::device_faults(read(changed))) {
-      EXPECT_THAT(fault.text, testing::HasSubstr("--device")) << fault.key;
+      EXPECT_THAT(fault.text, testing::HasSubstr("device")) << fault.key;
       keys += fault.key + " ";
     }
     return keys;
@@ -284,8 +306,6 @@ TEST(DeviceFaults, NameWhatADeviceDoesNotCompute) {
               testing::HasSubstr("transfer.random_shift"));
   EXPECT_THAT(faults_of("[transfer]", "[transfer]\nfree_flight = true"),
               testing::HasSubstr("transfer.free_flight"));
-  EXPECT_THAT(faults_of("[transfer]", "[heat]\nconduction = true\n[transfer]"),
-              testing::HasSubstr("heat.conduction"));
   EXPECT_THAT(faults_of("[transfer]", "[dissipation]\nlosses = \"heat\"\n[transfer]"),
               testing::HasSubstr("dissipation.losses"));
   EXPECT_THAT(faults_of("[transfer]", "[contact]\nnormal = \"logistic_regression\"\n[transfer]"),
@@ -295,7 +315,7 @@ TEST(DeviceFaults, NameWhatADeviceDoesNotCompute) {
       testing::HasSubstr("load"));
   EXPECT_THAT(faults_of("name = \"ball\"", "name = \"ball\"\nvolumetric = \"cell\""),
               testing::HasSubstr("body.0.volumetric"));
-  EXPECT_THAT(faults_of("copper_johnson_cook.toml", "basalt_tillotson.toml"),
+  EXPECT_THAT(faults_of("copper_johnson_cook.toml", "concrete_35mpa_rht.toml"),
               testing::HasSubstr("body.0.material"));
 }
 

@@ -5,14 +5,14 @@
 
 #include <algorithm>
 
-#include "src/core/input/faults.hpp"
+#include "src/case/section.hpp"
 #include "src/device/contact/constants.hpp"
 #include "src/device/material/describe.hpp"
 
 namespace whipple::solver {
 namespace {
 
-using input::Faults;
+using cases::Faults;
 
 constexpr const char* elsewhere =
     "--device gpu and emulated do not compute it (docs/manual/devices.md); --device cpu does";
