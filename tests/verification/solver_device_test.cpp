@@ -119,13 +119,17 @@ void advance(Simulation& simulation, int steps) {
   for (int i = 0; i < steps; ++i) simulation.advance(simulation.setup().time.end);
 }
 
-/// Returns the particles in the order of their places: halves of divided particles have their numbers in the order of the
-/// particles in memory, which a device sorts in its own way.
-std::vector<std::size_t> by_place(const Particles& particles) {
+/// Returns the particles in the order of their numbers, or of their places if some have been divided: halves get their
+/// numbers in the order of the particles in memory, which a device sorts in its own way.
+std::vector<std::size_t> ordered(const Particles& particles) {
   std::vector<std::size_t> order(particles.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const Vector3 along(1.0, 1.37, 2.11);  // no direction of symmetry
-  std::ranges::sort(order, {}, [&](std::size_t p) { return along.dot(particles.position[p]); });
+  if (std::ranges::max(particles.generation) == 0) {
+    std::ranges::sort(order, {}, [&](std::size_t p) { return particles.id[p]; });
+  } else {
+    std::ranges::sort(order, {}, [&](std::size_t p) { return along.dot(particles.position[p]); });
+  }
   return order;
 }
 
@@ -142,7 +146,7 @@ double scale_of(const std::string& unit) {
 double largest_difference(const Particles& a, const Particles& b) {
   EXPECT_EQ(a.size(), b.size());
   if (a.size() != b.size()) return 1.0;
-  const std::vector<std::size_t> of_a = by_place(a), of_b = by_place(b);
+  const std::vector<std::size_t> of_a = ordered(a), of_b = ordered(b);
   double largest = 0.0;
   for_each_field(a, [&](const auto& field) {
     if (std::string_view(field.name) == "id") return;
