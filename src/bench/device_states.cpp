@@ -66,7 +66,7 @@ const std::vector<Problem>& state_problems() {
                      {"body.0.velocity", "['200 m/s', '0 m/s', '-300 m/s']"},
                      {"body.0.shape",
                       "{ sphere = { center = ['0 mm', '0 mm', '4.1 mm'], radius = '4 mm' } }"}},
-       .steps_before = 10},
+       .steps_before = 40},
   };
   return list;
 }
@@ -121,9 +121,9 @@ check::StoredState state_of(const Problem& problem, std::size_t steps, const std
   overrides.emplace_back("transfer.rest_tolerance", "0");
   cases::Case setup = cases::read_case(process::find_data(problem.case_file).string(), overrides);
   solver::evaluate_by_tables(setup);
+  cases::tabulate_materials(setup, io::Ranks(communicator));
   if (std::vector<InputFault> faults = solver::device_faults(setup); !faults.empty())
     throw InputError(std::move(faults));
-  cases::tabulate_materials(setup, io::Ranks(communicator));
   solver::Simulation simulation(setup, communicator);
   for (int i = 0; i < problem.steps_before; ++i) simulation.advance(setup.time.end);
 

@@ -46,27 +46,27 @@ std::string model_of(const StoredState& state) {
   return text;
 }
 
-void print_largest(const char* what, const std::vector<Difference>& list, double bound) {
+void print_largest(const std::string& what, const std::vector<Difference>& list) {
   if (list.empty()) {
-    std::printf("  %-28s %10.1e  (bound %.0e)  all equal\n", what, 0.0, bound);
+    std::printf("  %-24s all equal\n", what.c_str());
     return;
   }
   const Difference& worst = list.front();
-  std::printf("  %-28s %10.2e  (bound %.0e)  %s%s\n", what, worst.largest, bound, worst.component.c_str(),
-              worst.largest <= bound ? "" : "  BEYOND");
+  std::printf("  %-24s %9.2e of %.0e: %s%s\n", what.c_str(), worst.largest, worst.bound,
+              worst.component.c_str(), worst.of_bound() <= 1.0 ? "" : "  BEYOND ITS BOUND");
 }
 
 void print(const StoredState& state, const Comparison& found) {
   std::printf("\n%s: %s\n  %zu particles, %u fields, %s; written by %s; %zu steps in %.2f s\n",
               state.name.c_str(), state.what.c_str(), state.start.size(), state.problem.fields,
               model_of(state).c_str(), state.revision.c_str(), found.steps, found.seconds);
-  print_largest("particles after 1 step", found.first, bound_of_first);
-  print_largest("sums after 1 step", found.first_sums, bound_of_first);
+  print_largest("particles after 1 step", found.first);
+  print_largest("sums after 1 step", found.first_sums);
   if (found.steps < state.steps.size()) {
     std::printf("  later steps are not compared: the file holds the results of %zu\n", state.steps.size());
   } else {
-    print_largest(("particles after " + std::to_string(found.steps)).c_str(), found.last, bound_of_last);
-    print_largest(("sums after " + std::to_string(found.steps)).c_str(), found.last_sums, bound_of_last);
+    print_largest("particles after " + std::to_string(found.steps), found.last);
+    print_largest("sums after " + std::to_string(found.steps), found.last_sums);
   }
   if (!found.repeats) std::printf("  a second time: OTHER BITS\n");
 }
@@ -143,8 +143,9 @@ int run(const Options& options) {
       .set("precision", "double")
       .set("kernels", options.device == On::gpu ? "src/device on the graphics processor"
                                                 : "src/device on the host's threads")
-      .set("bound_after_first", bound_of_first)
-      .set("bound_after_last", bound_of_last)
+      .set("bound_after_first", bounds_of_first.all)
+      .set("bound_of_flow_after_first", bounds_of_first.flow)
+      .set("bound_after_last", bounds_of_last.all)
       .set("passes", Json::flag(passes))
       .set("states", comparisons);
   if (options.rates) {
