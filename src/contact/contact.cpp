@@ -85,6 +85,55 @@ void book_rest(const Pressing& pressing, std::span<Side> sides, std::span<const 
   }
 }
 
+/// Finds the components of the motion of nodes that mirror planes hold: those that the image reverses, where the material
+/// is one with it and the node is on the plane.
+class HeldComponents {
+ public:
+  HeldComponents(const grid::BlockGrid& grid, std::uint32_t slot) : grid_(grid) {
+    const grid::Geometry& geometry = grid.geometry();
+    for (std::size_t face = 0; face < 6; ++face) {
+      const std::size_t axis = face / 2;
+      const int edge = grid.block_shape().along(axis), at = face % 2 == 0 ? 0 : geometry.cells[axis];
+      layer_[face] = at - grid.coordinate(slot)[axis] * edge;
+      if (!geometry.mirrors(face) || layer_[face] < 0 || layer_[face] >= edge) layer_[face] = -1;
+      any_ = any_ || layer_[face] >= 0;
+    }
+  }
+  [[nodiscard]] bool any() const { return any_; }
+  /// Returns 1 for the held components of the motion of a body at a node of the slot, 0 for the others.
+  [[nodiscard]] Lanes at(std::size_t node, unsigned field) const {
+    const std::array<int, 3> place = grid_.block_shape().place(static_cast<int>(node));
+    Lanes held{};
+    for (std::size_t face = 0; face < 6; ++face) {
+      if (layer_[face] != place[face / 2] || !grid_.is_bonded_at(face, field)) continue;
+      if (grid_.geometry().boundary[face] == grid::Boundary::no_slip) return Lanes{1.0, 1.0, 1.0, 0.0};
+      held[static_cast<int>(face / 2)] = 1.0;
+    }
+    return held;
+  }
+
+ private:
+  const grid::BlockGrid& grid_;
+  std::array<int, 6> layer_;  // of nodes of the slot on each plane; -1: none
+  bool any_ = false;
+};
+
+/// Sets the held components of the motion of a side to zero again, which contact with a body that is not one with its
+/// image there changed; what its points lose becomes heat (docs/theory/contact.md, 4.12).
+/// @returns the heat, J
+double hold(Side& side, Lanes held) {
+  grid::NodeMotion& motion = side.node->motion;
+  const Lanes v = held * motion.velocity_and_relaxation, d = held * motion.increment_and_heat;
+  const double beta = motion.relaxation();
+  const Lanes taken = d + beta * v;
+  const double heat = 0.5 * side.mass * sum3(taken * taken + (beta * (2.0 - beta)) * v * v);
+  if (heat == 0.0) return 0.0;
+  motion.velocity_and_relaxation -= v;
+  motion.increment_and_heat -= d;
+  side.heat += heat;
+  return heat;
+}
+
 /// Describes two sides, by their numbers, at a node where both have mass and a normal is defined.
 struct Meeting {
   std::size_t a, b;
@@ -155,6 +204,7 @@ Balance Contact::apply(grid::BlockGrid& grid, double dt, FirstTouches& touches, 
       least.push_back(known ? -std::expm1(-settings_.least_relaxation_rate[of_body] * dt) : 0.0);
     }
     std::vector<Meeting> meetings;
+    const HeldComponents held(grid, grid.contact_slots()[c]);
     std::vector<std::uint8_t> by_impulses;  // of each side
     std::vector<Stop> stops;
     Pressing pressing;
@@ -206,6 +256,9 @@ Balance Contact::apply(grid::BlockGrid& grid, double dt, FirstTouches& touches, 
         }
         for (const Stop& stop : stops) stop.heat(of_slot[c]);
         if (pressing.presses() && !stops.empty()) book_rest(pressing, sides, stops, of_slot[c]);
+        for (std::size_t s = 0; held.any() && s < sides.size(); ++s) {
+          if (sides[s].mass >= no_mass) of_slot[c].contact_heat += hold(sides[s], held.at(i, field(s)));
+        }
       }
       at_node.spread();
     }

@@ -35,7 +35,7 @@ void FirstTouches::begin_step(double dt, double least_speed) {
 
 void FirstTouches::look(unsigned field, unsigned other, double open, double closing) {
   const std::size_t pair = field * others_ + other;
-  const bool heeded = closing >= least_speed_, in_step = open < dt_ * closing;
+  const bool heeded = closing >= least_speed_, in_step = touches_in(open, closing, dt_);
   if (in_step && heeded) hard_[pair].store(true, std::memory_order_relaxed);
   if (!in_step && !heeded) return;
   const double in = in_step ? touches : open / closing;

@@ -10,6 +10,13 @@
 
 namespace whipple::contact {
 
+/// Returns whether surfaces at a distance (m) touch within a step (s). A step that a predicted contact has shortened ends
+/// with it but for round-off, which must not decide.
+inline bool touches_in(double open, double closing_speed, double step) {
+  constexpr double round_off = 1e-9;
+  return open < (1.0 + round_off) * step * closing_speed;
+}
+
 /// Records which velocity fields have touched each other or a face of the domain, and predicts the next first contact,
 /// at which the time step ends (docs/theory/mpm.md, section 6). Later contacts of the same pair are ignored.
 class FirstTouches {

@@ -236,6 +236,12 @@ double MirrorContact::gap(const Plane& plane, const Couple& couple) const {
   return -(extent(couple.node) + extent(couple.mirror));
 }
 
+/// Adds heat (J/kg) to a node.
+void MirrorContact::add_heat(grid::NodeMotion& motion, std::uint32_t node, double heat) {
+  motion.increment_and_heat[3] += heat;
+  heat_[place(node) / lanes_per_node] += heat;
+}
+
 bool MirrorContact::sticks(const Plane& plane, double gap) const {
   return plane.of.kind == grid::Boundary::no_slip && gap < sticking_gap * cell_size_;
 }
@@ -270,7 +276,18 @@ void MirrorContact::join_relaxation_at_corners(BlockGrid& grid, transfer::Nodes 
       if (mass < no_mass || other_mass < no_mass) continue;
       Lanes &first = nodes[couple.node].motion.velocity_and_relaxation,
             &other = nodes[couple.mirror].motion.velocity_and_relaxation;
-      first[3] = other[3] = common_relaxation(mass, first[3], other_mass, other[3]);
+      const double beta = common_relaxation(mass, first[3], other_mass, other[3]);
+      for (const std::uint32_t node : {couple.node, couple.mirror}) {
+        // Contact of bodies may have changed the velocity already: its energy depends on beta (3.12).
+        Lanes* const own = &own_.values[place(node)];
+        grid::NodeMotion& motion = nodes[node].motion;
+        const double before = loss(own[0], own[1], motion);
+        motion.set_relaxation(beta);
+        const double heat = (loss(own[0], own[1], motion) - before) / own[0][3];
+        if (heat == 0.0) continue;
+        add_heat(motion, node, heat);
+        made_heat_ = true;
+      }
       mass = other_mass = mass + other_mass;
     }
   }
@@ -327,12 +344,8 @@ double MirrorContact::meet(const Plane& plane, const Couple& couple, std::span<N
   }
   const double after = loss(own[0], own[1], node) + loss(own_of_mirror[0], own_of_mirror[1], mirror);
   const double half = 0.5 * (after - before);
-  const auto add_heat = [&](std::uint32_t to, double heat) {
-    nodes[to].motion.increment_and_heat[3] += heat;
-    heat_[place(to) / lanes_per_node] += heat;
-  };
-  add_heat(couple.node, half / mass);
-  if (!on_plane) add_heat(couple.mirror, half / other_mass);
+  add_heat(node, couple.node, half / mass);
+  if (!on_plane) add_heat(mirror, couple.mirror, half / other_mass);
   return share;
 }
 

@@ -77,6 +77,7 @@ class MirrorContact {
     return first_of_block_[node / grid::nodes_per_block] + lanes_per_node * (node % grid::nodes_per_block);
   }
   [[nodiscard]] double gap(const Plane& plane, const Couple& couple) const;
+  void add_heat(grid::NodeMotion& motion, std::uint32_t node, double heat);
   [[nodiscard]] bool sticks(const Plane& plane, double gap) const;
   [[nodiscard]] static Lanes part_of_node(const Plane& plane, const Couple& couple, double mass,
                                           double other_mass);

@@ -43,11 +43,11 @@ class Cells {
   [[nodiscard]] const std::uint32_t* cell_of_ordered() { return cell_of_ordered_.data(); }
   [[nodiscard]] Node* sums() { return sums_.data(); }
 
+  /// Returns the particles, cell by cell.
+  [[nodiscard]] const std::uint32_t* order() { return order_.data(); }
+
   /// Assigns the particles to blocks and cells at their present positions.
-  /// @param rearrange  rearrange(order, size): sorts the particles in memory; called if `sorts`
-  template <class Rearrange>
-  void bin(Space& space, const Points& points, const std::uint8_t* field_of_body, bool sorts,
-           Rearrange&& rearrange) {
+  void bin(Space& space, const Points& points, const std::uint8_t* field_of_body) {
     const std::size_t n = points.size;
     for (Array<std::uint32_t>* of : {&keys_, &order_, &first_, &cell_of_ordered_}) of->reserve(n);
     before_.reserve(std::max(blocks(), n));
@@ -61,10 +61,6 @@ class Cells {
     lattice_.slot_of_block = slot_of_block_.data();
     lattice_.block_of_slot = block_of_slot_.data();
     space.sort(keys_, order_, n, static_cast<unsigned>(std::bit_width(blocks() * block_nodes - 1)));
-    if (sorts) {
-      rearrange(order_.data(), n);
-      space.for_each(n, Iota{order_.data()});
-    }
     find_cells(space, n);
   }
 

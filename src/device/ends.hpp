@@ -38,6 +38,7 @@ struct StepSums {
     plastic_work_,
     dissipation_,
     plastic_heat_,
+    external_work_,
     wall_impulse,
     leaving = wall_impulse + 3,  ///< number of particles
     first_event,                 ///< number of particles with each event
@@ -76,8 +77,10 @@ struct EndStep {
     add_step(p, result);
     if (!stays) return;
     add_totals(points, p, inertia, result);
-    const Triple<double> v = points.vector(velocity, p) - frame;
-    result.raise(StepSums::relative, dot(v, v));
+    const Triple<double> v = points.vector(velocity, p), relative = v - frame;
+    result.raise(StepSums::relative, dot(relative, relative));
+    const double fastest = std::fmax(std::fabs(v.x), std::fmax(std::fabs(v.y), std::fabs(v.z)));
+    result.raise(StepSums::speed, points.at(sound_speed, p) + fastest);
   }
 
   /// Adds the totals of a particle to any sums that begin with these.
@@ -160,9 +163,7 @@ struct EndStep {
     result.sum[S::plastic_work_] += points.at(plastic_work, p);
     result.sum[S::dissipation_] += points.at(dissipation, p);
     result.sum[S::plastic_heat_] += points.at(plastic_heat, p);
-    const double vx = std::fabs(points.at(velocity, p)), vy = std::fabs(points.at(velocity + 1, p)),
-                 vz = std::fabs(points.at(velocity + 2, p));
-    result.raise(S::speed, points.at(sound_speed, p) + std::fmax(vx, std::fmax(vy, vz)));
+    result.sum[S::external_work_] += points.at(external_work, p);
     result.raise(S::change, points.at(squared_change, p));
     result.raise(S::rate, points.at(compression, p));
     const double of_step = points.at(events, p);

@@ -31,10 +31,12 @@ struct Rates {
 
 /// What a step is told.
 struct StepInput {
-  double dt;                   ///< s
-  double end;                  ///< time at its end, s
-  double least_closing_speed;  ///< of first contacts that limit the time step, m/s
-  bool looks_at_fill;          ///< for material under pressure in cells that it does not fill
+  double dt;                    ///< s
+  double end;                   ///< time at its end, s
+  Triple<double> acceleration;  ///< of all particles by loads, m/s^2
+  double least_closing_speed;   ///< of first contacts that limit the time step, m/s
+  bool looks_at_fill;           ///< for material under pressure in cells that it does not fill
+  bool sorts;                   ///< the particles in memory, by body and cell
 };
 
 /// Result of a step.
@@ -44,6 +46,7 @@ struct Outcome {
   std::array<double, 3> plane_impulse{};  ///< by mirror planes on nodes, N s
   /// Heat of contact and of friction (J), their impulses (N s), number of places that more than two fields reach.
   std::array<double, 5> contact{};
+  Triple<double> crowded_at{};                      ///< one of these places, m
   std::vector<DecidingApproaches> approaches;       ///< of each pair of fields; empty: none meet
   std::vector<DecidingApproaches> face_approaches;  ///< of each face; empty: nothing meets its image
   double wall_heat = 0.0;                           ///< of contact with images, J
@@ -59,7 +62,6 @@ class Engine {
  public:
   virtual ~Engine() = default;
   /// Performs a step.
-  /// @throws StateError if more than two fields meet at a node
   virtual Outcome step(const StepInput& input) = 0;
   /// Sets the velocity (m/s) of the frame in which the largest speed is measured.
   virtual void set_frame(const Triple<double>& velocity) = 0;
@@ -69,7 +71,7 @@ class Engine {
   virtual bool must_divide() = 0;
   /// Replaces the particles.
   virtual void upload(const PointsOnHost& points) = 0;
-  /// Copies the state to the host, in the order of `origin`, which becomes 0, 1, 2 ...
+  /// Copies the state to the host, in its order: `origin` is the place of each particle in the former one.
   virtual void download(PointsOnHost& points) = 0;
   /// Returns the closing rate (1/s) that at most the fraction `share` of the mass (kg) exceeds (rates.hpp).
   virtual double rate_of_most(double total_mass, double share, double least, double largest) = 0;

@@ -23,7 +23,8 @@ struct MoveParticles {
   const std::uint32_t* cell_of_ordered;
   const double* initial_density;  ///< of each body, kg/m^3
   LossConstants losses;
-  double dt;
+  Triple<double> acceleration;  ///< by loads, m/s^2
+  double dt;                    ///< s
 
   WHIPPLE_POINT void operator()(std::size_t i) const {
     const std::uint32_t p = lattice.order[i];
@@ -47,6 +48,7 @@ struct MoveParticles {
     Matrix gradient_v{}, change_r{};                 ///< columns: of v' S^T, of (d - beta D) N r^T
     double power_of_d = 0.0, divergence_of_d = 0.0;  ///< of stress : d S^T, tr d S^T
     double contact_heat = 0.0;
+    double by_load = 0.0;  ///< power of the loads, W/kg
   };
 
   WHIPPLE_POINT Stress stress_of(std::size_t p) const {
@@ -71,7 +73,7 @@ struct MoveParticles {
       const Vector change_i = {x.velocity, y.velocity, z.velocity}, after = v_i + d_i;
       sums.loss += at.n * Vector{x.loss, y.loss, z.loss};
       sums.v += at.n * after;
-      sums.d += at.n * d_i;
+      sums.by_load += at.n * dot(acceleration, after - 0.5 * d_i);
       sums.change += at.n * change_i;
       add_dyad(sums.gradient_v, after, at.gradient);
       add_dyad(sums.change_r, at.n * change_i, at.r);
@@ -152,6 +154,7 @@ struct MoveParticles {
     points.at(closing_rate, p) = std::fmax(-divergence, 0.0);
     points.at(energy, p) += done / m + divided.heat - divided.cooling + divided.returned + divided.of_contact;
     points.at(work, p) = done;
+    points.at(external_work, p) = m * dt * sums.by_load;
     points.at(viscous_work, p) = by_viscosity - m * divided.cooling;
     points.at(heat, p) = m * divided.heat;
     points.at(kept, p) = m * divided.kept;

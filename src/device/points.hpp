@@ -50,6 +50,7 @@ enum Component : std::uint32_t {
   heat,                         ///< of the transfers: internal energy, J
   kept,                         ///< unresolved energy gained, J
   returned,                     ///< unresolved energy that became internal, J
+  external_work,                ///< of loads, J
   squared_change,               ///< of the velocity, m^2/s^2
   plastic_work,                 ///< J
   dissipation,                  ///< J
@@ -64,7 +65,7 @@ struct Points {
   double* numbers = nullptr;        ///< component by component
   std::size_t stride = 0;           ///< from one component to the next
   std::uint32_t* body = nullptr;    ///< of the case
-  std::uint32_t* origin = nullptr;  ///< place in the host's arrays
+  std::uint32_t* origin = nullptr;  ///< place at the last exchange with the host
   std::size_t size = 0;
 
   [[nodiscard]] WHIPPLE_POINT double& at(std::uint32_t component, std::size_t p) const {

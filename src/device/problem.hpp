@@ -53,7 +53,7 @@ struct Problem {
 struct PointsOnHost {
   std::array<std::vector<double>, state_components> numbers;
   std::vector<std::uint32_t> body;
-  std::vector<std::uint32_t> origin;  ///< place of each at the last exchange
+  std::vector<std::uint32_t> origin;  ///< place of each at the exchange before this one
 
   [[nodiscard]] std::size_t size() const { return body.size(); }
 };

@@ -12,7 +12,8 @@ namespace whipple::device {
 struct SumCells {
   Lattice lattice;
   Points points;
-  Node* sums;  ///< of the stencil_nodes of each cell
+  Triple<double> acceleration;  ///< by loads, m/s^2
+  Node* sums;                   ///< of the stencil_nodes of each cell
 
   WHIPPLE_POINT void operator()(std::size_t i) const {
     const std::size_t cell = i / stencil_nodes;
@@ -40,9 +41,9 @@ struct SumCells {
     sum.n[2] += weight * v.y;
     sum.n[3] += weight * v.z;
     sum.n[4] += weight * points.at(sound_speed, p);
-    sum.n[5] -= volume_ * ((s.xx + mean) * g.x + s.xy * g.y + s.zx * g.z);
-    sum.n[6] -= volume_ * (s.xy * g.x + (s.yy + mean) * g.y + s.yz * g.z);
-    sum.n[7] -= volume_ * (s.zx * g.x + s.yz * g.y + (s.zz + mean) * g.z);
+    sum.n[5] += weight * acceleration.x - volume_ * ((s.xx + mean) * g.x + s.xy * g.y + s.zx * g.z);
+    sum.n[6] += weight * acceleration.y - volume_ * (s.xy * g.x + (s.yy + mean) * g.y + s.yz * g.z);
+    sum.n[7] += weight * acceleration.z - volume_ * (s.zx * g.x + s.yz * g.y + (s.zz + mean) * g.z);
   }
 };
 

@@ -44,10 +44,10 @@ class Stepper final : public Engine {
   Outcome step(const StepInput& input) override {
     const double dt = input.dt;
     outcome_ = {};
-    timed(Stage::bins, [&] { bin(); });
+    timed(Stage::bins, [&] { bin(input.sorts); });
     if (input.looks_at_fill) look_at_fill();
     timed(Stage::conduction, [&] { conduct(dt); });
-    timed(Stage::scatter, [&] { scatter(); });
+    timed(Stage::scatter, [&] { scatter(input.acceleration); });
     timed(Stage::contact,
           [&] { contact_.find(space_, lattice(), store_.points(), dt, input.least_closing_speed); });
     timed(Stage::grid, [&] { solve_momentum(dt); });
@@ -57,7 +57,7 @@ class Stepper final : public Engine {
       contact_.meet_images(space_, lattice(), outcome_);
     });
     timed(Stage::grid, [&] { copy_mirrors(dt); });
-    timed(Stage::gather, [&] { move(dt); });
+    timed(Stage::gather, [&] { move(input); });
     timed(Stage::material, [&] {
       if (follows_domains()) {
         space_.for_each(store_.points().size, DeformDomains{store_.points(), domains_.data(), dt});
@@ -86,11 +86,8 @@ class Stepper final : public Engine {
                                                         .upper = all.upper})
                .largest[0] > 0.0;
   }
-  void upload(const PointsOnHost& points) override {
-    store_.upload(points);
-    steps_to_sort_ = 0;
-  }
-  void download(PointsOnHost& points) override { store_.download(points); }
+  void upload(const PointsOnHost& points) override { store_.upload(points); }
+  void download(PointsOnHost& points) override { store_.download(space_, points); }
   double rate_of_most(double total_mass, double share, double least, double largest) override {
     return device::rate_of_most(space_, store_.points(), total_mass, share, least, largest);
   }
@@ -110,8 +107,6 @@ class Stepper final : public Engine {
  private:
   template <class T>
   using Array = typename Space::template Array<T>;
-  static constexpr int sort_every = 20;  // steps; particles move less than a cell in them
-
   template <class Work>
   void timed(Stage stage, Work&& of_stage) {
     if (!measures_) return of_stage();
@@ -149,11 +144,13 @@ class Stepper final : public Engine {
             .frame = frame_};
   }
 
-  void bin() {
-    const bool sorts = steps_to_sort_-- <= 0;
-    if (sorts) steps_to_sort_ = sort_every - 1;
-    cells_.bin(space_, store_.points(), field_of_body_.data(), sorts,
-               [&](const std::uint32_t* order, std::size_t size) { store_.rearrange(space_, order, size); });
+  /// The order of sums at nodes, and with it every bit, follows from the order of the particles in memory.
+  void bin(bool sorts) {
+    cells_.bin(space_, store_.points(), field_of_body_.data());
+    if (sorts) {
+      store_.sort(space_, cells_.order(), problem_.field_of_body.size());
+      cells_.bin(space_, store_.points(), field_of_body_.data());
+    }
     outcome_.slots = lattice().slots;
     outcome_.cells = lattice().stencil_cells;
   }
@@ -196,8 +193,8 @@ class Stepper final : public Engine {
         space_.reduce(size, ExchangeHeat{lattice(), exchange, cells_.cell_of_ordered()}).sum[0];
   }
 
-  void scatter() {
-    space_.for_each(cells_.stencils(), SumCells{lattice(), store_.points(), cells_.sums()});
+  void scatter(const Triple<double>& acceleration) {
+    space_.for_each(cells_.stencils(), SumCells{lattice(), store_.points(), acceleration, cells_.sums()});
     space_.for_each(cells_.nodes(), SumNodes{lattice(), cells_.sums(), lattice().nodes});
     if (reflecting_ == 0) return;
     brought_.reserve(cells_.nodes());
@@ -222,13 +219,14 @@ class Stepper final : public Engine {
     outcome_.wall_heat = contact_.heat_of_images(space_, lattice(), brought_.data());
   }
 
-  void move(double dt) {
+  void move(const StepInput& input) {
     space_.for_each(store_.points().size, MoveParticles{.lattice = lattice(),
                                                         .points = store_.points(),
                                                         .cell_of_ordered = cells_.cell_of_ordered(),
                                                         .initial_density = initial_density_.data(),
                                                         .losses = problem_.losses,
-                                                        .dt = dt});
+                                                        .acceleration = input.acceleration,
+                                                        .dt = input.dt});
   }
 
   [[nodiscard]] bool follows_domains() const {
@@ -266,7 +264,6 @@ class Stepper final : public Engine {
   Outcome outcome_;
   bool measures_ = false;
   std::array<double, stage_count> times_{};
-  int steps_to_sort_ = 0;
   Triple<double> frame_{};
   std::uint32_t reflecting_ = 0;  // faces with mirror planes or walls, one bit each
   Array<double> initial_density_, tables_;

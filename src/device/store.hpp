@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "src/device/bins.hpp"
@@ -48,6 +47,15 @@ class Store {
     }
   }
 
+  /// Sorts the particles in memory by body, those of a body in the given order.
+  void sort(Space& space, const std::uint32_t* order, std::size_t bodies) {
+    const std::size_t n = points_.size;
+    space.for_each(n, Gather<std::uint32_t>{points_.body, order, first_.data()});
+    space.for_each(n, Copy<std::uint32_t>{order, order_.data()});
+    space.sort(first_, order_, n, static_cast<unsigned>(std::bit_width(bodies)));
+    rearrange(space, order_.data(), n);
+  }
+
   /// Sorts the particles in memory: those of the order become the first `size`.
   void rearrange(Space& space, const std::uint32_t* order, std::size_t size) {
     for (std::size_t c = 0; c < state_components; ++c) {
@@ -71,42 +79,21 @@ class Store {
     points_.size = left;
   }
 
-  /// Copies the particles to the host, in the order of their origin, which becomes 0, 1, 2 ...
-  void download(PointsOnHost& points) {
+  /// Copies the particles to the host in their order; their origin becomes 0, 1, 2 ...
+  void download(Space& space, PointsOnHost& points) {
     const std::size_t n = points_.size;
-    std::vector<std::uint32_t> origin(n), body(n);
-    origin_.download(origin.data(), n);
-    body_.download(body.data(), n);
-    const std::vector<std::uint32_t> place = ranks_of(origin);
     points.body.resize(n);
     points.origin.resize(n);
-    for (std::size_t p = 0; p < n; ++p) {
-      points.body[place[p]] = body[p];
-      points.origin[place[p]] = origin[p];
-    }
-    std::vector<double> column(n);
+    body_.download(points.body.data(), n);
+    origin_.download(points.origin.data(), n);
     for (std::size_t c = 0; c < state_components; ++c) {
-      numbers_.download(column.data(), n, c * points_.stride);
       points.numbers[c].resize(n);
-      for (std::size_t p = 0; p < n; ++p) points.numbers[c][place[p]] = column[p];
+      numbers_.download(points.numbers[c].data(), n, c * points_.stride);
     }
-    origin_.upload(place.data(), n);
+    space.for_each(n, Iota{points_.origin});
   }
 
  private:
-  /// Returns for each of different numbers how many are smaller.
-  static std::vector<std::uint32_t> ranks_of(const std::vector<std::uint32_t>& numbers) {
-    if (numbers.empty()) return {};
-    std::vector<std::uint32_t> smaller(*std::ranges::max_element(numbers) + std::size_t{1}, 0);
-    for (const std::uint32_t number : numbers) smaller[number] = 1;
-    std::uint32_t next = 0;
-    for (std::uint32_t& flag : smaller) next += std::exchange(flag, next);
-    std::vector<std::uint32_t> ranks;
-    ranks.reserve(numbers.size());
-    for (const std::uint32_t number : numbers) ranks.push_back(smaller[number]);
-    return ranks;
-  }
-
   Points points_;
   Array<double> numbers_, spare_;
   Array<std::uint32_t> body_, origin_, first_, before_, order_;

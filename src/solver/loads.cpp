@@ -6,14 +6,26 @@
 namespace whipple::solver {
 
 Load uniform_load(std::string name, std::function<Vector3(double time)> acceleration, double begin) {
-  return {
-      .name = std::move(name),
-      .add =
-          [acceleration = std::move(acceleration)](const LoadedPoints&, double time, std::span<Vector3> sum) {
-            const Vector3 of_all = acceleration(time);
-            for (Vector3& of_point : sum) of_point += of_all;
-          },
-      .next_event = [begin](double time) { return std::max(begin, time); }};
+  return {.name = std::move(name),
+          .add =
+              [acceleration](const LoadedPoints&, double time, std::span<Vector3> sum) {
+                const Vector3 of_all = acceleration(time);
+                for (Vector3& of_point : sum) of_point += of_all;
+              },
+          .next_event = [begin](double time) { return std::max(begin, time); },
+          .of_all = std::move(acceleration)};
+}
+
+bool Loads::are_uniform() const {
+  return std::ranges::all_of(loads_, [](const Load& load) { return load.of_all != nullptr; });
+}
+
+Vector3 Loads::uniform_at(double time) const {
+  Vector3 sum = Vector3::Zero();
+  for (const Load& load : loads_) {
+    if (load.next_event(time) <= time && load.of_all) sum += load.of_all(time);
+  }
+  return sum;
 }
 
 void Loads::add_to(const LoadedPoints& points, double time, std::span<Vector3> acceleration) const {

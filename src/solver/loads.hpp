@@ -35,6 +35,8 @@ struct Load {
   /// Returns the first time (s), not before the given one, at which the load acts; infinite if it never acts again.
   std::function<double(double time)> next_event = [](double time) { return time; };
   Moves moves = Moves::all_material;
+  /// Returns the acceleration (m/s^2) at a time (s) if it is the same for all points; empty otherwise.
+  std::function<Vector3(double time)> of_all = {};
 };
 
 /// Returns a load with the same acceleration (m/s^2), a function of time (s), for all points.
@@ -49,6 +51,10 @@ class Loads {
 
   /// Returns whether any load acts at a time (s).
   [[nodiscard]] bool act(double time) const { return next_event(time) <= time; }
+  /// Returns whether all loads are the same for all points.
+  [[nodiscard]] bool are_uniform() const;
+  /// Returns the acceleration (m/s^2) of all points at a time (s) by loads that are the same for all.
+  [[nodiscard]] Vector3 uniform_at(double time) const;
   /// Adds the accelerations (m/s^2) of the points at a time (s) to those given.
   void add_to(const LoadedPoints& points, double time, std::span<Vector3> acceleration) const;
 

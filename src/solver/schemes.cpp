@@ -196,8 +196,10 @@ void step_on_device(Stages& s, double until) {
     domains::split(s.state, s.carriers, s.particles);
     s.device->upload();
   }
+  s.applied_loads.begin();
   const bool looks = s.fill.is_due();
-  const double beside_voids = s.device->step(s.time_step.accurate_step(), looks);
+  const double beside_voids =
+      s.device->step(s.time_step.accurate_step(), s.loads.uniform_at(s.state.run.time), looks);
   if (looks) s.fill.judge(beside_voids);
   close_step(s);
 }

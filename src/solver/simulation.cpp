@@ -8,6 +8,7 @@
 #include "src/case/build/placement.hpp"
 #include "src/case/build/seeding.hpp"
 #include "src/case/build/tables.hpp"
+#include "src/core/base/error.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/io/ranks.hpp"
@@ -42,6 +43,7 @@ Simulation::Simulation(const cases::Case& of_case, MPI_Comm communicator) {
   state_->bodies = std::move(seeding.bodies);
   for (Carrier* carrier : stages_->carriers) carrier->keep_share();
   stages_->particles.complete_seeded(domains::are_needed(*state_, stages_->contact.may_meet_images()));
+  use(default_device());
   stages_->balance.sum();
   Ledger& ledger = state_->run.ledger;
   ledger.initial = state_->totals;
@@ -54,7 +56,6 @@ Simulation::Simulation(const cases::Case& of_case, MPI_Comm communicator) {
   ledger.largest_heating = chemical_energy[0];
   stages_->applied_loads.weigh();
   stages_->plausibility.begin();
-  use(default_device());
 }
 
 Simulation::Simulation(const cases::Case& of_case, Particles particles, const RunState& state,
@@ -65,12 +66,12 @@ Simulation::Simulation(const cases::Case& of_case, Particles particles, const Ru
   state_->particles = std::move(particles);
   for (Carrier* carrier : stages_->carriers) carrier->gather();
   stages_->particles.complete_read(domains::are_needed(*state_, stages_->contact.may_meet_images()));
+  use(default_device());
   stages_->balance.sum();
   if (state.step == 0) {
     stages_->applied_loads.weigh();
     stages_->plausibility.begin();
   }
-  use(default_device());
 }
 
 Simulation::Simulation(Simulation&&) noexcept = default;
@@ -89,7 +90,12 @@ void Simulation::synchronize() const {
 
 void Simulation::advance(double until) { solver::advance(*stages_, until); }
 
-void Simulation::add_load(Load load) { stages_->loads.add(std::move(load)); }
+void Simulation::add_load(Load load) {
+  if (state_->device != nullptr && !load.of_all) {
+    throw InputError("load \"" + load.name + "\" differs from point to point: a device does not compute it");
+  }
+  stages_->loads.add(std::move(load));
+}
 
 bool Simulation::is_one_with_image(std::size_t body, std::size_t face) const {
   return stages_->contact.is_one_with_image(body, face);

@@ -214,6 +214,35 @@ TEST(Contact, IsExactWhereImpulsesMeetFieldsThatPress) {
             0.002 * simulation.state().ledger.initial.momentum_scale);
 }
 
+// One body is one with its image at the plane, the other meets its own: the plane holds the components of the motion of
+// the first that contact with the second would give it (4.12). In the edge of two planes all images have one beta.
+TEST(Contact, IsExactWhereABodyArrivesAtAPlaneOnWhichAnotherStands) {
+  for (const std::string wall : {"symmetry", "no_slip"}) {
+    for (const std::string method : {"auto", "multi_field"}) {
+      Problem problem;
+      problem.end = 1.6e-6;
+      problem.domain =
+          "[domain]\nlower = [0, 0, 0]\nupper = [0.010, 0.008, 0.006]\ncell_size = 0.001\nboundary = { "
+          "x_lower = "
+          "\"separating\", y_lower = \"" +
+          wall + "\" }\n";
+      problem.contact = ContactOptions{.friction = 0.3, .method = method}.toml();
+      const std::string material = aluminium("contact_aluminium", "0.3 GPa");
+      problem.bodies = {
+          {"standing", material, box({0.3e-3, 0, 1e-3}, {2.3e-3, 3e-3, 5e-3}), {-600, 0, 0}},
+          {"arriving", material, box({2.7e-3, 0.6e-3, 1e-3}, {4.7e-3, 3.6e-3, 5e-3}), {-1800, -900, 0}}};
+      solver::Simulation simulation(problem.read(), parallel::world());
+      EnergyWatch watch;
+      run_to(simulation, problem.end, [&](const solver::Simulation& s) { watch(s); });
+      const solver::Ledger& ledger = simulation.state().ledger;
+      EXPECT_LT(watch.worst, 1e-13) << wall << " " << method;
+      EXPECT_LT(ledger.momentum_error(simulation.totals()), 1e-12);
+      EXPECT_GT(ledger.contact_impulse, 0.01 * ledger.initial.momentum_scale);
+      EXPECT_GT(ledger.wall_impulse[1], 0.01 * ledger.initial.momentum_scale);
+    }
+  }
+}
+
 TEST(Contact, KeepsMomentumAndEnergyInEveryMethod) {
   const auto check = [](const Method& method, const ContactOptions& contact, bool exact_energy) {
     solver::Simulation simulation(impact(method, contact).read(), parallel::world());

@@ -128,6 +128,32 @@ WHIPPLE_POINT inline void press(ContactSide& a, ContactSide& b, const Meeting& m
   balance.friction_impulse += std::sqrt(dragged2);
 }
 
+/// Sets the components of the motion of a side to zero again that mirror planes hold: those that the image reverses,
+/// where the field is one with it and the node is on the plane. Contact with a field that is not one with its image
+/// there changed them; what the points lose becomes heat (4.12).
+/// @returns the heat, J
+WHIPPLE_POINT inline double hold(ContactSide& side, const Lattice& lattice, std::uint32_t node) {
+  const std::uint32_t field = lattice.field_of(node);
+  const Place place = lattice.place_of(node);
+  Triple<double> held = {0.0, 0.0, 0.0};
+  for (int face = 0; face < 6; ++face) {
+    const Mirror& mirror = lattice.mirrors[static_cast<std::size_t>(face)];
+    if (!mirror.bonds(field) || lattice.inside_of(face, place) != 0) continue;
+    if (mirror.reverses_all || face / 2 == 0) held.x = 1.0;
+    if (mirror.reverses_all || face / 2 == 1) held.y = 1.0;
+    if (mirror.reverses_all || face / 2 == 2) held.z = 1.0;
+  }
+  const Triple<double> v = {held.x * side.velocity.x, held.y * side.velocity.y, held.z * side.velocity.z},
+                       d = {held.x * side.increment.x, held.y * side.increment.y, held.z * side.increment.z};
+  const double beta = side.relaxation;
+  const Triple<double> taken = d + beta * v;
+  const double heat = 0.5 * side.mass * (dot(taken, taken) + beta * (2.0 - beta) * dot(v, v));
+  side.velocity -= v;
+  side.increment -= d;
+  side.heat += heat;
+  return heat;
+}
+
 /// Applies contact at the nodes of pair i, after the momentum equation: changes velocities, increments and relaxations
 /// and replaces the mass of both nodes by their heat.
 struct ApplyContact {
@@ -171,6 +197,7 @@ struct ApplyContact {
       } else if (meeting.share > 0.0) {
         press(a, b, meeting, of_pair);
       }
+      of_pair.contact_heat += hold(a, lattice, pair.first) + hold(b, lattice, pair.second);
     }
     a.store(node);
     b.store(other);

@@ -67,40 +67,4 @@ struct Wall {
   return -std::expm1((mass * std::log1p(-beta) + other_mass * std::log1p(-other_beta)) / (mass + other_mass));
 }
 
-/// Assigns one beta to node i of the list and its image where planes intersect: otherwise the coupling at one plane would
-/// change with the next one. Call for all faces before the first contact.
-struct JoinRelaxation {
-  Wall wall;
-
-  WHIPPLE_POINT void operator()(std::size_t i) const {
-    const std::int32_t mirror = wall.mirror_of(i);
-    if (mirror == nowhere || static_cast<std::size_t>(mirror) == i) return;
-    if (planes_of(wall.nodes[i]) < 2 || planes_of(wall.nodes[mirror]) < 2) return;
-    WallNode &at_node = wall.at[i], &at_mirror = wall.at[mirror];
-    const double mass = at_node.joint_mass, other_mass = at_mirror.joint_mass;
-    if (mass < no_mass_for_contact || other_mass < no_mass_for_contact) return;
-    Node &first = wall.lattice.nodes[wall.nodes[i]], &other = wall.lattice.nodes[wall.nodes[mirror]];
-    const double beta = common_relaxation(mass, first.relaxation(), other_mass, other.relaxation());
-    first.set_relaxation(beta);
-    other.set_relaxation(beta);
-    at_node.joint_mass = at_mirror.joint_mass = mass + other_mass;
-  }
-
- private:
-  /// Returns the number of planes that affect a node, among those with contact of any field.
-  [[nodiscard]] WHIPPLE_POINT int planes_of(std::uint32_t node) const {
-    const std::uint32_t field = wall.lattice.field_of(node);
-    const Place place = wall.lattice.place_of(node);
-    int planes = 0;
-    for (int face = 0; face < 6; ++face) {
-      if ((wall.walls.apart >> face & 1U) == 0) continue;
-      const int inside = wall.lattice.inside_of(face, place);
-      const bool affects =
-          inside > 0 ? inside <= mirror_reach : wall.walls.is_apart(wall.lattice, field, face);
-      planes += affects ? 1 : 0;
-    }
-    return planes;
-  }
-};
-
 }  // namespace whipple::device

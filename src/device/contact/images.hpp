@@ -37,6 +37,56 @@ struct MotionAtWall {
   }
 };
 
+/// Adds heat of contact with images (J/kg) to a node.
+WHIPPLE_POINT inline void add_heat(Node& node, WallNode& own, double heat) {
+  node.n[7] += heat;
+  own.heat += heat;
+}
+
+/// Assigns one beta to node i of the list and its image where planes intersect: otherwise the coupling at one plane would
+/// change with the next one. Call for all faces before the first contact.
+struct JoinRelaxation {
+  Wall wall;
+
+  WHIPPLE_POINT void operator()(std::size_t i) const {
+    const std::int32_t mirror = wall.mirror_of(i);
+    if (mirror == nowhere || static_cast<std::size_t>(mirror) == i) return;
+    if (planes_of(wall.nodes[i]) < 2 || planes_of(wall.nodes[mirror]) < 2) return;
+    WallNode &at_node = wall.at[i], &at_mirror = wall.at[mirror];
+    const double mass = at_node.joint_mass, other_mass = at_mirror.joint_mass;
+    if (mass < no_mass_for_contact || other_mass < no_mass_for_contact) return;
+    Node &first = wall.lattice.nodes[wall.nodes[i]], &other = wall.lattice.nodes[wall.nodes[mirror]];
+    const double beta = common_relaxation(mass, first.relaxation(), other_mass, other.relaxation());
+    set_relaxation(first, at_node, beta);
+    set_relaxation(other, at_mirror, beta);
+    at_node.joint_mass = at_mirror.joint_mass = mass + other_mass;
+  }
+
+ private:
+  /// Contact of bodies may have changed the velocity already: its energy depends on beta (3.12).
+  static WHIPPLE_POINT void set_relaxation(Node& node, WallNode& own, double beta) {
+    MotionAtWall motion(node);
+    const double before = motion.loss(own);
+    motion.relaxation = beta;
+    add_heat(node, own, (motion.loss(own) - before) / own.mass);
+    node.set_relaxation(beta);
+  }
+  /// Returns the number of planes that affect a node, among those with contact of any field.
+  [[nodiscard]] WHIPPLE_POINT int planes_of(std::uint32_t node) const {
+    const std::uint32_t field = wall.lattice.field_of(node);
+    const Place place = wall.lattice.place_of(node);
+    int planes = 0;
+    for (int face = 0; face < 6; ++face) {
+      if ((wall.walls.apart >> face & 1U) == 0) continue;
+      const int inside = wall.lattice.inside_of(face, place);
+      const bool affects =
+          inside > 0 ? inside <= mirror_reach : wall.walls.is_apart(wall.lattice, field, face);
+      planes += affects ? 1 : 0;
+    }
+    return planes;
+  }
+};
+
 /// Applies contact between the material at node i of the list and its image at a face, and between the material at the
 /// mirror node and its image (3.8) to (3.13).
 struct MeetImage {
@@ -68,10 +118,6 @@ struct MeetImage {
   /// Gap, in cells, below which material sticks to a no-slip wall.
   static constexpr double sticking_gap = 0.04;
 
-  static WHIPPLE_POINT void add_heat(Node& node, WallNode& own, double heat) {
-    node.n[7] += heat;
-    own.heat += heat;
-  }
   /// Returns the fraction of the step in which two surfaces are in contact (3.9).
   [[nodiscard]] WHIPPLE_POINT double share_in_touch(double gap, double closing_speed) const {
     if (gap <= 0.0) return 1.0;

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "src/core/base/error.hpp"
 #include "src/device/contact/apply.hpp"
 #include "src/device/contact/images.hpp"
 #include "src/device/contact/nodes.hpp"
@@ -68,16 +67,15 @@ class Contact {
   }
 
   /// Applies contact of bodies.
-  /// @throws StateError if more than two fields meet at a node
   void apply(Space& space, const Lattice& lattice, Outcome& outcome) {
     const std::size_t pairs = fields_ > 1 ? surfaces_.count : 0;
     if (pairs == 0) return;
     space.for_each(pairs, ApplyContact{lattice, constants_, surfaces_, balances_.data(), approaches_.data()});
-    outcome.contact = space.reduce(pairs, SumBalances{balances_.data()}).sum;
-    if (outcome.contact[4] > 0.0) {
-      throw StateError(
-          "more than two bodies meet at a node: a device computes contact of two velocity fields (--device "
-          "cpu computes any number; contact_group joins bodies in one field)");
+    const auto sums = space.reduce(pairs, SumBalances{balances_.data()});
+    outcome.contact = sums.sum;
+    if (sums.largest[0] > 0.0) {
+      const auto last = static_cast<std::size_t>(sums.largest[0]) - 1;
+      outcome.crowded_at = space.reduce(1, PlaceOfPair{lattice, pairs_.data() + last}).place();
     }
     outcome.approaches = deciding(space, pairs, static_cast<std::uint32_t>(pairs_of_fields(fields_)));
   }

@@ -18,9 +18,9 @@ struct FlagFirstOfPair {
   WHIPPLE_POINT void operator()(std::size_t i) const { flags[i] = role[i] == ContactRole::first ? 1 : 0; }
 };
 
-/// Sums the balances of all pairs.
+/// Sums the balances of all pairs; the maximum is one more than the last pair that more than two fields reach.
 struct SumBalances {
-  using Result = Reduction<5, 0>;
+  using Result = Reduction<5, 1>;
   const ContactBalance* balances;
   WHIPPLE_POINT void operator()(std::size_t i, Result& result) const {
     const ContactBalance& of_pair = balances[i];
@@ -29,6 +29,22 @@ struct SumBalances {
     result.sum[2] += of_pair.impulse;
     result.sum[3] += of_pair.friction_impulse;
     result.sum[4] += of_pair.crowded;
+    if (of_pair.crowded > 0.0) result.raise(0, static_cast<double>(i + 1));
+  }
+};
+
+/// Returns the place of a pair.
+struct PlaceOfPair {
+  struct Result : Reduction<3, 0> {
+    [[nodiscard]] Triple<double> place() const { return {sum[0], sum[1], sum[2]}; }
+  };
+  Lattice lattice;
+  const ContactPair* pair;
+
+  WHIPPLE_POINT void operator()(std::size_t, Result& result) const {
+    const Place at = lattice.place_of(pair->first);
+    result.sum = {lattice.lower.x + at.x * lattice.cell_size, lattice.lower.y + at.y * lattice.cell_size,
+                  lattice.lower.z + at.z * lattice.cell_size};
   }
 };
 

@@ -65,11 +65,15 @@ struct FindDecidingApproaches {
   /// Returns the time to contact, s: 0 within the step; never, if the approach is slow.
   [[nodiscard]] WHIPPLE_POINT double time_of(const Approach& one) const {
     if (!(one.closing > 0.0)) return never;
-    if (one.open < dt * one.closing) return 0.0;
+    if (touches(one)) return 0.0;
     return one.closing >= least_speed ? one.open / one.closing : never;
   }
   [[nodiscard]] WHIPPLE_POINT bool is_hard(const Approach& one) const {
-    return one.closing > 0.0 && one.closing >= least_speed && one.open < dt * one.closing;
+    return one.closing > 0.0 && one.closing >= least_speed && touches(one);
+  }
+  /// Returns whether the surfaces touch in the step (contact::touches_in).
+  [[nodiscard]] WHIPPLE_POINT bool touches(const Approach& one) const {
+    return one.open < (1.0 + 1e-9) * dt * one.closing;
   }
 };
 

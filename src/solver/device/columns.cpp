@@ -82,10 +82,8 @@ void to_columns(const Particles& particles, device::PointsOnHost& points) {
 }
 
 void from_columns(const device::PointsOnHost& points, Particles& particles) {
-  if (points.size() != particles.size()) {
-    SortBuffers buffers;
-    reorder(particles, points.origin, buffers);
-  }
+  SortBuffers buffers;
+  reorder(particles, points.origin, buffers);
   for_each_column(particles, [&]<class Value>(Component first, std::vector<Value>& values, double) {
     for (std::size_t k = 0; k < numbers_in<Value>; ++k) {
       const std::vector<double>& column = points.numbers[first + k];

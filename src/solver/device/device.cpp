@@ -5,14 +5,14 @@
 
 #include <algorithm>
 
-#include "src/core/input/faults.hpp"
+#include "src/case/section.hpp"
 #include "src/device/contact/constants.hpp"
 #include "src/device/material/describe.hpp"
 
 namespace whipple::solver {
 namespace {
 
-using input::Faults;
+using cases::Faults;
 
 constexpr const char* elsewhere =
     "--device gpu and emulated do not compute it (docs/manual/devices.md); --device cpu does";
@@ -42,8 +42,7 @@ void check_scheme(const cases::Case& setup, const Faults& faults) {
 }
 
 void check_loads(const cases::Case& setup, const Faults& faults) {
-  refuse_if(!setup.gravity.acceleration.isZero(0.0), faults, "gravity.acceleration", "gravity");
-  refuse_if(!setup.loads.empty(), faults, "load", "a load");
+  refuse_if(!setup.loads.empty(), faults, "load", "a load other than gravity");
   refuse_if(!setup.force_gauges.empty(), faults, "force_gauge", "a force gauge");
   refuse_if(setup.has_burn(), faults, "detonation", "an explosive that burns");
   refuse_if(setup.has_elements() || setup.has_bars(), faults, "body", "a body of elements or bars");
@@ -85,7 +84,8 @@ std::vector<InputFault> device_faults(const cases::Case& setup) {
 
 void evaluate_by_tables(cases::Case& setup) {
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
-    if (device::needs_table(*setup.materials[b])) setup.bodies[b].equation_of_state = cases::Evaluation::table;
+    if (device::needs_table(*setup.materials[b]))
+      setup.bodies[b].equation_of_state = cases::Evaluation::table;
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "src/core/base/error.hpp"
@@ -13,6 +14,10 @@ namespace whipple::solver {
 namespace {
 
 using S = device::StepSums;
+
+/// Number of steps between sorts of the particles in memory; they move less than a cell in one. Counted from the start of
+/// the run, so that a run that is continued adds in the same order.
+constexpr std::int64_t sort_every = 20;
 
 /// Returns the totals that sums begin with.
 template <class Sums>
@@ -66,7 +71,7 @@ double DeviceStage::rate_of_most(double share, double least, double largest) {
   return engine_->rate_of_most(state_.totals.mass, share, least, largest);
 }
 
-double DeviceStage::step(double accurate_step, bool looks_at_fill) {
+double DeviceStage::step(double accurate_step, const Vector3& acceleration, bool looks_at_fill) {
   const double dt = state_.run.time_step;
   is_current_ = false;
   state_.run.particles_at_rest = 0;  // a device steps all of them
@@ -75,8 +80,12 @@ double DeviceStage::step(double accurate_step, bool looks_at_fill) {
     const device::Outcome outcome =
         engine_->step({.dt = dt,
                        .end = state_.run.time + dt,
+                       .acceleration = {acceleration[0], acceleration[1], acceleration[2]},
                        .least_closing_speed = contact_.least_closing_speed(accurate_step),
-                       .looks_at_fill = looks_at_fill});
+                       .looks_at_fill = looks_at_fill,
+                       .sorts = state_.run.step % sort_every == 0});
+    state_.booked.external_impulse += totals().mass * dt * acceleration;
+    require_two_fields(outcome);
     measured_ = outcome.sums;
     beside_voids = outcome.beside_voids;
     book(outcome);
@@ -96,6 +105,7 @@ void DeviceStage::book(const device::Outcome& outcome) {
   Ledger& booked = state_.booked;
   const auto& sum = outcome.sums.sum;
   booked.work += sum[S::work_];
+  booked.external_work += sum[S::external_work_];
   booked.viscous_work += sum[S::viscous_work_];
   booked.transfer_heat += sum[S::heat_];
   booked.unresolved_kept += sum[S::kept_];
@@ -134,6 +144,18 @@ void DeviceStage::book(const device::Outcome& outcome) {
   }
 }
 
+/// Ends the run where more than two velocity fields meet.
+void DeviceStage::require_two_fields(const device::Outcome& outcome) const {
+  if (!(outcome.contact[4] > 0.0)) return;
+  const Triple<double>& at = outcome.crowded_at;
+  throw StateError(
+      fmt::format("step {}, t = {} s: more than two bodies meet at ({:.6g}, {:.6g}, {:.6g}) m, and a device "
+                  "computes contact "
+                  "of two velocity fields: --device cpu computes that of any number, contact_group joins "
+                  "bodies in one field",
+                  state_.run.step, state_.run.time, at.x, at.y, at.z));
+}
+
 /// Ends the run if the state of a particle is not defined or out of the range of its material.
 void DeviceStage::require_valid(const device::Outcome& outcome) {
   const auto first = [&](std::size_t ending) { return outcome.sums.largest[S::first_ends + ending]; };
@@ -156,8 +178,8 @@ void DeviceStage::require_valid(const device::Outcome& outcome) {
 void DeviceStage::fail(double first, const std::string& reason) {
   const auto origin = static_cast<std::uint32_t>(device::all_of_origin - first);
   synchronize();
-  std::size_t p = 0;
-  while (p + 1 < points_.origin.size() && points_.origin[p] < origin) ++p;
+  const auto found = std::ranges::find(points_.origin, origin);
+  const auto p = static_cast<std::size_t>(found - points_.origin.begin());
   throw StateError(state_.describe_particle(p, state_.run.time + state_.run.time_step, reason));
 }
 

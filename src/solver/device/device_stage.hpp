@@ -23,9 +23,10 @@ class DeviceStage {
 
   /// Performs the present step and books its sums.
   /// @param accurate_step  time step that the state allows, s
+  /// @param acceleration   of all particles by loads, m/s^2
   /// @param looks_at_fill  whether to look for material under pressure in cells that it does not fill
   /// @returns its mass at the beginning of the step (kg), 0 if not asked for
-  double step(double accurate_step, bool looks_at_fill);
+  double step(double accurate_step, const Vector3& acceleration, bool looks_at_fill);
   /// Copies the particles to State, unless they are there already.
   void synchronize();
   /// Returns whether particles of fluids must be divided before the step.
@@ -44,6 +45,7 @@ class DeviceStage {
 
  private:
   void book(const device::Outcome& outcome);
+  void require_two_fields(const device::Outcome& outcome) const;
   void require_valid(const device::Outcome& outcome);
   [[noreturn]] void fail(double first, const std::string& reason);
 

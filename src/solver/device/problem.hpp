@@ -12,7 +12,7 @@ device::Problem device_problem(const State& state, const ContactStage& contact);
 
 /// Copies particles to the columns of a device.
 void to_columns(const Particles& particles, device::PointsOnHost& points);
-/// Copies the columns of a device, sorted by origin, to the particles; those that have left are removed.
+/// Copies the columns of a device to the particles, which take their order; those that have left are removed.
 void from_columns(const device::PointsOnHost& points, Particles& particles);
 
 }  // namespace whipple::solver

@@ -23,10 +23,13 @@ AppliedLoads::AppliedLoads(State& state, const Carriers& carriers) : state_(stat
   of_all.acceleration = gravity.acceleration;
   of_all.table = gravity.factor();
   add(of_all);
+  applied_.back().everywhere = true;
 }
 
 void AppliedLoads::add_to(Loads& loads) const {
   for (const Applied& load : applied_) {
+    std::function<Vector3(double)> of_all;
+    if (load.everywhere) of_all = [&load](double) { return load.acceleration; };
     loads.add({.name = "load",
                .add =
                    [&load](const LoadedPoints& points, double, std::span<Vector3> sum) {
@@ -41,7 +44,8 @@ void AppliedLoads::add_to(Loads& loads) const {
                      const double next = load.of.table.next_event(time);
                      return next < time + state_.run.time_step ? time : next;
                    },
-               .moves = load.of.is_damping() ? Moves::moving_material : Moves::all_material});
+               .moves = load.of.is_damping() ? Moves::moving_material : Moves::all_material,
+               .of_all = of_all});
   }
 }
 

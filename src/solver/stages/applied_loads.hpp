@@ -33,6 +33,7 @@ class AppliedLoads {
     Vector3 force;                           // N, at a factor of 1
     Vector3 acceleration = Vector3::Zero();  // m/s^2, in this step
     double damping = 0.0;                    // 1/s, in this step
+    bool everywhere = false;                 // gravity
   };
   [[nodiscard]] std::vector<double> masses() const;
 
