@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
 namespace whipple::device::check {
 namespace {
@@ -79,6 +80,23 @@ Totals totals_of(Engine& engine) {
   return totals;
 }
 
+/// Sorts particles by origin.
+PointsOnHost sorted(const PointsOnHost& points) {
+  std::vector<std::uint32_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::ranges::sort(order, {}, [&](std::uint32_t p) { return points.origin[p]; });
+  PointsOnHost result;
+  for (const std::uint32_t p : order) {
+    result.body.push_back(points.body[p]);
+    result.origin.push_back(points.origin[p]);
+  }
+  for (std::size_t c = 0; c < state_components; ++c) {
+    result.numbers[c].reserve(points.size());
+    for (const std::uint32_t p : order) result.numbers[c].push_back(points.numbers[c][p]);
+  }
+  return result;
+}
+
 Steps run(const StoredState& state, const MakeEngine& make, std::size_t steps) {
   const auto engine = make(state.problem, state.start);
   Steps all;
@@ -87,18 +105,24 @@ Steps run(const StoredState& state, const MakeEngine& make, std::size_t steps) {
     for (std::size_t i = from; i < to; ++i) {
       engine->step({.dt = state.steps[i].dt,
                     .end = state.steps[i].end,
+                    .acceleration = {},
                     .least_closing_speed = 0.0,
-                    .looks_at_fill = i % 20 == 0});
+                    .looks_at_fill = i % 20 == 0,
+                    .sorts = i % 20 == 0});
     }
     all.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   };
   perform(0, 1);
   all.first.totals = totals_of(*engine);
-  engine->download(all.first.points);  // whose places become the origins
+  PointsOnHost points;
+  engine->download(points);
+  const std::vector<std::uint32_t> of_start = points.origin;  // places in this download are the next origins
+  all.first.points = sorted(points);
   perform(1, steps);
   all.last.totals = totals_of(*engine);
-  engine->download(all.last.points);
-  for (std::uint32_t& origin : all.last.points.origin) origin = all.first.points.origin[origin];
+  engine->download(points);
+  for (std::uint32_t& origin : points.origin) origin = of_start[origin];
+  all.last.points = sorted(points);
   return all;
 }
 

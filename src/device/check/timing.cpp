@@ -23,8 +23,12 @@ void measure(Timing& timing, const Arrangement& arrangement, const MakeEngine& m
     const auto begin = std::chrono::steady_clock::now();
     for (std::size_t i = 0; i < n; ++i) {
       end += arrangement.dt;
-      outcome = engine->step(
-          {.dt = arrangement.dt, .end = end, .least_closing_speed = 0.0, .looks_at_fill = false});
+      outcome = engine->step({.dt = arrangement.dt,
+                              .end = end,
+                              .acceleration = {},
+                              .least_closing_speed = 0.0,
+                              .looks_at_fill = false,
+                              .sorts = i == 0});
     }
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   };
