@@ -54,7 +54,7 @@ MAY_USE = {
     "src/analysis": ["src/core/base", "src/core/parallel", "src/core/hdf5", "src/grid", "src/material", "src/case"],
     # The loop around the solver: what a run writes, and what may be asked of it.
     "src/run": ["src/core/base", "src/core/input", "src/core/parallel", "eos", "src/particles", "src/grid", "src/material", "src/fem",
-                "src/io", "src/analysis", "src/case", "src/solver"],
+                "src/device", "src/io", "src/analysis", "src/case", "src/solver"],
     # Times the solver.
     "src/bench": ["src/core/base", "src/core/parallel", "src/core/process", "src/particles", "src/grid", "src/material", "src/transfer", "src/device",
                   "src/device/check", "src/io", "src/case", "src/solver"],

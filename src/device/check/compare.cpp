@@ -201,6 +201,7 @@ Comparison compare(const StoredState& state, const MakeEngine& make, std::size_t
     result.last = differences(once.last.points, state.last.points, bounds_of_last);
     result.last_sums = differences(once.last.totals, state.last.totals, state.problem, bounds_of_last);
   }
+  result.twice = twice;
   if (!twice) return result;
   const Steps again = run(state, make, result.steps);
   result.repeats = same_bits(once.first.points, again.first.points) &&

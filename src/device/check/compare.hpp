@@ -45,6 +45,7 @@ std::vector<Difference> differences(const Totals& totals, const Totals& expected
 struct Comparison {
   std::vector<Difference> first, last;            ///< of the particles
   std::vector<Difference> first_sums, last_sums;  ///< of the totals
+  bool twice = false;                             ///< whether it was repeated
   bool repeats = true;                            ///< a second time, bit by bit
   double seconds = 0.0;                           ///< of all steps
   std::size_t steps = 0;

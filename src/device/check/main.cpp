@@ -8,6 +8,7 @@
 #include "src/device/check/arrangements.hpp"
 #include "src/device/check/compare.hpp"
 #include "src/device/check/json.hpp"
+#include "src/device/check/markdown.hpp"
 #include "src/device/check/options.hpp"
 #include "src/device/check/timing.hpp"
 
@@ -77,7 +78,7 @@ Json json_of(const std::vector<Difference>& list) {
   return object;
 }
 
-Json json_of(const StoredState& state, const Comparison& found, bool twice) {
+Json json_of(const StoredState& state, const Comparison& found) {
   Json json = Json::object();
   json.set("state", state.name)
       .set("what", state.what)
@@ -91,7 +92,7 @@ Json json_of(const StoredState& state, const Comparison& found, bool twice) {
       .set("differences_after_last", json_of(found.last))
       .set("sums_after_last", json_of(found.last_sums))
       .set("passes", Json::flag(found.passes()));
-  if (twice) json.set("same_bits_twice", Json::flag(found.repeats));
+  if (found.twice) json.set("same_bits_twice", Json::flag(found.repeats));
   return json;
 }
 
@@ -121,13 +122,19 @@ std::vector<Timing> measure_all(const StoredState& state, const Options& options
   return timings;
 }
 
+void write(const std::string& file, const std::string& text) {
+  if (file.empty()) return;
+  std::ofstream out(file);
+  if (!(out << text)) throw WrongInput(file + ": error: cannot be written");
+}
+
 int run(const Options& options) {
   const MakeEngine make = engine_of(options.device);
   std::vector<StoredState> states;
   for (const std::string& file : options.files) states.push_back(read_state(file));
   Json comparisons = Json::list(), times = Json::list();
   bool passes = true;
-  std::string card;
+  std::string card, tables = comparison_head();
   for (const StoredState& state : states) {
     if (card.empty()) {
       card = make(state.problem, state.start)->device();
@@ -135,7 +142,8 @@ int run(const Options& options) {
     }
     const Comparison found = compare(state, make, options.steps, options.twice);
     print(state, found);
-    comparisons.add(json_of(state, found, options.twice));
+    comparisons.add(json_of(state, found));
+    tables += comparison_row(state, found);
     passes = passes && found.passes();
   }
   Json json = Json::object();
@@ -153,15 +161,14 @@ int run(const Options& options) {
     std::printf("\ncopy %.1f GB/s, multiply-adds in double precision %.1f Gflop/s\n", 1e-9 * rates.bandwidth,
                 1e-9 * rates.arithmetic);
     json.set("bandwidth_bytes_per_s", rates.bandwidth).set("arithmetic_flops_per_s", rates.arithmetic);
-    for (const Timing& timing : measure_all(states.front(), options, make, rates))
-      times.add(to_json(timing, rates));
+    const std::vector<Timing> timings = measure_all(states.front(), options, make, rates);
+    for (const Timing& timing : timings) times.add(to_json(timing, rates));
+    if (!timings.empty()) tables += "\n" + timing_table(timings, rates);
     json.set("model", model_of(states.front())).set("times", times);
   }
   std::printf("\n%s\n", passes ? "all within the bounds" : "BEYOND THE BOUNDS");
-  if (!options.json.empty()) {
-    std::ofstream out(options.json);
-    if (!(out << json.str() << '\n')) throw WrongInput(options.json + ": error: cannot be written");
-  }
+  write(options.json, json.str() + '\n');
+  write(options.markdown, tables);
   return passes ? 0 : 1;
 }
 

@@ -10,7 +10,7 @@ namespace whipple::device::check {
 
 const char* const usage =
     "Usage: whipple-device-check FILE... [--device gpu|emulated] [--steps N] [--twice] [--sizes N,N,...]\n"
-    "                            [--per-cell N,N,...] [--no-rates] [--json OUT]\n"
+    "                            [--per-cell N,N,...] [--no-rates] [--json OUT] [--markdown OUT]\n"
     "Steps stored states (whipple bench --states FOLDER) on a device, and compares every component with what "
     "the\n"
     "host's kernels made of them after the first and after the last step.\n"
@@ -23,7 +23,7 @@ const char* const usage =
     "              clouds of its first particle\n"
     "  --per-cell  particles per cell of the block and the clouds (default: 8,2,0.5,0.0625)\n"
     "  --no-rates  do not measure the device's bandwidth and arithmetic\n"
-    "  --json      write the results to a file\n"
+    "  --json      write the results to a file; --markdown: as tables\n"
     "Bounds, over the largest magnitude of a component: 1e-11 after the first step (plastic strain\n"
     "and deviatoric stress 1e-10), 1e-8 after the last.\n"
     "Exit codes: 0 all within them, 1 one is not, "
@@ -80,6 +80,8 @@ Options read_options(int argc, char** argv) {
       options.device = device_of(value());
     } else if (argument == "--json") {
       options.json = value();
+    } else if (argument == "--markdown") {
+      options.markdown = value();
     } else if (argument == "--steps") {
       options.steps = count_of(argument, number_of(argument, value()));
     } else if (argument == "--sizes") {

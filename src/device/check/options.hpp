@@ -14,7 +14,7 @@ enum class On { gpu, emulated };
 struct Options {
   std::vector<std::string> files;
   On device = On::gpu;
-  std::string json;  ///< file; empty: none
+  std::string json, markdown;  ///< files; empty: none
   std::size_t steps = std::numeric_limits<std::size_t>::max();
   std::vector<std::size_t> sizes;                          ///< of timings
   std::vector<double> per_cell = {8.0, 2.0, 0.5, 0.0625};  ///< of the timings of blocks and clouds

@@ -25,6 +25,9 @@ struct Timing {
 /// stage. Lack of memory is a fault of the timing, not an error.
 Timing measure(const std::string& name, const Arrangement& arrangement, const MakeEngine& make);
 
+/// Returns the least time of the step per particle: the sum of the rooflines of its stages, s.
+double roofline_of_step(const StepSize& size, const Rates& rates);
+
 /// Prints the times with the roofline of each stage: the larger of its least bytes over the bandwidth of a copy and its
 /// flops over the rate of multiply-adds.
 void print(const Timing& timing, const Rates& rates);
