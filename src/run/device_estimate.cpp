@@ -85,6 +85,7 @@ DeviceEstimate estimate_device(const solver::Simulation& simulation, double band
   dispersed.cells = size.particles;
   dispersed.slots = std::min(8.0 * size.particles, size.blocks);
   estimate.dispersed = device::memory_need(dispersed);
+  estimate.most_particles = forecast_splitting(simulation).most_particles;
   estimate.least_bytes = device::cost_of_step(size).least_bytes;
   estimate.card = device::find_card();
   if (bandwidth > 0.0) {
@@ -108,9 +109,12 @@ std::string device_text(const DeviceEstimate& e) {
   text += fmt::format(
       "device memory: {} at the start ({:.0f} bytes per particle, {:.0f} per block with nodes, {:.0f} per "
       "cell with "
-      "particles: {:.0f} blocks, {:.0f} cells), at most {} if all particles were alone in their cells\n",
+      "particles: {:.0f} blocks, {:.0f} cells), at most {} if all particles were alone in their cells{}\n",
       format_bytes(e.need.all), e.need.per_particle, e.need.per_slot, e.need.per_cell, e.size.slots,
-      e.size.cells, format_bytes(e.dispersed.all));
+      e.size.cells, format_bytes(e.dispersed.all),
+      e.most_particles > e.size.particles
+          ? fmt::format(", {:.1f} times as much after all divisions", e.most_particles / e.size.particles)
+          : std::string());
   if (e.card && e.need.all > e.card->free_memory)
     text += "warning: the device has less memory than the start needs\n";
   if (!(e.least_time > 0.0)) return text;
@@ -118,14 +122,15 @@ std::string device_text(const DeviceEstimate& e) {
       "device time: more than {} (lower bound: the fewest steps, {:.0f} bytes per particle and step, over "
       "{:.2f} TB/s, "
       "{})\n",
-      format_duration(e.least_time), e.least_bytes, 1e-12 * e.bandwidth,
-      e.is_measured ? "measured" : "assumed: --bandwidth");
+      e.least_time < 60.0 ? fmt::format("{:.2g} s", e.least_time) : format_duration(e.least_time),
+      e.least_bytes, 1e-12 * e.bandwidth, e.is_measured ? "measured" : "assumed: --bandwidth");
   return text;
 }
 
 nlohmann::json device_json(const DeviceEstimate& e) {
   nlohmann::json json = {{"memory", e.need.all},
                          {"memory_dispersed", e.dispersed.all},
+                         {"most_particles", e.most_particles},
                          {"bytes_per_particle", e.need.per_particle},
                          {"bytes_per_block", e.need.per_slot},
                          {"bytes_per_cell", e.need.per_cell},

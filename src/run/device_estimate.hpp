@@ -18,6 +18,7 @@ struct DeviceEstimate {
   device::StepSize size;                 ///< at the start
   device::MemoryNeed need;               ///< at the start
   device::MemoryNeed dispersed;          ///< if every particle were alone in its cells
+  double most_particles = 0.0;           ///< after all divisions (forecast_splitting); 0: none is divided
   double least_bytes = 0.0;              ///< per particle and step, at the start
   std::optional<device::Card> card;      ///< none: this machine has none
   double bandwidth = assumed_bandwidth;  ///< of copies, bytes/s

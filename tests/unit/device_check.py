@@ -48,6 +48,13 @@ expect(found["passes"] and of_state["same_bits_twice"] and of_state["steps"] == 
 expect(of_state["differences_after_first"] and of_state["differences_after_last"],
        "other kernels in the last bits: equal results would be copies")
 
+timed = check_state(state, "--steps", "1", "--sizes", "4e3", "--per-cell", "8,0.25", "--json", out)
+expect(timed.returncode == 0, "times", timed)
+times = json.loads(out.read_text())["times"]
+expect(len(times) == 3 and all(t["step"]["ns_per_particle_step"] > 0.0 for t in times), "times", timed)
+for time in times:
+    expect(abs(time["estimated_memory_bytes"] / time["memory_bytes"] - 1.0) < 0.1, f"estimate of memory: {time}")
+
 # The last numbers of the file are the totals after all steps; the last one is the unresolved energy.
 totals = struct.unpack("<2d", whole[-16:])
 for name, part in {"last sum": -8, "a particle": -20000}.items():
@@ -69,7 +76,7 @@ expect(run(check, folder / "none.state").returncode == 2, "a missing file")
 expect(run(check, state, "--steps", "x").returncode == 2, "a wrong option")
 
 # What the program reads to be compiled.
-sources = sorted((source / "src/device/check").glob("*.cpp")) + [source / "src/device/emulated.cpp"]
+sources = [source / "src/device/check/main.cpp", source / "src/device/check/states.cpp", source / "src/device/emulated.cpp"]
 headers = run(compiler, "-std=c++20", "-fopenmp", "-march=x86-64-v3", f"-I{source}", "-M", *sources)
 expect(headers.returncode == 0, "headers", headers)
 others = ("fmt", "Eigen", "eigen3", "mpi", "hdf5", "H5", "p4est", "nlohmann", "CLI", "spdlog", "boost", "toml")

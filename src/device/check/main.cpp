@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <fstream>
@@ -156,14 +157,17 @@ int run(const Options& options) {
       .set("bound_after_last", bounds_of_last.all)
       .set("passes", Json::flag(passes))
       .set("states", comparisons);
+  Rates rates = {INFINITY, INFINITY};  // rooflines of 0
   if (options.rates) {
-    const Rates rates = make(states.front().problem, states.front().start)->rates();
+    rates = make(states.front().problem, states.front().start)->rates();
     std::printf("\ncopy %.1f GB/s, multiply-adds in double precision %.1f Gflop/s\n", 1e-9 * rates.bandwidth,
                 1e-9 * rates.arithmetic);
     json.set("bandwidth_bytes_per_s", rates.bandwidth).set("arithmetic_flops_per_s", rates.arithmetic);
-    const std::vector<Timing> timings = measure_all(states.front(), options, make, rates);
-    for (const Timing& timing : timings) times.add(to_json(timing, rates));
-    if (!timings.empty()) tables += "\n" + timing_table(timings, rates);
+  }
+  const std::vector<Timing> timings = measure_all(states.front(), options, make, rates);
+  for (const Timing& timing : timings) times.add(to_json(timing, rates));
+  if (!timings.empty()) {
+    tables += "\n" + timing_table(timings, rates);
     json.set("model", model_of(states.front())).set("times", times);
   }
   std::printf("\n%s\n", passes ? "all within the bounds" : "BEYOND THE BOUNDS");

@@ -120,6 +120,7 @@ Json to_json(const Timing& timing, const Rates& rates) {
       .set("cells_with_particles", timing.size.cells)
       .set("blocks_with_nodes", timing.size.slots)
       .set("memory_bytes", timing.bytes)
+      .set("estimated_memory_bytes", memory_need(timing.size).all)
       .set("step",
            of("whole step", timing.step, cost_of_step(timing.size), roofline_of_step(timing.size, rates)))
       .set("stages", stages);
