@@ -20,6 +20,7 @@ if [ "$on" = gpu ]; then
   SIZES=${SIZES:-"1e5 1e6 1e7 3e7"}
 else
   SIZES=${SIZES:-"1e4 5e4"}
+  export OMP_WAIT_POLICY=passive OMP_NUM_THREADS=${OMP_NUM_THREADS:-1}
 fi
 begin=$SECONDS
 steps=""
@@ -93,7 +94,8 @@ fi
   echo "]}"
 } > "$out/device.json"
 {
-  echo "Card: $(sed -n 's/^device: //p' "$out/compare.log"); double precision; $(sed -n 's/^copy/copy/p' "$out/compare.log")."
+  of_logs() { cat "$out"/compare.log "$out"/times_*.log | sed -n "$1" | head -1; }
+  echo "Card: $(of_logs 's/^device: //p'); double precision; $(of_logs '/^copy/p')."
   echo
   cat "$out/compare.md" 2> /dev/null
   head=1

@@ -178,6 +178,7 @@ int run(const Options& options) {
 
 int guarded(int argc, char** argv) {
   constexpr int wrong_input = 2, no_device = 3;
+  std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // what is done is seen, also by a log
   try {
     const Options options = read_options(argc, argv);
     if (options.help) {
