@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Print registers, stack and spills of the kernels of the graphics processor, as the build has kept them beside gpu.o.
 
-Usage: device_registers.py [LOG] [--markdown] [--check]
+Usage: device_registers.py [LOG] [--markdown] [--least N] [--check]
   LOG         default: build/release/src/device/gpu.log
   --markdown  a table for docs/manual/devices.md
+  --least     only kernels with so many registers at least
   --check     exit code 1 if a kernel spills, takes more registers than the bound, or has a stack that is not listed here
 """
 import argparse
@@ -76,11 +77,15 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("log", nargs="?", default="build/release/src/device/gpu.log", type=pathlib.Path)
     parser.add_argument("--markdown", action="store_true")
+    parser.add_argument("--least", type=int, default=0)
     parser.add_argument("--check", action="store_true")
     options = parser.parse_args()
     of_kernels = kernels(options.log.read_text(errors="replace"))
     if not of_kernels:
         sys.exit(f"{options.log}: no kernels: not a log of nvcc -Xptxas -v")
+    wrong, count = faults(of_kernels), len(of_kernels)
+    spilling = sum(k[3] > 0 for k in of_kernels)
+    of_kernels = [k for k in of_kernels if k[1] >= options.least]
     if options.markdown:
         print("| kernel | registers | stack (bytes) | spills (bytes) |\n| --- | --- | --- | --- |")
         for name, *numbers in of_kernels:
@@ -90,10 +95,9 @@ def main():
         print(f"{'kernel':<{width}}  registers  stack  spills")
         for name, registers, stack, spilled in of_kernels:
             print(f"{name:<{width}}  {registers:9}  {stack:5}  {spilled:6}")
-    wrong = faults(of_kernels)
     for text in wrong:
         print(text, file=sys.stderr)
-    print(f"{len(of_kernels)} kernels, {sum(k[3] > 0 for k in of_kernels)} of which spill", file=sys.stderr)
+    print(f"{count} kernels, {spilling} of which spill", file=sys.stderr)
     sys.exit(1 if options.check and wrong else 0)
 
 

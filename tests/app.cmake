@@ -111,21 +111,3 @@ SOURCES=${PROJECT_SOURCE_DIR}")
   set_tests_properties(tutorial_pages PROPERTIES LABELS fast TIMEOUT 120)
   set_tests_properties(tutorial_own_metal PROPERTIES LABELS "long" COST 40)
 endif()
-
-# Steps on a device: stored states and the program that compares with them; registers and other compilers of the kernels.
-if(WHIPPLE_PYTHON)
-  add_test(NAME device_check COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/device_check.py $<TARGET_FILE:whipple>
-           $<TARGET_FILE:whipple-device-check> ${CMAKE_CXX_COMPILER} ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/device_check)
-  set_tests_properties(device_check PROPERTIES LABELS fast TIMEOUT 120)
-  if(WHIPPLE_HAS_CUDA)
-    add_test(NAME device_registers COMMAND ${WHIPPLE_PYTHON} ${PROJECT_SOURCE_DIR}/scripts/device_registers.py
-             ${PROJECT_BINARY_DIR}/src/device/gpu.log --check)
-    set_tests_properties(device_registers PROPERTIES LABELS fast)
-    find_program(WHIPPLE_CLANG NAMES clang++-19 clang++-18 clang++)
-    if(WHIPPLE_CLANG)
-      add_test(NAME device_clang COMMAND ${WHIPPLE_PYTHON} ${PROJECT_SOURCE_DIR}/scripts/device_clang.py ${WHIPPLE_CLANG}
-               ${whipple_cuda_folder} ${CMAKE_CURRENT_BINARY_DIR}/device_clang)
-      set_tests_properties(device_clang PROPERTIES LABELS long TIMEOUT 600)
-    endif()
-  endif()
-endif()

@@ -5,3 +5,21 @@ function(whipple_suite_on_device name executable filter)
   add_test(NAME device.${name} COMMAND ${executable} --gtest_filter=${filter})
   set_tests_properties(device.${name} PROPERTIES ENVIRONMENT "WHIPPLE_TEST_DEVICE=emulated;OMP_NUM_THREADS=2" LABELS long)
 endfunction()
+
+# Stored states and the program that compares with them; registers and other compilers of the kernels.
+if(WHIPPLE_PYTHON)
+  add_test(NAME device_check COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/device_check.py $<TARGET_FILE:whipple>
+           $<TARGET_FILE:whipple-device-check> ${CMAKE_CXX_COMPILER} ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/device_check)
+  set_tests_properties(device_check PROPERTIES LABELS fast TIMEOUT 120)
+  if(WHIPPLE_HAS_CUDA)
+    add_test(NAME device_registers COMMAND ${WHIPPLE_PYTHON} ${PROJECT_SOURCE_DIR}/scripts/device_registers.py
+             ${PROJECT_BINARY_DIR}/src/device/gpu.log --check)
+    set_tests_properties(device_registers PROPERTIES LABELS fast)
+    find_program(WHIPPLE_CLANG NAMES clang++-19 clang++-18 clang++)
+    if(WHIPPLE_CLANG)
+      add_test(NAME device_clang COMMAND ${WHIPPLE_PYTHON} ${PROJECT_SOURCE_DIR}/scripts/device_clang.py ${WHIPPLE_CLANG}
+               ${whipple_cuda_folder} ${CMAKE_CURRENT_BINARY_DIR}/device_clang)
+      set_tests_properties(device_clang PROPERTIES LABELS long TIMEOUT 600)
+    endif()
+  endif()
+endif()
