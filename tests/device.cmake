@@ -12,3 +12,21 @@ string(CONCAT whipple_of_contact "Contact.ABlock*:Contact.BarsReboundAndPart:Con
 whipple_suite_on_device(contact test_solver ${whipple_of_contact})
 whipple_suite_on_device(walls test_solver WallContact.*-*EveryShapeFunction*:*AGasThatFills*:*StopsElements*)
 whipple_suite_on_device(exact test_exact ExactGas.*:ExactSolid.*:Of/ExactImpact.*:Of/ExactMelting.*-*Oblique*)
+
+# Stored states and the program that compares with them; registers and other compilers of the kernels.
+if(WHIPPLE_PYTHON)
+  add_test(NAME device_check COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/device_check.py $<TARGET_FILE:whipple>
+           $<TARGET_FILE:whipple-device-check> ${CMAKE_CXX_COMPILER} ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/device_check)
+  set_tests_properties(device_check PROPERTIES LABELS fast TIMEOUT 120)
+  if(WHIPPLE_HAS_CUDA)
+    add_test(NAME device_registers COMMAND ${WHIPPLE_PYTHON} ${PROJECT_SOURCE_DIR}/scripts/device_registers.py
+             ${PROJECT_BINARY_DIR}/src/device/gpu.log --check)
+    set_tests_properties(device_registers PROPERTIES LABELS fast)
+    find_program(WHIPPLE_CLANG NAMES clang++-19 clang++-18 clang++)
+    if(WHIPPLE_CLANG)
+      add_test(NAME device_clang COMMAND ${WHIPPLE_PYTHON} ${PROJECT_SOURCE_DIR}/scripts/device_clang.py ${WHIPPLE_CLANG}
+               ${whipple_cuda_folder} ${CMAKE_CURRENT_BINARY_DIR}/device_clang)
+      set_tests_properties(device_clang PROPERTIES LABELS long TIMEOUT 600)
+    endif()
+  endif()
+endif()
