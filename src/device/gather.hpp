@@ -17,6 +17,7 @@ struct LossConstants {
 };
 
 /// Moves the particle at a position of the order with its nodes; leaves its velocity gradient for the material.
+template <class Lattice>
 struct MoveParticles {
   Lattice lattice;
   Points points;
@@ -29,7 +30,7 @@ struct MoveParticles {
   WHIPPLE_POINT void operator()(std::size_t i) const {
     const std::uint32_t p = lattice.order[i];
     const std::int32_t* const nodes =
-        lattice.nodes_of_cell + static_cast<std::size_t>(cell_of_ordered[i]) * stencil_nodes;
+        lattice.nodes_of_cell + static_cast<std::size_t>(cell_of_ordered[i]) * Lattice::stencil_nodes;
     const Stress stress = stress_of(p);
     Sums sums = sum(p, nodes, stress);
     finish(p, sums, stress);
@@ -44,9 +45,10 @@ struct MoveParticles {
     Matrix column;
   };
   struct Sums {
-    Vector v{}, d{}, change{}, loss{};               ///< of N v', N d, N (d - beta D), N times the losses
+    Vector v{}, change{}, loss{};                    ///< of N v', N (d - beta D), N times the losses
     Matrix gradient_v{}, change_r{};                 ///< columns: of v' S^T, of (d - beta D) N r^T
     double power_of_d = 0.0, divergence_of_d = 0.0;  ///< of stress : d S^T, tr d S^T
+    double radial_d = 0.0;                           ///< of N d along the radius of rings, m/s
     double contact_heat = 0.0;
     double by_load = 0.0;  ///< power of the loads, W/kg
   };
@@ -58,7 +60,7 @@ struct MoveParticles {
   }
 
   WHIPPLE_POINT Sums sum(std::size_t p, const std::int32_t* nodes, const Stress& stress) const {
-    const StencilWeights weights = weights_at(lattice, points.vector(position, p), lattice.slope_smoothing);
+    const auto weights = weights_at(lattice, points.vector(position, p), lattice.slope_smoothing);
     const Vector velocity_ = points.vector(velocity, p);
     const Matrix c = points.columns(affine, p);
     Sums sums;
@@ -81,6 +83,7 @@ struct MoveParticles {
                                  at.gradient.z * stress.column[2],
                              d_i);
       sums.divergence_of_d += dot(at.gradient, d_i);
+      if constexpr (Lattice::planar) sums.radial_d += at.n * d_i.y;
       sums.contact_heat += at.n * node.n[7];
     });
     return sums;
@@ -106,6 +109,9 @@ struct MoveParticles {
     }
     loss += 0.5 * inertia * convect(c, sums.gradient_v, dt);
     for (std::uint32_t a = 0; a < 3; ++a) points.set(affine + 3 * a, p, c[a]);
+    if constexpr (Lattice::planar) {
+      if (lattice.has_rings) add_hoop(points.at(position + 1, p), sums, stress);
+    }
     const Matrix& l = sums.gradient_v;
     for (std::uint32_t a = 0; a < 3; ++a) {
       points.at(gradient + a, p) = l[a].x;
@@ -118,6 +124,14 @@ struct MoveParticles {
     book(p, loss, sums, stress);
   }
 
+  /// Adds the rate of the hoop, v_y / r, as dv_z/dz.
+  /// @param radius  of the ring before the step, m
+  static WHIPPLE_POINT void add_hoop(double radius, Sums& sums, const Stress& stress) {
+    const double of_d = sums.radial_d / radius;
+    sums.gradient_v[2].z += sums.v.y / radius;
+    sums.power_of_d += stress.column[2].z * of_d;
+    sums.divergence_of_d += of_d;
+  }
   /// Books the work of the stress (4.6) and divides the losses.
   WHIPPLE_POINT void book(std::size_t p, double loss, const Sums& sums, const Stress& stress) const {
     const Matrix& l = sums.gradient_v;
@@ -129,26 +143,26 @@ struct MoveParticles {
     const double volume_rate = divergence - 0.5 * sums.divergence_of_d;
     const double done = power * volume_and_time;
     const double by_viscosity = -points.at(artificial_viscosity, p) * volume_rate * volume_and_time;
-    const transfer::formulas::DividedLosses divided =
-        transfer::formulas::divide_losses({.heat_share = losses.heat_share,
-                                           .allowance_length = losses.allowance_length,
-                                           .collision_rate = losses.collision_rate,
-                                           .initial_density = initial_density[points.body[p]]},
-                                          {.mass = m,
-                                           .volume = points.at(volume, p),
-                                           .void_volume = points.at(void_volume, p),
-                                           .pressure = points.at(pressure, p),
-                                           .sound_speed = points.at(sound_speed, p),
-                                           .artificial_viscosity = points.at(artificial_viscosity, p),
-                                           .heating_viscosity = points.at(heating_viscosity, p),
-                                           .unresolved_energy = points.at(unresolved, p),
-                                           .heat_allowance = points.at(allowance, p),
-                                           .failed = points.at(failed, p) != 0.0},
-                                          {.loss = loss,
-                                           .contact = sums.contact_heat,
-                                           .viscous_work = by_viscosity / m,
-                                           .divergence = divergence,
-                                           .dt = dt});
+    const transfer::formulas::LossRates rates = {.heat_share = losses.heat_share,
+                                                 .allowance_length = losses.allowance_length,
+                                                 .collision_rate = losses.collision_rate,
+                                                 .initial_density = initial_density[points.body[p]]};
+    const transfer::formulas::LossyPoint point = {.mass = m,
+                                                  .volume = points.at(volume, p),
+                                                  .void_volume = points.at(void_volume, p),
+                                                  .pressure = points.at(pressure, p),
+                                                  .sound_speed = points.at(sound_speed, p),
+                                                  .artificial_viscosity = points.at(artificial_viscosity, p),
+                                                  .heating_viscosity = points.at(heating_viscosity, p),
+                                                  .unresolved_energy = points.at(unresolved, p),
+                                                  .heat_allowance = points.at(allowance, p),
+                                                  .failed = points.at(failed, p) != 0.0};
+    const transfer::formulas::LossyStep step = {.loss = loss,
+                                                .contact = sums.contact_heat,
+                                                .viscous_work = by_viscosity / m,
+                                                .divergence = divergence,
+                                                .dt = dt};
+    const transfer::formulas::DividedLosses divided = transfer::formulas::divide_losses(rates, point, step);
     points.at(unresolved, p) += divided.kept - divided.returned;
     points.at(allowance, p) = divided.allowance;
     points.at(closing_rate, p) = std::fmax(-divergence, 0.0);

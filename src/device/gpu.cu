@@ -8,7 +8,7 @@ namespace whipple::device {
 bool has_gpu_engine() { return true; }
 
 std::unique_ptr<Engine> gpu_engine(const Problem& problem, const PointsOnHost& points) {
-  return std::make_unique<Stepper<GpuSpace>>(problem, points);
+  return start<GpuSpace>(problem, points);
 }
 
 }  // namespace whipple::device

@@ -18,8 +18,9 @@
 /// What a device must know of a run, in numbers only.
 namespace whipple::device {
 
-/// Describes the run: the symplectic scheme in three dimensions with quadratic B-splines, affine fields and stores.
+/// Describes the run: the symplectic scheme with quadratic B-splines, affine fields and stores.
 struct Problem {
+  Dimension dimension = Dimension::space;
   double cell_size = 0.0;  ///< m
   Triple<double> lower{};  ///< m
   std::array<int, 3> cells{};
