@@ -4,7 +4,7 @@ whipple_test(test_device STARTS_MPI SOURCES verification/solver_device_test.cpp 
 # conduction, other schemes and shape functions, more than two bodies at a node, and affine fields that are only turned.
 function(whipple_suite_on_device name executable filter)
   add_test(NAME device.${name} COMMAND ${executable} --gtest_filter=${filter})
-  set_tests_properties(device.${name} PROPERTIES ENVIRONMENT "WHIPPLE_TEST_DEVICE=emulated;OMP_NUM_THREADS=2" LABELS long)
+  set_tests_properties(device.${name} PROPERTIES ENVIRONMENT "WHIPPLE_TEST_DEVICE=emulated;OMP_NUM_THREADS=1" LABELS long)
 endfunction()
 whipple_suite_on_device(gaps test_contact Gap.*:FirstTouch.*:Fields/Pressed.*-Gap.HeatFlows*:*Elements)
 string(CONCAT whipple_of_contact "Contact.ABlock*:Contact.BarsReboundAndPart:Contact.BodiesDoNotFeelOneAnotherBeforeTheyTouch:"
