@@ -20,7 +20,7 @@ if(WHIPPLE_PYTHON)
   set_tests_properties(device_check PROPERTIES LABELS fast TIMEOUT 120)
   if(WHIPPLE_HAS_CUDA)
     add_test(NAME device_registers COMMAND ${WHIPPLE_PYTHON} ${PROJECT_SOURCE_DIR}/scripts/device_registers.py
-             ${PROJECT_BINARY_DIR}/src/device/gpu.log --check)
+             ${PROJECT_BINARY_DIR}/src/device/gpu.log ${PROJECT_BINARY_DIR}/src/device/gpu_section.log --check)
     set_tests_properties(device_registers PROPERTIES LABELS fast)
     find_program(WHIPPLE_CLANG NAMES clang++-19 clang++-18 clang++)
     if(WHIPPLE_CLANG)
