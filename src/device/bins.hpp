@@ -10,6 +10,7 @@ namespace whipple::device {
 
 /// Computes the key of each particle, 64 times its block plus the place of the first node of its stencil there, and
 /// flags the blocks that it reaches.
+template <class Lattice>
 struct FindPlaces {
   Lattice lattice;
   Points points;
@@ -22,8 +23,8 @@ struct FindPlaces {
     const std::uint32_t field = field_of_body[points.body[p]];
     keys[p] = lattice.block_at(field, first) * block_nodes + Lattice::inside(first);
     order[p] = static_cast<std::uint32_t>(p);
-    constexpr int last = stencil_edge - 1;
-    for (int corner = 0; corner < 8; ++corner) {
+    constexpr int last = stencil_edge - 1, corners = Lattice::planar ? 4 : 8;
+    for (int corner = 0; corner < corners; ++corner) {
       const Place at = {first.x + ((corner & 1) != 0 ? last : 0), first.y + ((corner & 2) != 0 ? last : 0),
                         first.z + ((corner & 4) != 0 ? last : 0)};
       reached[lattice.block_at(field, at)] = 1;
@@ -52,6 +53,7 @@ struct FlagCells {
 };
 
 /// Gives numbers to the cells.
+template <class Lattice>
 struct NumberCells {
   Lattice lattice;
   const std::uint32_t *keys, *first, *before;
@@ -71,19 +73,20 @@ struct NumberCells {
 };
 
 /// Lists the nodes of each cell.
+template <class Lattice>
 struct ListNodes {
   Lattice lattice;
   const std::uint32_t* keys;
   std::int32_t* nodes_of_cell;
 
   WHIPPLE_POINT void operator()(std::size_t i) const {
-    const auto cell = static_cast<std::uint32_t>(i / stencil_nodes);
-    const int n = static_cast<int>(i % stencil_nodes);
+    const auto cell = static_cast<std::uint32_t>(i / Lattice::stencil_nodes);
+    const Place n = Lattice::in_stencil(static_cast<int>(i % Lattice::stencil_nodes));
     const std::uint32_t key = keys[lattice.cell_begin[cell]];
     const std::uint32_t slot = static_cast<std::uint32_t>(lattice.slot_of_block[key / block_nodes]);
     const Place first = lattice.place_of(slot * block_nodes + key % block_nodes);
-    nodes_of_cell[i] = lattice.node_at(lattice.field_of(slot * block_nodes),
-                                       {first.x + n / 9, first.y + n / 3 % 3, first.z + n % 3});
+    nodes_of_cell[i] =
+        lattice.node_at(lattice.field_of(slot * block_nodes), {first.x + n.x, first.y + n.y, first.z + n.z});
   }
 };
 

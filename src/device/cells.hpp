@@ -13,33 +13,24 @@
 namespace whipple::device {
 
 /// Keeps the lattice of a step: which blocks have nodes, and which particles are in which cell.
-template <class Space>
+template <class Space, class Lattice>
 class Cells {
  public:
   template <class T>
   using Array = typename Space::template Array<T>;
 
   /// @throws StateError if the domain has too many cells
-  explicit Cells(const Problem& problem) {
-    lattice_.cell_size = problem.cell_size;
-    lattice_.lower = problem.lower;
-    lattice_.cells = problem.cells;
-    for (std::size_t a = 0; a < 3; ++a) {
-      lattice_.blocks[a] = (problem.cells[a] + block_edge - 1) / block_edge + 2;
-    }
-    lattice_.mirrors = problem.mirrors;
-    lattice_.slope_smoothing = problem.slope_smoothing;
-    lattice_.fields = problem.fields;
-    double places = problem.fields * static_cast<double>(block_nodes);
-    for (const int blocks : lattice_.blocks) places *= blocks;
-    if (places >= 4294967296.0) throw StateError("the domain has too many cells for the device");
+  explicit Cells(const Problem& problem) : lattice_(lattice_of<Lattice>(problem)) {
+    if (has_too_many_cells(problem)) throw StateError("the domain has too many cells for the device");
     reached_.reserve(blocks());
     slot_of_block_.reserve(blocks());
   }
 
   [[nodiscard]] const Lattice& lattice() const { return lattice_; }
   [[nodiscard]] std::size_t nodes() const { return std::size_t{lattice_.slots} * block_nodes; }
-  [[nodiscard]] std::size_t stencils() const { return std::size_t{lattice_.stencil_cells} * stencil_nodes; }
+  [[nodiscard]] std::size_t stencils() const {
+    return std::size_t{lattice_.stencil_cells} * Lattice::stencil_nodes;
+  }
   [[nodiscard]] const std::uint32_t* cell_of_ordered() { return cell_of_ordered_.data(); }
   [[nodiscard]] Node* sums() { return sums_.data(); }
 
@@ -52,8 +43,8 @@ class Cells {
     for (Array<std::uint32_t>* of : {&keys_, &order_, &first_, &cell_of_ordered_}) of->reserve(n);
     before_.reserve(std::max(blocks(), n));
     space.for_each(blocks(), Fill<std::uint32_t>{reached_.data(), 0});
-    space.for_each(n,
-                   FindPlaces{lattice_, points, field_of_body, keys_.data(), order_.data(), reached_.data()});
+    space.for_each(n, FindPlaces<Lattice>{lattice_, points, field_of_body, keys_.data(), order_.data(),
+                                          reached_.data()});
     lattice_.slots = space.scan(reached_.data(), before_.data(), blocks());
     block_of_slot_.reserve(lattice_.slots);
     space.for_each(
@@ -89,10 +80,11 @@ class Cells {
     lattice_.cell_begin = cell_begin_.data();
     lattice_.nodes_of_cell = nodes_of_cell_.data();
     lattice_.order = order_.data();
-    space.for_each(n, NumberCells{lattice_, keys_.data(), first_.data(), before_.data(), cell_begin_.data(),
-                                  cell_at_node_.data(), cell_of_ordered_.data()});
+    space.for_each(
+        n, NumberCells<Lattice>{lattice_, keys_.data(), first_.data(), before_.data(), cell_begin_.data(),
+                                cell_at_node_.data(), cell_of_ordered_.data()});
     space.for_each(1, Fill<std::uint32_t>{cell_begin_.data() + cells, static_cast<std::uint32_t>(n)});
-    space.for_each(stencils(), ListNodes{lattice_, keys_.data(), nodes_of_cell_.data()});
+    space.for_each(stencils(), ListNodes<Lattice>{lattice_, keys_.data(), nodes_of_cell_.data()});
   }
 
   Lattice lattice_;

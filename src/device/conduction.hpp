@@ -47,19 +47,19 @@ struct AnyConducts {
 };
 
 /// Sums C, C T and C chi of the particles of a cell at one of its nodes; C is the heat capacity.
+template <class Lattice>
 struct SumCapacity {
   Lattice lattice;
   Exchange exchange;
   Node* sums;
 
   WHIPPLE_POINT void operator()(std::size_t i) const {
-    const std::size_t cell = i / stencil_nodes;
-    const int n = static_cast<int>(i % stencil_nodes);
+    const std::size_t cell = i / Lattice::stencil_nodes;
+    const Place n = Lattice::in_stencil(static_cast<int>(i % Lattice::stencil_nodes));
     Node sum{};
     for (std::uint32_t k = lattice.cell_begin[cell]; k < lattice.cell_begin[cell + 1]; ++k) {
       const std::uint32_t p = lattice.order[k];
-      const StencilWeights w = weights_at(lattice, exchange.points.vector(position, p), 0.0);
-      const double weight = seen(w, n / 9, n / 3 % 3, n % 3).n;
+      const double weight = seen(weights_at(lattice, exchange.points.vector(position, p), 0.0), n).n;
       const double capacity = weight * exchange.points.at(mass, p) * exchange.body_of(p).heat_capacity;
       sum.n[0] += capacity;
       sum.n[1] += capacity * exchange.points.at(temperature, p);
@@ -70,6 +70,7 @@ struct SumCapacity {
 };
 
 /// Adds the capacities beyond a mirror plane to their images.
+template <class Lattice>
 struct FoldCapacity {
   Lattice lattice;
   Plane plane;
@@ -95,6 +96,7 @@ struct ShareOfNode {
   }
 };
 /// Lets the nodes beyond a mirror plane have what their images have.
+template <class Lattice>
 struct CopyShares {
   Lattice lattice;
   Plane plane;
@@ -107,6 +109,7 @@ struct CopyShares {
 };
 
 /// Adds to the energy of the particle at a position of the order what its nodes give (eq. 9); sums what particles gain, J.
+template <class Lattice>
 struct ExchangeHeat {
   using Result = Reduction<1, 0>;
   Lattice lattice;
@@ -116,7 +119,7 @@ struct ExchangeHeat {
   WHIPPLE_POINT void operator()(std::size_t i, Result& result) const {
     const std::uint32_t p = lattice.order[i];
     const std::int32_t* const nodes =
-        lattice.nodes_of_cell + static_cast<std::size_t>(cell_of_ordered[i]) * stencil_nodes;
+        lattice.nodes_of_cell + static_cast<std::size_t>(cell_of_ordered[i]) * Lattice::stencil_nodes;
     double weighted = 0.0, share = 0.0;
     const Points& points = exchange.points;
     for_each_seen(weights_at(lattice, points.vector(position, p), 0.0), [&](int n, const SeenNode& at) {

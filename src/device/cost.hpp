@@ -21,6 +21,11 @@ struct StepSize {
   bool reflects = false;  ///< mirror planes or walls: the sums before folding are kept
   std::uint32_t fields = 1;
   bool conducts = false;  ///< shock conduction is on
+  bool planar = false;    ///< a section: stencils of 9 nodes
+
+  [[nodiscard]] constexpr double stencil() const {
+    return planar ? SectionLattice::stencil_nodes : SpaceLattice::stencil_nodes;
+  }
 };
 
 /// Cost of a stage of the step, per particle.
@@ -32,14 +37,13 @@ struct StageCost {
 
 namespace cost {
 
-constexpr double number = sizeof(double), index = sizeof(std::uint32_t), node = sizeof(Node),
-                 stencil = stencil_nodes;
+constexpr double number = sizeof(double), index = sizeof(std::uint32_t), node = sizeof(Node);
 
 /// Flops of factorised sums over the nodes of a stencil (bench::stage_cost): `inner` multiply-adds of vectors of four per
 /// node, `row` per row of nodes, and the weights.
-constexpr double sums(double inner, double row) {
+constexpr double sums(double stencil, double inner, double row) {
   constexpr double n = stencil_edge, multiply_add = 8.0, weights = 15.0;
-  return multiply_add * (n * n * n * inner + n * n * row) + 3.0 * n * weights;
+  return multiply_add * (stencil * inner + stencil / n * row) + 3.0 * n * weights;
 }
 
 // Numbers of a particle.
@@ -53,7 +57,8 @@ constexpr double sort_passes = 4.0, steps_of_sort = 20.0;
 /// they concern, and are not counted.
 inline StageCost cost_of(Stage stage, const StepSize& size) {
   using namespace cost;
-  const double nodes = size.slots * block_nodes / size.particles, cells = size.cells / size.particles;
+  const double nodes = size.slots * block_nodes / size.particles, cells = size.cells / size.particles,
+               stencil = size.stencil();
   switch (stage) {
     case Stage::bins: {
       constexpr double components = state_components;
@@ -71,7 +76,7 @@ inline StageCost cost_of(Stage stage, const StepSize& size) {
       const double read = motion + stress + 2.0 * number + index, brought = size.reflects ? 2.0 : 0.0;
       // The sums of each cell are written and read again; each node is written once more.
       return {read + 2.0 * node * nodes, read + 2.0 * node * stencil * cells + (1.0 + brought) * node * nodes,
-              sums(4.0, 9.0)};
+              sums(stencil, 4.0, 9.0)};
     }
     case Stage::grid:
       return {2.0 * node * nodes, 2.0 * node * nodes, 40.0 * nodes};
@@ -79,7 +84,7 @@ inline StageCost cost_of(Stage stage, const StepSize& size) {
       const double read = motion + stress + 9.0 * number + 3.0 * index;
       const double written = motion + 9.0 * number + 10.0 * number;  // L; stores, energy and sums
       return {read + written + node * nodes, read + written + node * nodes + stencil * index * cells,
-              sums(11.0, 16.0)};
+              sums(stencil, 11.0, 16.0)};
     }
     case Stage::material: {
       constexpr double state = 26.0 * number, gradients = 12.0 * number, results = 5.0 * number;
@@ -127,7 +132,7 @@ inline MemoryNeed memory_need(const StepSize& size) {
   const double per_slot =
       reserve * block_nodes *
       (node + index + (size.reflects ? node : 0.0) + 2.0 * index + (contact ? sizeof(ContactRole) : 0.0));
-  const double per_cell = reserve * (stencil * (node + index) + index);
+  const double per_cell = reserve * (size.stencil() * (node + index) + index);
   const double per_block = reserve * 3.0 * index;
   return {per_particle, per_slot, per_cell, per_block,
           per_particle * size.particles + per_slot * size.slots + per_cell * size.cells +

@@ -25,6 +25,7 @@ struct DomainLimits {
   double parted = 0.0;       ///< lambda of (2.8), m^2
   double generations = 0.0;  ///< that a particle may have at most
   bool divides_all = false;  ///< not only fluids
+  bool planar = false;       ///< two dimensions: only the section of a domain with the plane counts
 };
 
 using Moments = material::formulas::Symmetric<double>;
@@ -94,6 +95,11 @@ WHIPPLE_POINT inline Principal principal_of(const Moments& e) {
   }
   return all;
 }
+/// Computes those of a domain, in two dimensions those of its section with the plane.
+WHIPPLE_POINT inline Principal principal_of_domain(Moments e, bool planar) {
+  if (planar) e.zz = e.yz = e.zx = 0.0;
+  return principal_of(e);
+}
 
 /// Returns whether a particle is a fluid that fills its volume (is_filling_fluid).
 WHIPPLE_POINT inline bool fills(const Points& points, Fluidity fluidity, std::size_t p) {
@@ -114,7 +120,7 @@ struct HoldBackPressure {
     const Moments e = points.symmetric(extent, p);
     const bool thin = points.at(mass, p) < 0.5 * body.initial_density * points.at(volume, p);
     if (largest_at_most(e) <= limits.parted || !thin || !fills(points, body.fluidity, p)) return;
-    const Principal principal = principal_of(e);
+    const Principal principal = principal_of_domain(e, limits.planar);
     Moments parting{};  // I - S
     bool any = false;
     for (int a = 0; a < 3; ++a) {
@@ -152,7 +158,7 @@ struct AnyTooLong {
     const bool intact = points.at(failed, p) == 0.0;
     const bool continuous = fills(points, body.fluidity, p) && (intact || points.at(vaporised, p) > 0.5);
     if (!continuous && !(limits.divides_all && intact)) return;
-    const Principal principal = principal_of(e);
+    const Principal principal = principal_of_domain(e, limits.planar);
     double square = principal.value[0];  // no index at run time, which would put them into memory
     Triple<double> n = principal.direction[0];
     for (int a = 1; a < 3; ++a) {
@@ -164,9 +170,9 @@ struct AnyTooLong {
     const double half = 0.5 * std::sqrt(square);
     const Triple<double> reach = {half * std::fabs(n.x), half * std::fabs(n.y), half * std::fabs(n.z)};
     const Triple<double> x = points.vector(position, p), low = x - reach, high = x + reach;
-    const bool inside = low.x > lower.x && low.y > lower.y && low.z > lower.z && high.x < upper.x &&
-                        high.y < upper.y && high.z < upper.z;
-    if (inside) result.raise(0, 1.0);
+    const bool inside = low.x > lower.x && low.y > lower.y && high.x < upper.x && high.y < upper.y;
+    const bool inside_z = limits.planar || (low.z > lower.z && high.z < upper.z);
+    if (inside && inside_z) result.raise(0, 1.0);
   }
 };
 

@@ -6,7 +6,7 @@
 namespace whipple::device {
 
 std::unique_ptr<Engine> emulated_engine(const Problem& problem, const PointsOnHost& points) {
-  return std::make_unique<Stepper<HostSpace>>(problem, points);
+  return start<HostSpace>(problem, points);
 }
 
 }  // namespace whipple::device

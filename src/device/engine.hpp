@@ -45,6 +45,7 @@ struct Outcome {
   EndOfStep sums;                         ///< totals at its end, contributions, bounds of the next step
   double conducted_heat = 0.0;            ///< J
   std::array<double, 3> plane_impulse{};  ///< by mirror planes on nodes, N s
+  double hoop_impulse = 0.0;              ///< of hoop stresses on nodes, along the radius, N s
   /// Heat of contact and of friction (J), their impulses (N s), number of places that more than two fields reach.
   std::array<double, 5> contact{};
   Triple<double> crowded_at{};                      ///< one of these places, m

@@ -12,27 +12,29 @@
 namespace whipple::device {
 
 /// Sums the volumes of the particles of a cell, with their voids, at one of its nodes, in volumes of a cell.
+template <class Lattice>
 struct SumVolumes {
   Lattice lattice;
   Points points;
   Node* sums;
 
   WHIPPLE_POINT void operator()(std::size_t i) const {
-    const std::size_t cell = i / stencil_nodes;
-    const int n = static_cast<int>(i % stencil_nodes);
-    const double per_cell = 1.0 / (lattice.cell_size * lattice.cell_size * lattice.cell_size);
+    const std::size_t cell = i / Lattice::stencil_nodes;
+    const Place n = Lattice::in_stencil(static_cast<int>(i % Lattice::stencil_nodes));
+    const double per_cell = 1.0 / lattice.cell_in_section();
     Node sum{};
     for (std::uint32_t k = lattice.cell_begin[cell]; k < lattice.cell_begin[cell + 1]; ++k) {
       const std::uint32_t p = lattice.order[k];
-      const StencilWeights w = weights_at(lattice, points.vector(position, p), 0.0);
-      const double weight = seen(w, n / 9, n / 3 % 3, n % 3).n;
-      sum.n[0] += weight * per_cell * (points.at(volume, p) + points.at(void_volume, p));
+      const Triple<double> x = points.vector(position, p);
+      const double size = lattice.size_in_section(points.at(volume, p) + points.at(void_volume, p), x.y);
+      sum.n[0] += seen(weights_at(lattice, x, 0.0), n).n * per_cell * size;
     }
     sums[i] = sum;
   }
 };
 
 /// Adds at the nodes next to a reflecting face what is beyond it; the image brings as much again to the nodes on it.
+template <class Lattice>
 struct FoldVolumes {
   Lattice lattice;
   int face;
@@ -49,6 +51,7 @@ struct FoldVolumes {
 };
 
 /// Sets n[1] to the sum of all fields at the place of a node, or at that of its image.
+template <class Lattice>
 struct JoinVolumes {
   Lattice lattice;
   std::uint32_t reflecting;  ///< faces, one bit each
@@ -68,6 +71,7 @@ struct JoinVolumes {
 };
 
 /// Sums the mass (kg) of intact particles under high pressure in cells that are not filled.
+template <class Lattice>
 struct MassBesideVoids {
   using Result = Reduction<1, 0>;
   Lattice lattice;
@@ -82,7 +86,7 @@ struct MassBesideVoids {
     if (points.at(failed, p) != 0.0 || !(points.at(pressure, p) * points.at(volume, p) > strong * m * c * c))
       return;
     const std::int32_t* const nodes =
-        lattice.nodes_of_cell + static_cast<std::size_t>(cell_of_ordered[i]) * stencil_nodes;
+        lattice.nodes_of_cell + static_cast<std::size_t>(cell_of_ordered[i]) * Lattice::stencil_nodes;
     double fill = 0.0;
     for_each_seen(weights_at(lattice, points.vector(position, p), 0.0),
                   [&](int n, const SeenNode& at) { fill += at.n * lattice.nodes[nodes[n]].n[1]; });

@@ -17,6 +17,7 @@ struct LossConstants {
 };
 
 /// Moves the particle at a position of the order with its nodes; leaves its velocity gradient for the material.
+template <class Lattice>
 struct MoveParticles {
   Lattice lattice;
   Points points;
@@ -29,7 +30,7 @@ struct MoveParticles {
   WHIPPLE_POINT void operator()(std::size_t i) const {
     const std::uint32_t p = lattice.order[i];
     const std::int32_t* const nodes =
-        lattice.nodes_of_cell + static_cast<std::size_t>(cell_of_ordered[i]) * stencil_nodes;
+        lattice.nodes_of_cell + static_cast<std::size_t>(cell_of_ordered[i]) * Lattice::stencil_nodes;
     // The nodes are visited twice: fewer sums and weights live at a time, which registers can hold.
     const Flow flow = strain(p, nodes);
     finish(p, flow, change(p, nodes));
@@ -66,11 +67,12 @@ struct MoveParticles {
 
   /// Sums motion and velocity gradient, and stores the gradient.
   WHIPPLE_POINT Flow strain(std::size_t p, const std::int32_t* nodes) const {
-    const StencilWeights weights = weights_at(lattice, points.vector(position, p), lattice.slope_smoothing);
+    const auto weights = weights_at(lattice, points.vector(position, p), lattice.slope_smoothing);
     const Stress stress = stress_of(p);
     Flow flow;
     Matrix l{};                                      // columns: of v' S^T
     double power_of_d = 0.0, divergence_of_d = 0.0;  // of stress : d S^T, tr d S^T
+    double radial_d = 0.0;                           // of N d along the radius of rings, m/s
     for_each_seen(weights, [&](int n, const SeenNode& at) {
       const Node& node = lattice.nodes[nodes[n]];
       const Vector d_i = node.increment(), after = node.velocity() + d_i;
@@ -80,9 +82,18 @@ struct MoveParticles {
                             at.gradient.z * stress.column[2],
                         d_i);
       divergence_of_d += dot(at.gradient, d_i);
+      if constexpr (Lattice::planar) radial_d += at.n * d_i.y;
       flow.contact_heat += at.n * node.n[7];
       flow.by_load += at.n * dot(acceleration, after - 0.5 * d_i);
     });
+    if constexpr (Lattice::planar) {
+      if (lattice.has_rings) {  // the rate of the hoop, v_y / r, is dv_z/dz
+        const double radius = points.at(position + 1, p), of_d = radial_d / radius;
+        l[2].z += flow.v.y / radius;
+        power_of_d += stress.column[2].z * of_d;
+        divergence_of_d += of_d;
+      }
+    }
     // The mean of old and new grid velocity makes the exact work identity.
     flow.power = dot(stress.column[0], l[0]) + dot(stress.column[1], l[1]) + dot(stress.column[2], l[2]) -
                  0.5 * power_of_d;
@@ -97,7 +108,7 @@ struct MoveParticles {
   }
 
   WHIPPLE_POINT Changes change(std::size_t p, const std::int32_t* nodes) const {
-    const StencilWeights weights = weights_at(lattice, points.vector(position, p), lattice.slope_smoothing);
+    const auto weights = weights_at(lattice, points.vector(position, p), lattice.slope_smoothing);
     const Vector velocity_ = points.vector(velocity, p);
     const Matrix c = points.columns(affine, p);
     Changes sums;
@@ -136,6 +147,7 @@ struct MoveParticles {
       c[a] += Vector{x.field, y.field, z.field};
       l[a] = {points.at(gradient + a, p), points.at(gradient + 3 + a, p), points.at(gradient + 6 + a, p)};
     }
+    if constexpr (Lattice::planar) l[2] = {};  // hoops do not carry the field
     loss += 0.5 * inertia * convect(c, l, dt);
     for (std::uint32_t a = 0; a < 3; ++a) points.set(affine + 3 * a, p, c[a]);
     points.set(velocity, p, points.vector(velocity, p) + sums.change);

@@ -21,7 +21,7 @@ Rates card_rates() {
 }
 
 std::unique_ptr<Engine> gpu_engine(const Problem& problem, const PointsOnHost& points) {
-  return std::make_unique<Stepper<GpuSpace>>(problem, points);
+  return start<GpuSpace>(problem, points);
 }
 
 }  // namespace whipple::device

@@ -24,6 +24,7 @@ struct Plane {
   }
   /// Returns the node of the same field at the mirror place of one that lies `inside` cells inside of the plane, or
   /// nowhere; also where the field is not one with its image.
+  template <class Lattice>
   [[nodiscard]] WHIPPLE_POINT std::int32_t mirror_of(const Lattice& lattice, std::uint32_t node,
                                                      int inside) const {
     const Place at = lattice.place_of(node);
@@ -33,6 +34,7 @@ struct Plane {
     return lattice.node_at(field, lattice.mirrored(face, at));
   }
 };
+template <class Lattice>
 WHIPPLE_POINT inline Plane plane_of(const Lattice& lattice, int face) {
   return {face, lattice.mirrors[static_cast<std::size_t>(face)].reverses_all};
 }
@@ -42,6 +44,7 @@ WHIPPLE_POINT inline Triple<double> by_component(const Triple<double>& a, const 
 }
 
 /// Adds the sums of the nodes beyond a plane, with the reflected vectors, to their images.
+template <class Lattice>
 struct FoldMirror {
   Lattice lattice;
   Plane plane;
@@ -65,6 +68,7 @@ struct FoldMirror {
 };
 
 /// Sets the components that the image reverses to zero on a plane.
+template <class Lattice>
 struct RestrictToMirror {
   Lattice lattice;
   Plane plane;
@@ -80,6 +84,7 @@ struct RestrictToMirror {
 };
 
 /// Solves m dv/dt = f (3.4): sums before, motion after. Nodes beyond mirror planes are set to zero.
+template <class Lattice>
 struct SolveMomentum {
   Lattice lattice;
   double dt;
@@ -113,6 +118,7 @@ struct ClearHeat {
 };
 
 /// Sets the motion beyond a plane to the reflected one.
+template <class Lattice>
 struct CopyMirror {
   Lattice lattice;
   Plane plane;
@@ -131,6 +137,7 @@ struct CopyMirror {
 };
 
 /// Sums the momentum (N s) that planes and contact gave to the particles at the nodes near mirror planes (3.6).
+template <class Lattice>
 struct ImpulseAtMirrors {
   using Result = Reduction<3, 0>;
   Lattice lattice;

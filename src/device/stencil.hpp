@@ -12,6 +12,8 @@
 namespace whipple::device {
 
 /// Holds the weights of the three directions.
+/// @tparam edge_z  nodes along z
+template <int edge_z>
 struct StencilWeights {
   transfer::AxisWeights<stencil_edge> x, y, z;
 };
@@ -29,28 +31,41 @@ struct SeenNode {
 };
 
 /// Returns the weights of a particle.
-/// @param smoothing  of the slopes
-WHIPPLE_POINT inline StencilWeights weights_at(const Lattice& lattice, const Triple<double>& position,
-                                               double smoothing) {
+/// @param smoothing  of the slopes; along the radius of rings these are the derivatives of N (transfer::Cells)
+template <class Lattice>
+WHIPPLE_POINT inline StencilWeights<Lattice::stencil_edge_z> weights_at(const Lattice& lattice,
+                                                                        const Triple<double>& position,
+                                                                        double smoothing) {
   const Triple<double> at = lattice.in_cells(position);
   const Place first = Lattice::first_node(at);
   using transfer::formulas::quadratic_weights;
-  return {quadratic_weights<double>(at.x - first.x, lattice.cell_size, smoothing),
-          quadratic_weights<double>(at.y - first.y, lattice.cell_size, smoothing),
-          quadratic_weights<double>(at.z - first.z, lattice.cell_size, smoothing)};
+  if constexpr (Lattice::planar) {
+    return {quadratic_weights<double>(at.x - first.x, lattice.cell_size, smoothing),
+            quadratic_weights<double>(at.y - first.y, lattice.cell_size, lattice.has_rings ? 0.0 : smoothing),
+            {{1.0, 0.0, 0.0}, {}, {}}};
+  } else {
+    return {quadratic_weights<double>(at.x - first.x, lattice.cell_size, smoothing),
+            quadratic_weights<double>(at.y - first.y, lattice.cell_size, smoothing),
+            quadratic_weights<double>(at.z - first.z, lattice.cell_size, smoothing)};
+  }
 }
 
 /// Returns node (i, j, k) of a stencil.
-WHIPPLE_POINT inline SeenNode seen(const StencilWeights& w, int i, int j, int k) {
+template <int edge_z>
+WHIPPLE_POINT inline SeenNode seen(const StencilWeights<edge_z>& w, int i, int j, int k) {
   const double x = pick(w.x.weight, i), y = pick(w.y.weight, j), z = pick(w.z.weight, k);
   return {x * y * z,
           {pick(w.x.derivative, i) * y * z, x * pick(w.y.derivative, j) * z, x * y * pick(w.z.derivative, k)},
           {pick(w.x.distance, i), pick(w.y.distance, j), pick(w.z.distance, k)}};
 }
+template <int edge_z>
+WHIPPLE_POINT inline SeenNode seen(const StencilWeights<edge_z>& w, const Place& at) {
+  return seen(w, at.x, at.y, at.z);
+}
 
 /// Calls f(number in the stencil, node as the particle sees it) for all nodes, z fastest.
-template <class Function>
-WHIPPLE_POINT inline void for_each_seen(const StencilWeights& w, Function&& f) {
+template <int edge_z, class Function>
+WHIPPLE_POINT inline void for_each_seen(const StencilWeights<edge_z>& w, Function&& f) {
 #ifdef __CUDA_ARCH__
 #pragma unroll 1
 #endif
@@ -62,7 +77,7 @@ WHIPPLE_POINT inline void for_each_seen(const StencilWeights& w, Function&& f) {
 #ifdef __CUDA_ARCH__
 #pragma unroll
 #endif
-      for (int k = 0; k < stencil_edge; ++k) f((i * stencil_edge + j) * stencil_edge + k, seen(w, i, j, k));
+      for (int k = 0; k < edge_z; ++k) f((i * stencil_edge + j) * edge_z + k, seen(w, i, j, k));
     }
   }
 }

@@ -24,7 +24,8 @@ namespace whipple::device {
 
 /// Steps the particles with the kernels of a space: HostSpace, or that of a graphics processor. The order of the kernels
 /// is that of solver::step_symplectic (docs/theory/mpm.md, 4).
-template <class Space>
+/// @tparam Lattice  SpaceLattice, or SectionLattice in two dimensions
+template <class Space, class Lattice>
 class Stepper final : public Engine {
  public:
   Stepper(const Problem& problem, const PointsOnHost& points)
@@ -48,6 +49,10 @@ class Stepper final : public Engine {
     if (input.looks_at_fill) look_at_fill();
     timed(Stage::conduction, [&] { conduct(dt); });
     timed(Stage::scatter, [&] { scatter(input.acceleration); });
+    if (lattice().has_rings) {
+      const double force = space_.reduce(store_.points().size, SumHoopForce{store_.points()}).sum[0];
+      outcome_.hoop_impulse = -dt * force;
+    }
     timed(Stage::contact,
           [&] { contact_.find(space_, lattice(), store_.points(), dt, input.least_closing_speed); });
     timed(Stage::grid, [&] { solve_momentum(dt); });
@@ -124,12 +129,12 @@ class Stepper final : public Engine {
 
   [[nodiscard]] const Lattice& lattice() const { return cells_.lattice(); }
   /// Calls a kernel of nodes for each mirror plane.
-  template <class Kernel>
+  template <template <class> class Kernel>
   void at_mirrors(bool reverse = false) {
     for (int n = 0; n < 6; ++n) {
       const int face = reverse ? 5 - n : n;
       if (!lattice().mirrors[static_cast<std::size_t>(face)].active) continue;
-      space_.for_each(cells_.nodes(), Kernel{lattice(), plane_of(lattice(), face)});
+      space_.for_each(cells_.nodes(), Kernel<Lattice>{lattice(), plane_of(lattice(), face)});
     }
   }
   [[nodiscard]] EndStep ends() const {
@@ -156,20 +161,21 @@ class Stepper final : public Engine {
   }
 
   void look_at_fill() {
-    space_.for_each(cells_.stencils(), SumVolumes{lattice(), store_.points(), cells_.sums()});
-    space_.for_each(cells_.nodes(), SumNodes{lattice(), cells_.sums(), lattice().nodes});
+    space_.for_each(cells_.stencils(), SumVolumes<Lattice>{lattice(), store_.points(), cells_.sums()});
+    space_.for_each(cells_.nodes(), SumNodes<Lattice>{lattice(), cells_.sums(), lattice().nodes});
     for (int face = 0; face < 6; ++face) {
-      if ((reflecting_ >> face & 1U) != 0) space_.for_each(cells_.nodes(), FoldVolumes{lattice(), face});
+      if ((reflecting_ >> face & 1U) != 0)
+        space_.for_each(cells_.nodes(), FoldVolumes<Lattice>{lattice(), face});
     }
-    space_.for_each(cells_.nodes(), JoinVolumes{lattice(), reflecting_});
-    outcome_.beside_voids =
-        space_
-            .reduce(store_.points().size, MassBesideVoids{.lattice = lattice(),
-                                                          .points = store_.points(),
-                                                          .cell_of_ordered = cells_.cell_of_ordered(),
-                                                          .strong = problem_.strong_pressure,
-                                                          .filled = problem_.filled})
-            .sum[0];
+    space_.for_each(cells_.nodes(), JoinVolumes<Lattice>{lattice(), reflecting_});
+    outcome_.beside_voids = space_
+                                .reduce(store_.points().size,
+                                        MassBesideVoids<Lattice>{.lattice = lattice(),
+                                                                 .points = store_.points(),
+                                                                 .cell_of_ordered = cells_.cell_of_ordered(),
+                                                                 .strong = problem_.strong_pressure,
+                                                                 .filled = problem_.filled})
+                                .sum[0];
   }
 
   void conduct(double dt) {
@@ -184,18 +190,19 @@ class Stepper final : public Engine {
                                .onset = problem_.conduction_onset,
                                .rise = problem_.conduction_rise};
     if (!(space_.reduce(size, AnyConducts{exchange}).largest[0] > 0.0)) return;
-    space_.for_each(cells_.stencils(), SumCapacity{lattice(), exchange, cells_.sums()});
-    space_.for_each(cells_.nodes(), SumNodes{lattice(), cells_.sums(), lattice().nodes});
+    space_.for_each(cells_.stencils(), SumCapacity<Lattice>{lattice(), exchange, cells_.sums()});
+    space_.for_each(cells_.nodes(), SumNodes<Lattice>{lattice(), cells_.sums(), lattice().nodes});
     at_mirrors<FoldCapacity>();
     space_.for_each(cells_.nodes(), ShareOfNode{lattice().nodes});
     at_mirrors<CopyShares>(true);
     outcome_.conducted_heat =
-        space_.reduce(size, ExchangeHeat{lattice(), exchange, cells_.cell_of_ordered()}).sum[0];
+        space_.reduce(size, ExchangeHeat<Lattice>{lattice(), exchange, cells_.cell_of_ordered()}).sum[0];
   }
 
   void scatter(const Triple<double>& acceleration) {
-    space_.for_each(cells_.stencils(), SumCells{lattice(), store_.points(), acceleration, cells_.sums()});
-    space_.for_each(cells_.nodes(), SumNodes{lattice(), cells_.sums(), lattice().nodes});
+    space_.for_each(cells_.stencils(),
+                    SumCells<Lattice>{lattice(), store_.points(), acceleration, cells_.sums()});
+    space_.for_each(cells_.nodes(), SumNodes<Lattice>{lattice(), cells_.sums(), lattice().nodes});
     if (reflecting_ == 0) return;
     brought_.reserve(cells_.nodes());
     space_.for_each(cells_.nodes(), Copy<Node>{lattice().nodes, brought_.data()});
@@ -204,29 +211,30 @@ class Stepper final : public Engine {
   void solve_momentum(double dt) {
     at_mirrors<FoldMirror>();
     at_mirrors<RestrictToMirror>();
-    space_.for_each(cells_.nodes(), SolveMomentum{.lattice = lattice(),
-                                                  .dt = dt,
-                                                  .rate = problem_.kappa * dt / problem_.cell_size,
-                                                  .role = contact_.roles(),
-                                                  .keeps_all_masses = contact_.meets_images()});
+    space_.for_each(cells_.nodes(), SolveMomentum<Lattice>{.lattice = lattice(),
+                                                           .dt = dt,
+                                                           .rate = problem_.kappa * dt / problem_.cell_size,
+                                                           .role = contact_.roles(),
+                                                           .keeps_all_masses = contact_.meets_images()});
   }
 
   void copy_mirrors(double dt) {
     if (reflecting_ == 0) return;
     at_mirrors<CopyMirror>(true);
     outcome_.plane_impulse =
-        space_.reduce(cells_.nodes(), ImpulseAtMirrors{lattice(), brought_.data(), dt, reflecting_}).sum;
+        space_.reduce(cells_.nodes(), ImpulseAtMirrors<Lattice>{lattice(), brought_.data(), dt, reflecting_})
+            .sum;
     outcome_.wall_heat = contact_.heat_of_images(space_, lattice(), brought_.data());
   }
 
   void move(const StepInput& input) {
-    space_.for_each(store_.points().size, MoveParticles{.lattice = lattice(),
-                                                        .points = store_.points(),
-                                                        .cell_of_ordered = cells_.cell_of_ordered(),
-                                                        .initial_density = initial_density_.data(),
-                                                        .losses = problem_.losses,
-                                                        .acceleration = input.acceleration,
-                                                        .dt = input.dt});
+    space_.for_each(store_.points().size, MoveParticles<Lattice>{.lattice = lattice(),
+                                                                 .points = store_.points(),
+                                                                 .cell_of_ordered = cells_.cell_of_ordered(),
+                                                                 .initial_density = initial_density_.data(),
+                                                                 .losses = problem_.losses,
+                                                                 .acceleration = input.acceleration,
+                                                                 .dt = input.dt});
   }
 
   [[nodiscard]] bool follows_domains() const {
@@ -258,8 +266,8 @@ class Stepper final : public Engine {
 
   Problem problem_;
   Space space_;
-  Cells<Space> cells_;
-  Contact<Space> contact_;
+  Cells<Space, Lattice> cells_;
+  Contact<Space, Lattice> contact_;
   Store<Space> store_;
   Outcome outcome_;
   bool measures_ = false;
@@ -273,5 +281,14 @@ class Stepper final : public Engine {
   Array<MaterialConstants> materials_;
   Array<Node> brought_;  // sums of the particles before folding
 };
+
+/// Starts in a space, with the grid of the dimensions of the problem.
+template <class Space>
+std::unique_ptr<Engine> start(const Problem& problem, const PointsOnHost& points) {
+  if (problem.dimension == Dimension::space) {
+    return std::make_unique<Stepper<Space, SpaceLattice>>(problem, points);
+  }
+  return std::make_unique<Stepper<Space, SectionLattice>>(problem, points);
+}
 
 }  // namespace whipple::device

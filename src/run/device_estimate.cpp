@@ -24,44 +24,35 @@ std::size_t count_different(std::vector<std::uint64_t>& keys) {
 }
 
 /// Counts the blocks and cells that the particles reach, as device::FindPlaces does.
+template <class Lattice>
 void count_places(const solver::Simulation& simulation, const device::Problem& problem,
                   device::StepSize& size) {
-  device::Lattice lattice;
-  lattice.cell_size = problem.cell_size;
-  lattice.lower = problem.lower;
-  lattice.cells = problem.cells;
-  for (std::size_t a = 0; a < 3; ++a) {
-    lattice.blocks[a] = (problem.cells[a] + device::block_edge - 1) / device::block_edge + 2;
-  }
+  const auto lattice = device::lattice_of<Lattice>(problem);
   const Particles& particles = simulation.particles();
   std::vector<std::uint64_t> cells, blocks;
   cells.reserve(particles.size());
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const Vector3& x = particles.position[p];
-    const device::Place first = device::Lattice::first_node(lattice.in_cells({x[0], x[1], x[2]}));
+    const device::Place first = Lattice::first_node(lattice.in_cells({x[0], x[1], x[2]}));
     const std::uint32_t field = problem.field_of_body[particles.body[p]];
     cells.push_back(std::uint64_t{lattice.block_at(field, first)} * device::block_nodes +
-                    device::Lattice::inside(first));
+                    Lattice::inside(first));
   }
   size.cells = static_cast<double>(count_different(cells));
   cells.resize(static_cast<std::size_t>(size.cells));
   for (const std::uint64_t cell : cells) {
-    const auto block = static_cast<std::uint32_t>(cell / device::block_nodes),
-               of_field = lattice.blocks_of_field();
-    const auto inside = static_cast<int>(cell % device::block_nodes);
-    constexpr int edge = device::block_edge, last = device::stencil_edge - 1;
-    const int at = static_cast<int>(block % of_field), y = lattice.blocks[1], z = lattice.blocks[2];
-    const device::Place first = {(at / (y * z) - 1) * edge + inside / (edge * edge),
-                                 (at / z % y - 1) * edge + inside / edge % edge,
-                                 (at % z - 1) * edge + inside % edge};
+    const auto block = static_cast<std::uint32_t>(cell / device::block_nodes);
+    const device::Place first =
+        lattice.place_in(block, static_cast<std::uint32_t>(cell % device::block_nodes));
+    constexpr int last = device::stencil_edge - 1, last_z = Lattice::stencil_edge_z - 1;
     for (int corner = 0; corner < 8; ++corner) {
-      blocks.push_back(lattice.block_at(block / of_field, {first.x + ((corner & 1) != 0 ? last : 0),
+      blocks.push_back(lattice.block_at(block / lattice.blocks_of_field(), {first.x + ((corner & 1) != 0 ? last : 0),
                                                            first.y + ((corner & 2) != 0 ? last : 0),
-                                                           first.z + ((corner & 4) != 0 ? last : 0)}));
+                                                           first.z + ((corner & 4) != 0 ? last_z : 0)}));
     }
   }
   size.slots = static_cast<double>(count_different(blocks));
-  size.blocks = static_cast<double>(lattice.blocks_of_field()) * problem.fields;
+  size.blocks = device::count_blocks(problem);
 }
 
 }  // namespace
@@ -79,7 +70,12 @@ DeviceEstimate estimate_device(const solver::Simulation& simulation, double band
       problem.faces, [](device::FaceKind kind) { return kind != device::FaceKind::outflow; });
   size.fields = problem.fields;
   size.conducts = problem.shock_conduction > 0.0;
-  count_places(simulation, problem, size);
+  size.planar = problem.dimension != device::Dimension::space;
+  if (size.planar) {
+    count_places<device::SectionLattice>(simulation, problem, size);
+  } else {
+    count_places<device::SpaceLattice>(simulation, problem, size);
+  }
   estimate.need = device::memory_need(size);
   device::StepSize dispersed = size;
   dispersed.cells = size.particles;

@@ -22,7 +22,7 @@ namespace whipple::device {
 class OnDevice {
  public:
   Points points;
-  Lattice lattice;
+  SpaceLattice lattice;
 
   OnDevice(const grid::Geometry& geometry, const Particles& particles, std::span<const std::uint8_t> field,
            std::uint32_t fields) {
@@ -45,7 +45,8 @@ class OnDevice {
     for (std::uint32_t slot = 0; slot < lattice.slots; ++slot) {
       const std::uint32_t first = slot * block_nodes, field = lattice.field_of(first);
       const Place at = lattice.place_of(first);
-      const std::int32_t found = grid.slot_of({at.x / block_edge, at.y / block_edge, at.z / block_edge});
+      constexpr int edge = SpaceLattice::block_edge;
+      const std::int32_t found = grid.slot_of({at.x / edge, at.y / edge, at.z / edge});
       ASSERT_NE(found, grid::BlockGrid::no_slot);
       const auto of_host = static_cast<std::size_t>(found);
       ASSERT_TRUE(grid.fields(of_host).contains(field));
@@ -100,7 +101,7 @@ class OnDevice {
     }
   }
   [[nodiscard]] Place first_node(std::size_t p) const {
-    return Lattice::first_node(lattice.in_cells(points.vector(position, p)));
+    return SpaceLattice::first_node(lattice.in_cells(points.vector(position, p)));
   }
   void find_blocks(std::span<const std::uint8_t> field) {
     slot_of_block_.assign(lattice.fields * lattice.blocks_of_field(), nowhere);

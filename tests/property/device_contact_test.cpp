@@ -196,7 +196,7 @@ class DeviceContact : public testing::Test {
     compare_touches(trial, pairs, at_walls);
   }
 
-  static void set_planes(const Trial& trial, grid::BlockGrid& grid, Lattice& lattice) {
+  static void set_planes(const Trial& trial, grid::BlockGrid& grid, SpaceLattice& lattice) {
     std::array<grid::FieldSet, 6> bonded;
     bonded.fill(grid::FieldSet::from(trial.fields));
     for (std::size_t face = 0; face < 6; ++face) {

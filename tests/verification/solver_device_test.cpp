@@ -109,6 +109,61 @@ Problem incline() {
       1e-11, 1e-8};
 }
 
+/// A ball on the axis that meets the edge of a hole, both as tables with melting and boiling, in axisymmetry; particles of
+/// fluids are divided.
+Problem rings() {
+  const std::string table = "equation_of_state = \"table\"\n";
+  return {"rings",
+          std::string(common) +
+              "[domain]\ndimension = \"axisymmetric\"\nlower = [\"-10 mm\", \"0 mm\"]\n"
+              "upper = [\"32 mm\", \"20 mm\"]\ncell_size = \"0.5 mm\"\n[time]\nend = \"1 ms\"\n" +
+              body("ball", "lead.toml", "[\"8 km/s\", \"0 m/s\"]",
+                   "sphere = { center = [\"-3.1 mm\", \"0 mm\", \"0 mm\"], radius = \"3 mm\" }", table) +
+              body("plate", "aluminium.toml", "[\"0 m/s\", \"0 m/s\"]",
+                   "tube = { base = [\"0 mm\", \"0 mm\", \"0 mm\"], axis = \"x\", height = \"2.25 mm\", "
+                   "inner_radius = \"0.6 mm\", outer_radius = \"10 mm\" }",
+                   table),
+          1e-10, 1e-6};
+}
+
+/// A bar that strikes a wall from which it may part, and a ring around its end that it opens, in axisymmetry.
+Problem bar_in_ring() {
+  return {"bar_in_ring",
+          std::string(common) +
+              "[domain]\ndimension = \"axisymmetric\"\nlower = [\"0 mm\", \"0 mm\"]\nupper = [\"14 mm\", "
+              "\"11 mm\"]\n"
+              "cell_size = \"0.5 mm\"\nboundary = { x_lower = \"separating\" }\n[time]\nend = \"1 ms\"\n" +
+              body("bar", "copper_johnson_cook.toml", "[\"-600 m/s\", \"0 m/s\"]",
+                   "cylinder = { center = [\"5.7 mm\", \"0 mm\", \"0 mm\"], axis = \"x\", radius = \"4 mm\", "
+                   "height = "
+                   "\"11 mm\" }") +
+              body("ring", "aluminium_6061_mie_gruneisen.toml", "[\"0 m/s\", \"0 m/s\"]",
+                   "tube = { base = [\"0.4 mm\", \"0 mm\", \"0 mm\"], axis = \"x\", height = \"3 mm\", "
+                   "inner_radius = "
+                   "\"4.2 mm\", outer_radius = \"7 mm\" }"),
+          1e-12, 1e-8};
+}
+
+/// A rod that falls obliquely on a wall with friction, followed by a second one, in plane strain.
+Problem section_at_wall() {
+  return {"section_at_wall",
+          std::string(common) +
+              "[domain]\ndimension = \"plane_strain\"\nlower = [\"0 mm\", \"0 mm\"]\nupper = [\"16 mm\", \"8 "
+              "mm\"]\n"
+              "cell_size = \"0.5 mm\"\nfriction = 0.3\nboundary = { x_lower = \"friction\", y_lower = "
+              "\"symmetry\", "
+              "y_upper = \"no_slip\" }\n[time]\nend = \"1 ms\"\n" +
+              body("rod", "copper_johnson_cook.toml", "[\"-500 m/s\", \"150 m/s\"]",
+                   "cylinder = { center = [\"3.3 mm\", \"2.2 mm\", \"0 mm\"], axis = \"z\", radius = \"3 "
+                   "mm\", height = "
+                   "\"4 mm\" }") +
+              body("second", "lead_mie_gruneisen.toml", "[\"-600 m/s\", \"0 m/s\"]",
+                   "cylinder = { center = [\"8.4 mm\", \"2.9 mm\", \"0 mm\"], axis = \"z\", radius = \"2 "
+                   "mm\", height = "
+                   "\"4 mm\" }"),
+          1e-12, 1e-8};
+}
+
 cases::Case read(const Problem& problem) {
   cases::Case setup = cases::read_case_text(problem.text, "device.toml");
   cases::tabulate_materials(setup, io::Ranks(parallel::world()));
@@ -206,7 +261,7 @@ TEST_P(DeviceStep, IsThatOfTheHost) {
 INSTANTIATE_TEST_SUITE_P(Of, DeviceStep,
                          testing::Values(ball_at_wall("separating"), ball_at_wall("symmetry"),
                                          ball_at_wall("no_slip"), ball_at_wall("friction"), melting(),
-                                         incline()),
+                                         incline(), rings(), bar_in_ring(), section_at_wall()),
                          [](const auto& info) { return info.param.name; });
 
 TEST(DeviceEmulation, GivesTheSameBitsOnAnyNumberOfThreads) {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "src/device/cells.hpp"
+#include "src/device/problem.hpp"
 
 namespace whipple::device::check {
 namespace {
@@ -15,10 +15,14 @@ constexpr double courant = 0.2;  // of the time step
 
 /// @throws WrongInput if nodes could not be numbered, as Cells would
 void require_cells(const Problem& problem) {
-  double places = problem.fields * static_cast<double>(block_nodes);
-  for (const int cells : problem.cells) places *= (cells + block_edge - 1) / block_edge + 2;
-  if (places >= 4294967296.0)
+  if (has_too_many_cells(problem))
     throw WrongInput("the domain of so many particles has too many cells for the device");
+}
+
+/// @throws WrongInput unless it has three dimensions
+void require_space(const StoredState& state) {
+  if (state.problem.dimension != Dimension::space)
+    throw WrongInput(state.name + " is a section: times are measured in three dimensions");
 }
 
 void resize(PointsOnHost& points, std::size_t n) {
@@ -40,10 +44,11 @@ double random_number(std::uint64_t i, std::uint64_t stream) {
 }  // namespace
 
 Arrangement repeated(const StoredState& state, std::size_t size) {
+  require_space(state);
   const std::size_t n = state.start.size(), copies = std::max<std::size_t>(1, (size + n - 1) / n);
   const auto [low, high] = std::ranges::minmax(state.start.numbers[position]);
   const double cell = state.problem.cell_size;
-  constexpr int gap = 2 * block_edge;  // cells
+  constexpr int block_edge = SpaceLattice::block_edge, gap = 2 * block_edge;  // cells
   const int blocks = static_cast<int>(std::ceil((high - low) / cell + gap)) / block_edge + 1;
   const int shift = blocks * block_edge;
   Arrangement all = {state.problem, {}, state.steps.front().dt};
@@ -62,6 +67,7 @@ Arrangement repeated(const StoredState& state, std::size_t size) {
 }
 
 Arrangement scattered(const StoredState& state, std::size_t size, double per_cell) {
+  require_space(state);
   const double cell = state.problem.cell_size;
   constexpr int margin = 4;  // cells
   const auto edge = static_cast<int>(std::ceil(std::cbrt(static_cast<double>(size) / per_cell)));

@@ -43,13 +43,11 @@ void measure(Timing& timing, const Arrangement& arrangement, const MakeEngine& m
   timing.steps = timed_steps;
   timing.bytes = static_cast<double>(engine->bytes());
   const Problem& problem = arrangement.problem;
-  double blocks = problem.fields;
-  for (const int cells : problem.cells) blocks *= (cells + block_edge - 1) / block_edge + 2;
   timing.size = {
       .particles = static_cast<double>(engine->size()),
       .slots = static_cast<double>(outcome.slots),
       .cells = static_cast<double>(outcome.cells),
-      .blocks = blocks,
+      .blocks = count_blocks(problem),
       .reflects = std::ranges::any_of(problem.faces, [](FaceKind k) { return k != FaceKind::outflow; }),
       .fields = problem.fields,
       .conducts = problem.shock_conduction > 0.0};

@@ -132,6 +132,7 @@ WHIPPLE_POINT inline void press(ContactSide& a, ContactSide& b, const Meeting& m
 /// where the field is one with it and the node is on the plane. Contact with a field that is not one with its image
 /// there changed them; what the points lose becomes heat (4.12).
 /// @returns the heat, J
+template <class Lattice>
 WHIPPLE_POINT inline double hold(ContactSide& side, const Lattice& lattice, std::uint32_t node) {
   const std::uint32_t field = lattice.field_of(node);
   const Place place = lattice.place_of(node);
@@ -156,6 +157,7 @@ WHIPPLE_POINT inline double hold(ContactSide& side, const Lattice& lattice, std:
 
 /// Applies contact at the nodes of pair i, after the momentum equation: changes velocities, increments and relaxations
 /// and replaces the mass of both nodes by their heat.
+template <class Lattice>
 struct ApplyContact {
   Lattice lattice;
   ContactConstants constants;

@@ -17,6 +17,7 @@ namespace whipple::device {
 }
 
 /// Describes a face and gives access to the nodes near walls.
+template <class Lattice>
 struct Wall {
   Lattice lattice;
   WallConstants walls;

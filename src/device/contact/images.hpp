@@ -45,8 +45,9 @@ WHIPPLE_POINT inline void add_heat(Node& node, WallNode& own, double heat) {
 
 /// Assigns one beta to node i of the list and its image where planes intersect: otherwise the coupling at one plane would
 /// change with the next one. Call for all faces before the first contact.
+template <class Lattice>
 struct JoinRelaxation {
-  Wall wall;
+  Wall<Lattice> wall;
 
   WHIPPLE_POINT void operator()(std::size_t i) const {
     const std::int32_t mirror = wall.mirror_of(i);
@@ -89,8 +90,9 @@ struct JoinRelaxation {
 
 /// Applies contact between the material at node i of the list and its image at a face, and between the material at the
 /// mirror node and its image (3.8) to (3.13).
+template <class Lattice>
 struct MeetImage {
-  Wall wall;
+  Wall<Lattice> wall;
   Approach* approach;  ///< of each node of the list, to this face
 
   WHIPPLE_POINT void operator()(std::size_t i) const {

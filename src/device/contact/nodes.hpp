@@ -18,6 +18,7 @@ enum class ContactRole : std::uint8_t {
 };
 
 /// Returns whether particles of a field contribute to its node at a place, which is no image.
+template <class Lattice>
 [[nodiscard]] WHIPPLE_POINT inline bool reaches(const Lattice& lattice, std::uint32_t field,
                                                 const Place& at) {
   const std::int32_t node = lattice.node_at(field, at);
@@ -26,6 +27,7 @@ enum class ContactRole : std::uint8_t {
 
 /// Finds the role of each node. Call it with the sums of the particles, before or after those beyond mirror planes have
 /// been folded.
+template <class Lattice>
 struct FindContactRoles {
   Lattice lattice;
   ContactRole* role;  ///< of each node
@@ -52,6 +54,7 @@ struct FindContactRoles {
 };
 
 /// Clears the heat of the nodes that are not in contact, in whose place the momentum equation has stored their mass.
+template <class Lattice>
 struct ClearOutsideContact {
   Lattice lattice;
   const ContactRole* role;
@@ -62,6 +65,7 @@ struct ClearOutsideContact {
 };
 
 /// Lists the pairs, while the nodes hold the sums.
+template <class Lattice>
 struct ListContactPairs {
   Lattice lattice;
   const ContactRole* role;

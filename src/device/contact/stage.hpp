@@ -18,7 +18,7 @@
 namespace whipple::device {
 
 /// Contact of bodies and of material with its images in a step, in the order of contact::GridUpdate.
-template <class Space>
+template <class Space, class Lattice>
 class Contact {
  public:
   template <class T>
@@ -60,7 +60,7 @@ class Contact {
     space.for_each(wall_nodes_, RememberUncoupled{lattice.nodes, list_.data(), at_.data()});
     const std::size_t nodes = std::size_t{lattice.slots} * block_nodes;
     if (fields_ > 1) {
-      space.for_each(nodes, ClearOutsideContact{lattice, role_.data()});
+      space.for_each(nodes, ClearOutsideContact<Lattice>{lattice, role_.data()});
     } else {
       space.for_each(nodes, ClearHeat{lattice.nodes});
     }
@@ -70,12 +70,13 @@ class Contact {
   void apply(Space& space, const Lattice& lattice, Outcome& outcome) {
     const std::size_t pairs = fields_ > 1 ? surfaces_.count : 0;
     if (pairs == 0) return;
-    space.for_each(pairs, ApplyContact{lattice, constants_, surfaces_, balances_.data(), approaches_.data()});
+    space.for_each(
+        pairs, ApplyContact<Lattice>{lattice, constants_, surfaces_, balances_.data(), approaches_.data()});
     const auto sums = space.reduce(pairs, SumBalances{balances_.data()});
     outcome.contact = sums.sum;
     if (sums.largest[0] > 0.0) {
       const auto last = static_cast<std::size_t>(sums.largest[0]) - 1;
-      outcome.crowded_at = space.reduce(1, PlaceOfPair{lattice, pairs_.data() + last}).place();
+      outcome.crowded_at = space.reduce(1, PlaceOfPair<Lattice>{lattice, pairs_.data() + last}).place();
     }
     outcome.approaches = deciding(space, pairs, static_cast<std::uint32_t>(pairs_of_fields(fields_)));
   }
@@ -84,12 +85,12 @@ class Contact {
   void meet_images(Space& space, const Lattice& lattice, Outcome& outcome) {
     if (wall_nodes_ == 0) return;
     const auto wall = [&](int face) {
-      return Wall{lattice, walls_, face, list_.data(), number_.data(), at_.data()};
+      return Wall<Lattice>{lattice, walls_, face, list_.data(), number_.data(), at_.data()};
     };
-    for (const int face : faces_) space.for_each(wall_nodes_, JoinRelaxation{wall(face)});
+    for (const int face : faces_) space.for_each(wall_nodes_, JoinRelaxation<Lattice>{wall(face)});
     approaches_.reserve(wall_nodes_ * faces_.size());
     for (std::size_t f = 0; f < faces_.size(); ++f) {
-      space.for_each(wall_nodes_, MeetImage{wall(faces_[f]), approaches_.data() + f * wall_nodes_});
+      space.for_each(wall_nodes_, MeetImage<Lattice>{wall(faces_[f]), approaches_.data() + f * wall_nodes_});
     }
     outcome.face_approaches = deciding(space, wall_nodes_ * faces_.size(), 6);
   }
@@ -100,7 +101,7 @@ class Contact {
     if (wall_nodes_ == 0) return 0.0;
     return space
         .reduce(std::size_t{lattice.slots} * block_nodes,
-                SumHeatAtWalls{lattice, brought, number_.data(), at_.data()})
+                SumHeatAtWalls<Lattice>{lattice, brought, number_.data(), at_.data()})
         .sum[0];
   }
 
@@ -113,7 +114,7 @@ class Contact {
  private:
   void find_pairs(Space& space, const Lattice& lattice, const Points& points, std::size_t nodes) {
     role_.reserve(nodes);
-    space.for_each(nodes, FindContactRoles{lattice, role_.data()});
+    space.for_each(nodes, FindContactRoles<Lattice>{lattice, role_.data()});
     space.for_each(nodes, FlagFirstOfPair{role_.data(), flags_.data()});
     const std::size_t pairs = space.scan(flags_.data(), before_.data(), nodes);
     pairs_.reserve(pairs);
@@ -128,19 +129,19 @@ class Contact {
                  .normals = normals_.data(),
                  .extents = extents_.data()};
     if (pairs == 0) return;
-    space.for_each(nodes, ListContactPairs{lattice, role_.data(), before_.data(), pairs_.data()});
-    space.for_each(2 * pairs, SumVolumeGradients{lattice, points, surfaces_});
-    space.for_each(pairs, ChooseNormals{lattice, constants_, surfaces_});
-    space.for_each(2 * pairs, FindExtents{lattice, points, surfaces_});
+    space.for_each(nodes, ListContactPairs<Lattice>{lattice, role_.data(), before_.data(), pairs_.data()});
+    space.for_each(2 * pairs, SumVolumeGradients<Lattice>{lattice, points, surfaces_});
+    space.for_each(pairs, ChooseNormals<Lattice>{lattice, constants_, surfaces_});
+    space.for_each(2 * pairs, FindExtents<Lattice>{lattice, points, surfaces_});
   }
   void find_walls(Space& space, const Lattice& lattice, const Points& points, std::size_t nodes) {
-    space.for_each(nodes, FindWallNodes{lattice, walls_, flags_.data()});
+    space.for_each(nodes, FindWallNodes<Lattice>{lattice, walls_, flags_.data()});
     wall_nodes_ = space.scan(flags_.data(), before_.data(), nodes);
     list_.reserve(wall_nodes_);
     number_.reserve(nodes);
     at_.reserve(wall_nodes_);
     space.for_each(nodes, ListWallNodes{flags_.data(), before_.data(), list_.data(), number_.data()});
-    space.for_each(wall_nodes_, FindWallExtents{lattice, points, list_.data(), at_.data()});
+    space.for_each(wall_nodes_, FindWallExtents<Lattice>{lattice, points, list_.data(), at_.data()});
   }
   /// Returns the approaches that decide about first contacts, of each of `kinds` pairs.
   std::vector<DecidingApproaches> deciding(Space& space, std::size_t count, std::uint32_t kinds) {

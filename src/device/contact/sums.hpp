@@ -34,6 +34,7 @@ struct SumBalances {
 };
 
 /// Returns the place of a pair.
+template <class Lattice>
 struct PlaceOfPair {
   struct Result : Reduction<3, 0> {
     [[nodiscard]] Triple<double> place() const { return {sum[0], sum[1], sum[2]}; }
@@ -49,6 +50,7 @@ struct PlaceOfPair {
 };
 
 /// Sums the heat (J) of contact with images over the particles that nodes move.
+template <class Lattice>
 struct SumHeatAtWalls {
   using Result = Reduction<1, 0>;
   Lattice lattice;

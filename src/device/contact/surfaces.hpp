@@ -21,10 +21,10 @@ using CandidateNormals = std::array<Triple<double>, most_normals>;
 /// Extent of a body from the node along each of them, m: of the second body in the opposite direction.
 using Extents = std::array<double, most_normals>;
 
-/// Holds the sums of (3.1) for a body.
+/// Holds the sums of (3.1) for a body; V is the area in the plane in two dimensions.
 struct VolumeGradient {
-  Triple<double> gradient;  ///< sum of V grad N, m^2
-  double volume;            ///< sum of V N, m^3
+  Triple<double> gradient;  ///< sum of V grad N, m^2 or m
+  double volume;            ///< sum of V N, m^3 or m^2
 };
 
 /// Describes the geometry of two bodies at a node.
@@ -60,6 +60,7 @@ struct ContactSurfaces {
 };
 
 /// Sums the volume gradient (3.1) of body i, of 2 count.
+template <class Lattice>
 struct SumVolumeGradients {
   Lattice lattice;
   Points points;
@@ -72,7 +73,8 @@ struct SumVolumeGradients {
       const std::uint32_t field = lattice.field_of(node);
       const Place at = lattice.place_of(node);
       for_each_point_at(lattice, points, field, at, [&](std::uint32_t p, const ReachedFrom& from) {
-        const double size = points.at(volume, p) + points.at(void_volume, p);
+        const double size = lattice.size_in_section(points.at(volume, p) + points.at(void_volume, p),
+                                                    points.at(position + 1, p));
         sum.gradient += size * from.gradient;
         sum.volume += size * from.weight;
       });
@@ -84,6 +86,7 @@ struct SumVolumeGradients {
 };
 
 /// Determines the candidates for the normal of pair i (3.2), (3.5), while the nodes hold the sums.
+template <class Lattice>
 struct ChooseNormals {
   Lattice lattice;
   ContactConstants constants;
@@ -128,7 +131,7 @@ struct ChooseNormals {
       const int begin = Lattice::along(first, axis);
       if ((constants.reflecting_faces >> (2 * axis) & 1U) != 0 && begin <= reach) return true;
       if ((constants.reflecting_faces >> (2 * axis + 1) & 1U) != 0 &&
-          begin + block_edge - 1 >= lattice.cells[static_cast<std::size_t>(axis)] - reach)
+          begin + Lattice::edge_along(axis) - 1 >= lattice.cells[static_cast<std::size_t>(axis)] - reach)
         return true;
     }
     return false;
@@ -148,6 +151,7 @@ struct ChooseNormals {
 };
 
 /// Determines how far body i, of 2 count, extends along the candidates of its pair (3.3).
+template <class Lattice>
 struct FindExtents {
   Lattice lattice;
   Points points;
@@ -166,7 +170,7 @@ struct FindExtents {
       const std::uint32_t field = lattice.field_of(node);
       for_each_point_at(lattice, points, field, lattice.place_of(node),
                         [&](std::uint32_t p, const ReachedFrom& from) {
-                          const HalfThickness half(points, p);
+                          const HalfThickness half(lattice, points, p);
                           const auto raise = [&](const Triple<double>& n, double& largest) {
                             const double along = dot(n, from.distance);
                             // Most particles are behind the outermost one by more than their thickness.

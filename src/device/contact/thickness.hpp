@@ -9,24 +9,23 @@
 namespace whipple::device {
 
 /// Computes the distance h_p from the centre of a particle to its surface along unit vectors (docs/theory/contact.md,
-/// equation 3.4): of its initial box, or of its tracked domain, scaled to its present volume.
+/// equation 3.4): of its initial box, or of its tracked domain, scaled to its present volume; in two dimensions of the
+/// section of the box, scaled to its area in the plane.
 class HalfThickness {
  public:
-  WHIPPLE_POINT HalfThickness(const Points& points, std::size_t p)
+  template <class Lattice>
+  WHIPPLE_POINT HalfThickness(const Lattice& lattice, const Points& points, std::size_t p)
       : xx_(points.at(extent, p)),
         yy_(points.at(extent + 1, p)),
         zz_(points.at(extent + 2, p)),
         xy_(points.at(extent + 3, p)),
         yz_(points.at(extent + 4, p)),
         zx_(points.at(extent + 5, p)) {
-    const double determinant =
-        xx_ * (yy_ * zz_ - yz_ * yz_) - xy_ * (xy_ * zz_ - yz_ * zx_) + zx_ * (xy_ * yz_ - yy_ * zx_);
-    const double box = 8.0 * std::sqrt(determinant > 0.0 ? determinant : 0.0);
-    const double size = points.at(volume, p) + points.at(void_volume, p);
-    scale_ = std::cbrt(box > 0.0 ? size / box : size);
-    if (!(box > 0.0)) {  // a cube
-      xx_ = yy_ = zz_ = 0.25;
-      xy_ = yz_ = zx_ = 0.0;
+    if constexpr (Lattice::planar) {
+      set_planar(lattice.size_in_section(points.at(volume, p) + points.at(void_volume, p),
+                                         points.at(position + 1, p)));
+    } else {
+      set(points, p);
     }
   }
   /// Returns an upper bound over all directions, m.
@@ -44,6 +43,28 @@ class HalfThickness {
   }
 
  private:
+  WHIPPLE_POINT void set(const Points& points, std::size_t p) {
+    const double determinant =
+        xx_ * (yy_ * zz_ - yz_ * yz_) - xy_ * (xy_ * zz_ - yz_ * zx_) + zx_ * (xy_ * yz_ - yy_ * zx_);
+    const double box = 8.0 * std::sqrt(determinant > 0.0 ? determinant : 0.0);
+    const double size = points.at(volume, p) + points.at(void_volume, p);
+    scale_ = std::cbrt(box > 0.0 ? size / box : size);
+    if (!(box > 0.0)) {  // a cube
+      xx_ = yy_ = zz_ = 0.25;
+      xy_ = yz_ = zx_ = 0.0;
+    }
+  }
+  WHIPPLE_POINT void set_planar(double area) {
+    zz_ = yz_ = zx_ = 0.0;
+    const double determinant = xx_ * yy_ - xy_ * xy_;
+    const double box = 4.0 * std::sqrt(determinant > 0.0 ? determinant : 0.0);
+    scale_ = std::sqrt(box > 0.0 ? area / box : area);
+    if (!(box > 0.0)) {  // a square
+      xx_ = yy_ = 0.25;
+      xy_ = 0.0;
+    }
+  }
+
   double xx_, yy_, zz_, xy_, yz_, zx_;
   double scale_;
 };

@@ -33,6 +33,7 @@ struct WallConstants {
   std::uint32_t apart = 0;
 
   /// Returns whether a field is in contact with its image at a face.
+  template <class Lattice>
   [[nodiscard]] WHIPPLE_POINT bool is_apart(const Lattice& lattice, std::uint32_t field, int face) const {
     return kind[static_cast<std::size_t>(face)] != WallKind::none &&
            !lattice.mirrors[static_cast<std::size_t>(face)].bonds(field);
@@ -43,6 +44,7 @@ struct WallConstants {
 constexpr int mirror_reach = 2;
 
 /// Flags the nodes near faces at which their field is not one with its image, before or after the momentum equation.
+template <class Lattice>
 struct FindWallNodes {
   Lattice lattice;
   WallConstants walls;
@@ -87,6 +89,7 @@ struct WallNode {
 };
 
 /// Determines the extent at node i of the list (3.7).
+template <class Lattice>
 struct FindWallExtents {
   Lattice lattice;
   Points points;
@@ -103,7 +106,7 @@ struct FindWallExtents {
     for_each_point_from(lattice, points, lattice.field_of(node), lattice.place_of(node), {1.0, 1.0, 1.0},
                         [&](std::uint32_t p, const ReachedFrom&) {
                           const Triple<double> x = points.vector(position, p);
-                          const HalfThickness thickness(points, p);
+                          const HalfThickness thickness(lattice, points, p);
                           const Triple<double> half = {thickness.along_axis(0), thickness.along_axis(1),
                                                        thickness.along_axis(2)};
                           raise(below, lower - x + half);

@@ -26,7 +26,6 @@ void check_scheme(const cases::Case& setup, const Faults& faults) {
   const cases::TransferControl& transfer = setup.transfer;
   refuse_if(setup.time.scheme != cases::Scheme::symplectic, faults, "time.scheme",
             "a scheme other than \"symplectic\"");
-  refuse_if(setup.geometry.is_planar(), faults, "domain.dimension", "a section in two dimensions");
   refuse_if(transfer.shape_function != transfer::ShapeFunction::quadratic_bspline, faults,
             "transfer.shape_function", "a shape function other than \"quadratic_bspline\"");
   refuse_if(transfer.particle_update != cases::ParticleUpdate::relaxed_affine, faults,

@@ -122,6 +122,7 @@ void DeviceStage::book(const device::Outcome& outcome) {
     const auto axis = static_cast<std::size_t>(a);
     booked.wall_impulse[a] += outcome.plane_impulse[axis] + sum[S::wall_impulse + axis];
   }
+  booked.wall_impulse[1] += outcome.hoop_impulse;
   const auto counted = [&](std::uint32_t event) {
     return sum[S::first_event + static_cast<std::size_t>(std::countr_zero(event))];
   };

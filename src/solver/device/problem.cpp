@@ -24,6 +24,12 @@ device::FaceKind face_kind(grid::Boundary boundary) {
   }
 }
 
+device::Dimension dimension_of(const grid::Geometry& geometry) {
+  using enum device::Dimension;
+  if (!geometry.is_planar()) return space;
+  return geometry.is_axisymmetric() ? axisymmetric : plane_strain;
+}
+
 device::WallKind wall_kind(grid::Boundary boundary) {
   using enum device::WallKind;
   switch (boundary) {
@@ -47,6 +53,7 @@ device::Problem device_problem(const State& state, const ContactStage& contact) 
   const cases::Case& setup = state.setup;
   const grid::Geometry& geometry = setup.geometry;
   device::Problem problem;
+  problem.dimension = dimension_of(geometry);
   problem.cell_size = geometry.cell_size;
   problem.lower = {geometry.lower[0], geometry.lower[1], geometry.lower[2]};
   for (std::size_t a = 0; a < 3; ++a) problem.cells[a] = geometry.cells[a];
@@ -71,7 +78,8 @@ device::Problem device_problem(const State& state, const ContactStage& contact) 
   problem.domain_limits = {.longest = 0.25 * length * length * size * size,
                            .parted = domains::parted_square(setup),
                            .generations = static_cast<double>(setup.splitting.maximum_generations),
-                           .divides_all = setup.splitting.of == cases::Divided::all};
+                           .divides_all = setup.splitting.of == cases::Divided::all,
+                           .planar = geometry.is_planar()};
   problem.strong_pressure = FillWatch::strong;
   problem.filled = FillWatch::filled;
   problem.initial_density = state.initial_density;
