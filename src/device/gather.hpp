@@ -161,26 +161,26 @@ struct MoveParticles {
     const double m = points.at(mass, p), volume_and_time = points.at(volume, p) * dt;
     const double done = flow.power * volume_and_time;
     const double by_viscosity = -points.at(artificial_viscosity, p) * flow.volume_rate * volume_and_time;
-    const transfer::formulas::DividedLosses divided =
-        transfer::formulas::divide_losses({.heat_share = losses.heat_share,
-                                           .allowance_length = losses.allowance_length,
-                                           .collision_rate = losses.collision_rate,
-                                           .initial_density = initial_density[points.body[p]]},
-                                          {.mass = m,
-                                           .volume = points.at(volume, p),
-                                           .void_volume = points.at(void_volume, p),
-                                           .pressure = points.at(pressure, p),
-                                           .sound_speed = points.at(sound_speed, p),
-                                           .artificial_viscosity = points.at(artificial_viscosity, p),
-                                           .heating_viscosity = points.at(heating_viscosity, p),
-                                           .unresolved_energy = points.at(unresolved, p),
-                                           .heat_allowance = points.at(allowance, p),
-                                           .failed = points.at(failed, p) != 0.0},
-                                          {.loss = loss,
-                                           .contact = flow.contact_heat,
-                                           .viscous_work = by_viscosity / m,
-                                           .divergence = flow.divergence,
-                                           .dt = dt});
+    const transfer::formulas::LossRates rates = {.heat_share = losses.heat_share,
+                                                 .allowance_length = losses.allowance_length,
+                                                 .collision_rate = losses.collision_rate,
+                                                 .initial_density = initial_density[points.body[p]]};
+    const transfer::formulas::LossyPoint point = {.mass = m,
+                                                  .volume = points.at(volume, p),
+                                                  .void_volume = points.at(void_volume, p),
+                                                  .pressure = points.at(pressure, p),
+                                                  .sound_speed = points.at(sound_speed, p),
+                                                  .artificial_viscosity = points.at(artificial_viscosity, p),
+                                                  .heating_viscosity = points.at(heating_viscosity, p),
+                                                  .unresolved_energy = points.at(unresolved, p),
+                                                  .heat_allowance = points.at(allowance, p),
+                                                  .failed = points.at(failed, p) != 0.0};
+    const transfer::formulas::LossyStep step = {.loss = loss,
+                                                .contact = flow.contact_heat,
+                                                .viscous_work = by_viscosity / m,
+                                                .divergence = flow.divergence,
+                                                .dt = dt};
+    const transfer::formulas::DividedLosses divided = transfer::formulas::divide_losses(rates, point, step);
     points.at(unresolved, p) += divided.kept - divided.returned;
     points.at(allowance, p) = divided.allowance;
     points.at(closing_rate, p) = std::fmax(-flow.divergence, 0.0);
