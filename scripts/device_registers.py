@@ -77,14 +77,19 @@ def faults(of_kernels):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("log", nargs="?", default="build/release/src/device/gpu.log", type=pathlib.Path)
+    parser.add_argument("logs", nargs="*", type=pathlib.Path, metavar="LOG",
+                        default=[pathlib.Path(f"build/release/src/device/{part}.log") for part in ("gpu", "gpu_section")])
     parser.add_argument("--markdown", action="store_true")
     parser.add_argument("--least", type=int, default=0)
     parser.add_argument("--check", action="store_true")
     options = parser.parse_args()
-    of_kernels = kernels(options.log.read_text(errors="replace"))
-    if not of_kernels:
-        sys.exit(f"{options.log}: no kernels: not a log of nvcc -Xptxas -v")
+    of_kernels = []
+    for log in options.logs:
+        of_log = kernels(log.read_text(errors="replace"))
+        if not of_log:
+            sys.exit(f"{log}: no kernels: not a log of nvcc -Xptxas -v")
+        of_kernels += [kernel for kernel in of_log if kernel not in of_kernels]
+    of_kernels.sort(key=lambda kernel: (-kernel[1], kernel[0]))
     wrong, count = faults(of_kernels), len(of_kernels)
     spilling = sum(k[3] > 0 for k in of_kernels)
     of_kernels = [k for k in of_kernels if k[1] >= options.least]

@@ -4,7 +4,7 @@ whipple_test(test_device STARTS_MPI SOURCES verification/solver_device_test.cpp 
 # conduction, other schemes and shape functions, more than two bodies at a node, and affine fields that are only turned.
 function(whipple_suite_on_device name executable filter)
   add_test(NAME device.${name} COMMAND ${executable} --gtest_filter=${filter})
-  set_tests_properties(device.${name} PROPERTIES ENVIRONMENT "WHIPPLE_TEST_DEVICE=emulated;OMP_NUM_THREADS=2" LABELS long)
+  set_tests_properties(device.${name} PROPERTIES ENVIRONMENT "WHIPPLE_TEST_DEVICE=emulated;OMP_NUM_THREADS=1" LABELS long)
 endfunction()
 whipple_suite_on_device(gaps test_contact Gap.*:FirstTouch.*:Fields/Pressed.*-Gap.HeatFlows*:*Elements)
 string(CONCAT whipple_of_contact "Contact.ABlock*:Contact.BarsReboundAndPart:Contact.BodiesDoNotFeelOneAnotherBeforeTheyTouch:"
@@ -20,7 +20,7 @@ if(WHIPPLE_PYTHON)
   set_tests_properties(device_check PROPERTIES LABELS fast TIMEOUT 120)
   if(WHIPPLE_HAS_CUDA)
     add_test(NAME device_registers COMMAND ${WHIPPLE_PYTHON} ${PROJECT_SOURCE_DIR}/scripts/device_registers.py
-             ${PROJECT_BINARY_DIR}/src/device/gpu.log --check)
+             ${PROJECT_BINARY_DIR}/src/device/gpu.log ${PROJECT_BINARY_DIR}/src/device/gpu_section.log --check)
     set_tests_properties(device_registers PROPERTIES LABELS fast)
     find_program(WHIPPLE_CLANG NAMES clang++-19 clang++-18 clang++)
     if(WHIPPLE_CLANG)

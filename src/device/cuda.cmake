@@ -20,22 +20,27 @@ if(WHIPPLE_HAS_CUDA)
   find_library(WHIPPLE_CUDART cudart_static PATHS ${whipple_cuda_folder}/lib64 ${whipple_cuda_folder}/targets/x86_64-linux/lib REQUIRED)
 endif()
 
-# whipple_gpu_object(ROOT): sets whipple_gpu_object to the object of all kernels, made from the sources under ROOT. Beside
-# it lies gpu.log, which says how many registers each kernel takes (scripts/device_registers.py).
+# whipple_gpu_objects(ROOT): sets whipple_gpu_objects to the objects of all kernels, made from the sources under ROOT: those
+# of three dimensions (gpu) and of two (gpu_section). Beside each lies a log, which says how many registers each kernel
+# takes (scripts/device_registers.py).
 set(whipple_device_folder ${CMAKE_CURRENT_LIST_DIR})
-function(whipple_gpu_object root)
-  set(object ${CMAKE_CURRENT_BINARY_DIR}/gpu.o)
-  set(log ${CMAKE_CURRENT_BINARY_DIR}/gpu.log)
-  add_custom_command(
-    OUTPUT ${object}
-    BYPRODUCTS ${log}
-    COMMAND ${CMAKE_COMMAND} -DLOG=${log} -P ${whipple_device_folder}/keep_log.cmake --
-            ${CMAKE_CUDA_COMPILER_LAUNCHER} ${WHIPPLE_NVCC} -std=c++20 -O3 -arch=sm_${WHIPPLE_CUDA_ARCHITECTURE}
-            --expt-relaxed-constexpr --expt-extended-lambda -Xcompiler=-march=x86-64-v3,-fPIC -Xptxas=-v,-warn-spills
-            -I${root} -MD -MF ${object}.d -c ${whipple_device_folder}/gpu.cu -o ${object}
-    DEPFILE ${object}.d
-    DEPENDS ${whipple_device_folder}/gpu.cu
-    COMMENT "Building kernels for the graphics processor" VERBATIM)
-  set_source_files_properties(${object} PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)
-  set(whipple_gpu_object ${object} PARENT_SCOPE)
+function(whipple_gpu_objects root)
+  set(objects)
+  foreach(part gpu gpu_section)
+    set(object ${CMAKE_CURRENT_BINARY_DIR}/${part}.o)
+    set(log ${CMAKE_CURRENT_BINARY_DIR}/${part}.log)
+    add_custom_command(
+      OUTPUT ${object}
+      BYPRODUCTS ${log}
+      COMMAND ${CMAKE_COMMAND} -DLOG=${log} -P ${whipple_device_folder}/keep_log.cmake --
+              ${CMAKE_CUDA_COMPILER_LAUNCHER} ${WHIPPLE_NVCC} -std=c++20 -O3 -arch=sm_${WHIPPLE_CUDA_ARCHITECTURE}
+              --expt-relaxed-constexpr --expt-extended-lambda -Xcompiler=-march=x86-64-v3,-fPIC -Xptxas=-v,-warn-spills
+              -I${root} -MD -MF ${object}.d -c ${whipple_device_folder}/${part}.cu -o ${object}
+      DEPFILE ${object}.d
+      DEPENDS ${whipple_device_folder}/${part}.cu
+      COMMENT "Building kernels for the graphics processor: ${part}" VERBATIM)
+    list(APPEND objects ${object})
+  endforeach()
+  set_source_files_properties(${objects} PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)
+  set(whipple_gpu_objects ${objects} PARENT_SCOPE)
 endfunction()

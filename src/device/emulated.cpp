@@ -6,7 +6,8 @@
 namespace whipple::device {
 
 std::unique_ptr<Engine> emulated_engine(const Problem& problem, const PointsOnHost& points) {
-  return start<HostSpace>(problem, points);
+  if (problem.dimension != Dimension::space) return in_section::emulated_engine(problem, points);
+  return std::make_unique<Stepper<HostSpace, SpaceLattice>>(problem, points);
 }
 
 }  // namespace whipple::device

@@ -108,4 +108,11 @@ Rates card_rates();
 /// @throws StateError without one, or without memory
 std::unique_ptr<Engine> gpu_engine(const Problem& problem, const PointsOnHost& points);
 
+/// The same with the grid of two dimensions, to which those above turn. Its kernels are compiled apart: GCC's limits of
+/// inlining, and with them the last bits of results, count by what is compiled together.
+namespace in_section {
+std::unique_ptr<Engine> emulated_engine(const Problem& problem, const PointsOnHost& points);
+std::unique_ptr<Engine> gpu_engine(const Problem& problem, const PointsOnHost& points);
+}  // namespace in_section
+
 }  // namespace whipple::device

@@ -25,9 +25,8 @@ struct SumVolumes {
     Node sum{};
     for (std::uint32_t k = lattice.cell_begin[cell]; k < lattice.cell_begin[cell + 1]; ++k) {
       const std::uint32_t p = lattice.order[k];
-      const Triple<double> x = points.vector(position, p);
-      const double size = lattice.size_in_section(points.at(volume, p) + points.at(void_volume, p), x.y);
-      sum.n[0] += seen(weights_at(lattice, x, 0.0), n).n * per_cell * size;
+      const double weight = seen(weights_at(lattice, points.vector(position, p), 0.0), n).n;
+      sum.n[0] += weight * per_cell * size_in_section<Lattice::planar>(points, p);
     }
     sums[i] = sum;
   }

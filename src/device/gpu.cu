@@ -21,7 +21,8 @@ Rates card_rates() {
 }
 
 std::unique_ptr<Engine> gpu_engine(const Problem& problem, const PointsOnHost& points) {
-  return start<GpuSpace>(problem, points);
+  if (problem.dimension != Dimension::space) return in_section::gpu_engine(problem, points);
+  return std::make_unique<Stepper<GpuSpace, SpaceLattice>>(problem, points);
 }
 
 }  // namespace whipple::device

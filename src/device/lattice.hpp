@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
 
 #include "src/core/base/triple.hpp"
 
@@ -145,15 +144,6 @@ struct BasicLattice {
   [[nodiscard]] static WHIPPLE_POINT Place first_node(const Triple<double>& in_cells) {
     return {static_cast<int>(std::floor(in_cells.x - 0.5)), static_cast<int>(std::floor(in_cells.y - 0.5)),
             planar ? 0 : static_cast<int>(std::floor(in_cells.z - 0.5))};
-  }
-  /// Returns the volume of a particle, in two dimensions its area in the plane: m^3 or m^2.
-  /// @param radius  of a ring, m
-  [[nodiscard]] WHIPPLE_POINT double size_in_section(double volume, double radius) const {
-    if constexpr (planar) {
-      return volume / (has_rings ? 2.0 * std::numbers::pi * radius : 1.0);
-    } else {
-      return volume;
-    }
   }
   /// Returns the size of a cell in space or in the plane: m^3 or m^2.
   [[nodiscard]] WHIPPLE_POINT double cell_in_section() const {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 
 #include "src/core/base/triple.hpp"
 #include "src/material/kinematic_formulas.hpp"
@@ -57,7 +58,8 @@ enum Component : std::uint32_t {
   plastic_heat,                 ///< J
   compression,                  ///< rate under pressure, 1/s
   events,                       ///< bits of MaterialEvent, as a number
-  all_components
+  all_components,
+  section = work  ///< before the motion, in two dimensions: area in the plane, m^2
 };
 
 /// Gives access to the particles in the memory of a device.
@@ -86,6 +88,27 @@ struct Points {
                                                                               std::size_t p) const {
     return {at(component, p),     at(component + 1, p), at(component + 2, p),
             at(component + 3, p), at(component + 4, p), at(component + 5, p)};
+  }
+};
+
+/// Returns the volume of a particle with its voids (m^3), in two dimensions its area in the plane (m^2).
+template <bool planar>
+WHIPPLE_POINT double size_in_section(const Points& points, std::size_t p) {
+  if constexpr (planar) {
+    return points.at(section, p);
+  } else {
+    return points.at(volume, p) + points.at(void_volume, p);
+  }
+}
+
+/// Computes the areas of the particles in the plane. Kernels that visit particles often do not divide.
+struct FindSections {
+  Points points;
+  bool has_rings;  ///< axisymmetry; otherwise a slice 1 m thick
+
+  WHIPPLE_POINT void operator()(std::size_t p) const {
+    const double depth = has_rings ? 2.0 * std::numbers::pi * points.at(position + 1, p) : 1.0;
+    points.at(section, p) = (points.at(volume, p) + points.at(void_volume, p)) / depth;
   }
 };
 

@@ -46,6 +46,9 @@ class Stepper final : public Engine {
     const double dt = input.dt;
     outcome_ = {};
     timed(Stage::bins, [&] { bin(input.sorts); });
+    if constexpr (Lattice::planar) {
+      space_.for_each(store_.points().size, FindSections{store_.points(), lattice().has_rings});
+    }
     if (input.looks_at_fill) look_at_fill();
     timed(Stage::conduction, [&] { conduct(dt); });
     timed(Stage::scatter, [&] { scatter(input.acceleration); });
@@ -281,14 +284,5 @@ class Stepper final : public Engine {
   Array<MaterialConstants> materials_;
   Array<Node> brought_;  // sums of the particles before folding
 };
-
-/// Starts in a space, with the grid of the dimensions of the problem.
-template <class Space>
-std::unique_ptr<Engine> start(const Problem& problem, const PointsOnHost& points) {
-  if (problem.dimension == Dimension::space) {
-    return std::make_unique<Stepper<Space, SpaceLattice>>(problem, points);
-  }
-  return std::make_unique<Stepper<Space, SectionLattice>>(problem, points);
-}
 
 }  // namespace whipple::device

@@ -49,7 +49,7 @@ export root BUILD
 
 # 1. Build
 if ! step build 240 bash -c build; then tail -20 "$out/build.log"; exit 1; fi
-[ -f "$BUILD/gpu.log" ] && cp "$BUILD/gpu.log" "$out/"
+cp "$BUILD"/gpu*.log "$out/" 2> /dev/null
 
 # 2. The four states against the host's kernels after one and two hundred steps; the same bits twice
 step compare 90 "$check" "$states"/*.state --device "$on" --twice --json "$out/compare.json" --markdown "$out/compare.md"

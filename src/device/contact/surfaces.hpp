@@ -74,8 +74,7 @@ struct SumVolumeGradients {
       const std::uint32_t field = lattice.field_of(node);
       const Place at = lattice.place_of(node);
       for_each_point_at(lattice, points, field, at, [&](std::uint32_t p, const ReachedFrom& from) {
-        const double size = lattice.size_in_section(points.at(volume, p) + points.at(void_volume, p),
-                                                    points.at(position + 1, p));
+        const double size = size_in_section<Lattice::planar>(points, p);
         sum.gradient += size * from.gradient;
         sum.volume += size * from.weight;
       });

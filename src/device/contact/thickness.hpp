@@ -14,7 +14,7 @@ namespace whipple::device {
 class HalfThickness {
  public:
   template <class Lattice>
-  WHIPPLE_POINT HalfThickness(const Lattice& lattice, const Points& points, std::size_t p)
+  WHIPPLE_POINT HalfThickness(const Lattice& /*its dimensions*/, const Points& points, std::size_t p)
       : xx_(points.at(extent, p)),
         yy_(points.at(extent + 1, p)),
         zz_(points.at(extent + 2, p)),
@@ -22,8 +22,7 @@ class HalfThickness {
         yz_(points.at(extent + 4, p)),
         zx_(points.at(extent + 5, p)) {
     if constexpr (Lattice::planar) {
-      set_planar(lattice.size_in_section(points.at(volume, p) + points.at(void_volume, p),
-                                         points.at(position + 1, p)));
+      set_section(size_in_section<true>(points, p));
     } else {
       set(points, p);
     }
@@ -47,14 +46,14 @@ class HalfThickness {
     const double determinant =
         xx_ * (yy_ * zz_ - yz_ * yz_) - xy_ * (xy_ * zz_ - yz_ * zx_) + zx_ * (xy_ * yz_ - yy_ * zx_);
     const double box = 8.0 * std::sqrt(determinant > 0.0 ? determinant : 0.0);
-    const double size = points.at(volume, p) + points.at(void_volume, p);
+    const double size = size_in_section<false>(points, p);
     scale_ = std::cbrt(box > 0.0 ? size / box : size);
     if (!(box > 0.0)) {  // a cube
       xx_ = yy_ = zz_ = 0.25;
       xy_ = yz_ = zx_ = 0.0;
     }
   }
-  WHIPPLE_POINT void set_planar(double area) {
+  WHIPPLE_POINT void set_section(double area) {
     zz_ = yz_ = zx_ = 0.0;
     const double determinant = xx_ * yy_ - xy_ * xy_;
     const double box = 4.0 * std::sqrt(determinant > 0.0 ? determinant : 0.0);
