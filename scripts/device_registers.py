@@ -26,6 +26,8 @@ def plain(name):
     """Return the functor that a kernel calls, without namespaces."""
     name = re.sub(r"\(anonymous namespace\)::", "", name)
     name = name.replace("whipple::device::", "").replace("whipple::", "")
+    name = re.sub(r"BasicLattice<(false|true)>", lambda m: "section" if m.group(1) == "true" else "space", name)
+    name = name.replace(" >", ">")
     name = re.sub(r"\((EosKind|StrengthKind)\)(\d+)",
                   lambda m: {"EosKind": ["gruneisen", "table"],
                              "StrengthKind": ["none", "von_mises", "johnson_cook", "steinberg_guinan"]}
