@@ -26,19 +26,8 @@ namespace gpu {
 constexpr unsigned threads = 128;      ///< of a block
 constexpr unsigned most_parts = 1024;  ///< of a reduction
 
-/// Blocks on a multiprocessor that the registers of a kernel must allow; 0: as many as ptxas finds best, for which it may
-/// spill a few.
 template <class Kernel>
-constexpr unsigned least_blocks() {
-  if constexpr (requires { Kernel::least_blocks; }) {
-    return Kernel::least_blocks;
-  } else {
-    return 0;
-  }
-}
-
-template <class Kernel>
-__global__ void __launch_bounds__(threads, least_blocks<Kernel>()) for_each(std::size_t n, const Kernel kernel) {
+__global__ void __launch_bounds__(threads) for_each(std::size_t n, const Kernel kernel) {
   const std::size_t i = std::size_t{blockIdx.x} * threads + threadIdx.x;
   if (i < n) kernel(i);
 }

@@ -62,7 +62,6 @@ struct ContactSurfaces {
 /// Sums the volume gradient (3.1) of body i, of 2 count.
 template <class Lattice>
 struct SumVolumeGradients {
-  static constexpr unsigned least_blocks = 1;  ///< on a multiprocessor (gpu_space.cuh)
   Lattice lattice;
   Points points;
   ContactSurfaces surfaces;
