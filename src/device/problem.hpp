@@ -45,9 +45,12 @@ struct Problem {
   std::vector<MaterialConstants> materials;
   std::vector<double> tables;  ///< of all materials
 
-  [[nodiscard]] double inertia() const {
-    return 0.25 * cell_size * cell_size;
-  }  ///< of affine fields, per mass
+  /// Returns the inertia of affine fields per mass, m^2.
+  [[nodiscard]] double inertia() const { return 0.25 * cell_size * cell_size; }
+  /// Returns the upper corner of the domain, m.
+  [[nodiscard]] Triple<double> upper() const {
+    return {lower.x + cells[0] * cell_size, lower.y + cells[1] * cell_size, lower.z + cells[2] * cell_size};
+  }
 };
 
 /// Returns the lattice of a problem, without nodes and particles.

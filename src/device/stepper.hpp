@@ -8,12 +8,11 @@
 #include <vector>
 
 #include "src/device/cells.hpp"
-#include "src/device/conduction.hpp"
 #include "src/device/contact/stage.hpp"
 #include "src/device/engine.hpp"
-#include "src/device/fill.hpp"
 #include "src/device/gather.hpp"
 #include "src/device/nodes.hpp"
+#include "src/device/passes.hpp"
 #include "src/device/peak.hpp"
 #include "src/device/rates.hpp"
 #include "src/device/scatter.hpp"
@@ -49,7 +48,9 @@ class Stepper final : public Engine {
     if constexpr (Lattice::planar) {
       space_.for_each(store_.points().size, FindSections{store_.points(), lattice().has_rings});
     }
-    if (input.looks_at_fill) look_at_fill();
+    if (input.looks_at_fill) {
+      outcome_.beside_voids = mass_beside_voids(space_, cells_, store_.points(), problem_, reflecting_);
+    }
     timed(Stage::conduction, [&] { conduct(dt); });
     timed(Stage::scatter, [&] { scatter(input.acceleration); });
     if (lattice().has_rings) {
@@ -85,13 +86,12 @@ class Stepper final : public Engine {
   }
   bool must_divide() override {
     if (!follows_domains()) return false;
-    const EndStep all = ends();
     return space_
                .reduce(store_.points().size, AnyTooLong{.points = store_.points(),
                                                         .bodies = domains_.data(),
                                                         .limits = problem_.domain_limits,
-                                                        .lower = all.lower,
-                                                        .upper = all.upper})
+                                                        .lower = problem_.lower,
+                                                        .upper = problem_.upper()})
                .largest[0] > 0.0;
   }
   void upload(const PointsOnHost& points) override { store_.upload(points); }
@@ -131,28 +131,16 @@ class Stepper final : public Engine {
   }
 
   [[nodiscard]] const Lattice& lattice() const { return cells_.lattice(); }
-  /// Calls a kernel of nodes for each mirror plane.
-  template <template <class> class Kernel>
-  void at_mirrors(bool reverse = false) {
-    for (int n = 0; n < 6; ++n) {
-      const int face = reverse ? 5 - n : n;
-      if (!lattice().mirrors[static_cast<std::size_t>(face)].active) continue;
-      space_.for_each(cells_.nodes(), Kernel<Lattice>{lattice(), plane_of(lattice(), face)});
-    }
-  }
   [[nodiscard]] EndStep ends() const {
-    const auto upper = [this](double from, std::size_t a) {
-      return from + problem_.cells[a] * problem_.cell_size;
-    };
     return {.points = store_.points(),
             .lower = problem_.lower,
-            .upper = {upper(problem_.lower.x, 0), upper(problem_.lower.y, 1), upper(problem_.lower.z, 2)},
+            .upper = problem_.upper(),
             .faces = problem_.faces,
             .inertia = problem_.inertia(),
             .frame = frame_};
   }
 
-  /// The order of sums at nodes, and with it every bit, follows from the order of the particles in memory.
+  /// The order of sums at nodes, and every bit with it, is that of the particles in memory.
   void bin(bool sorts) {
     cells_.bin(space_, store_.points(), field_of_body_.data());
     if (sorts) {
@@ -163,43 +151,17 @@ class Stepper final : public Engine {
     outcome_.cells = lattice().stencil_cells;
   }
 
-  void look_at_fill() {
-    space_.for_each(cells_.stencils(), SumVolumes<Lattice>{lattice(), store_.points(), cells_.sums()});
-    space_.for_each(cells_.nodes(), SumNodes<Lattice>{lattice(), cells_.sums(), lattice().nodes});
-    for (int face = 0; face < 6; ++face) {
-      if ((reflecting_ >> face & 1U) != 0)
-        space_.for_each(cells_.nodes(), FoldVolumes<Lattice>{lattice(), face});
-    }
-    space_.for_each(cells_.nodes(), JoinVolumes<Lattice>{lattice(), reflecting_});
-    outcome_.beside_voids = space_
-                                .reduce(store_.points().size,
-                                        MassBesideVoids<Lattice>{.lattice = lattice(),
-                                                                 .points = store_.points(),
-                                                                 .cell_of_ordered = cells_.cell_of_ordered(),
-                                                                 .strong = problem_.strong_pressure,
-                                                                 .filled = problem_.filled})
-                                .sum[0];
-  }
-
   void conduct(double dt) {
     if (!(problem_.shock_conduction > 0.0)) return;
     constexpr double per_inertia = 4.0;  // of quadratic B-splines, 1/dx^2
-    const std::size_t size = store_.points().size;
-    const Exchange exchange = {.points = store_.points(),
-                               .bodies = conducting_.data(),
-                               .cell_size = problem_.cell_size,
-                               .per_rate = per_inertia * dt / problem_.cell_size,
-                               .scale = problem_.shock_conduction,
-                               .onset = problem_.conduction_onset,
-                               .rise = problem_.conduction_rise};
-    if (!(space_.reduce(size, AnyConducts{exchange}).largest[0] > 0.0)) return;
-    space_.for_each(cells_.stencils(), SumCapacity<Lattice>{lattice(), exchange, cells_.sums()});
-    space_.for_each(cells_.nodes(), SumNodes<Lattice>{lattice(), cells_.sums(), lattice().nodes});
-    at_mirrors<FoldCapacity>();
-    space_.for_each(cells_.nodes(), ShareOfNode{lattice().nodes});
-    at_mirrors<CopyShares>(true);
-    outcome_.conducted_heat =
-        space_.reduce(size, ExchangeHeat<Lattice>{lattice(), exchange, cells_.cell_of_ordered()}).sum[0];
+    outcome_.conducted_heat = exchange_heat(space_, cells_,
+                                            {.points = store_.points(),
+                                             .bodies = conducting_.data(),
+                                             .cell_size = problem_.cell_size,
+                                             .per_rate = per_inertia * dt / problem_.cell_size,
+                                             .scale = problem_.shock_conduction,
+                                             .onset = problem_.conduction_onset,
+                                             .rise = problem_.conduction_rise});
   }
 
   void scatter(const Triple<double>& acceleration) {
@@ -212,8 +174,8 @@ class Stepper final : public Engine {
   }
 
   void solve_momentum(double dt) {
-    at_mirrors<FoldMirror>();
-    at_mirrors<RestrictToMirror>();
+    at_mirrors<FoldMirror>(space_, cells_);
+    at_mirrors<RestrictToMirror>(space_, cells_);
     space_.for_each(cells_.nodes(), SolveMomentum<Lattice>{.lattice = lattice(),
                                                            .dt = dt,
                                                            .rate = problem_.kappa * dt / problem_.cell_size,
@@ -223,7 +185,7 @@ class Stepper final : public Engine {
 
   void copy_mirrors(double dt) {
     if (reflecting_ == 0) return;
-    at_mirrors<CopyMirror>(true);
+    at_mirrors<CopyMirror>(space_, cells_, true);
     outcome_.plane_impulse =
         space_.reduce(cells_.nodes(), ImpulseAtMirrors<Lattice>{lattice(), brought_.data(), dt, reflecting_})
             .sum;

@@ -46,9 +46,10 @@ void count_places(const solver::Simulation& simulation, const device::Problem& p
         lattice.place_in(block, static_cast<std::uint32_t>(cell % device::block_nodes));
     constexpr int last = device::stencil_edge - 1, last_z = Lattice::stencil_edge_z - 1;
     for (int corner = 0; corner < 8; ++corner) {
-      blocks.push_back(lattice.block_at(block / lattice.blocks_of_field(), {first.x + ((corner & 1) != 0 ? last : 0),
-                                                           first.y + ((corner & 2) != 0 ? last : 0),
-                                                           first.z + ((corner & 4) != 0 ? last_z : 0)}));
+      blocks.push_back(lattice.block_at(
+          block / lattice.blocks_of_field(),
+          {first.x + ((corner & 1) != 0 ? last : 0), first.y + ((corner & 2) != 0 ? last : 0),
+           first.z + ((corner & 4) != 0 ? last_z : 0)}));
     }
   }
   size.slots = static_cast<double>(count_different(blocks));

@@ -143,7 +143,8 @@ class Reader {
 /// Calls f.value or f.list for all parts of a problem.
 template <class F, class P>
 void visit(F& f, P& p) {
-  f.value(p.dimension), f.value(p.cell_size), f.value(p.lower), f.value(p.cells), f.value(p.faces), f.value(p.mirrors);
+  f.value(p.dimension), f.value(p.cell_size), f.value(p.lower), f.value(p.cells), f.value(p.faces),
+      f.value(p.mirrors);
   f.value(p.slope_smoothing), f.value(p.kappa), f.value(p.losses);
   f.value(p.shock_conduction), f.value(p.conduction_onset), f.value(p.conduction_rise);
   f.value(p.strong_pressure), f.value(p.filled), f.value(p.fields);
