@@ -38,6 +38,8 @@ MAY_USE = {
     # The step on a graphics processor: kernels of single points and nodes, and their engine.
     "src/device": ["src/core/base", "src/core/parallel", "eos", "src/particles", "src/material", "src/transfer",
                    "src/device/material"],
+    # The program that compares a device with stored states, on machines that have nothing but a compiler.
+    "src/device/check": ["src/core/base", "src/device", "src/device/material"],
     "src/fem": ["src/core/base", "src/core/parallel", "src/particles", "src/material"],
     "src/contact": ["src/core/base", "src/core/parallel", "src/particles", "src/grid", "src/transfer", "src/fem"],
     "src/afemp": ["src/core/base", "src/core/parallel", "src/particles", "src/grid", "src/material", "src/transfer", "src/fem"],
@@ -52,9 +54,10 @@ MAY_USE = {
     "src/analysis": ["src/core/base", "src/core/parallel", "src/core/hdf5", "src/grid", "src/material", "src/case"],
     # The loop around the solver: what a run writes, and what may be asked of it.
     "src/run": ["src/core/base", "src/core/input", "src/core/parallel", "eos", "src/particles", "src/grid", "src/material", "src/fem",
-                "src/io", "src/analysis", "src/case", "src/solver"],
+                "src/device", "src/io", "src/analysis", "src/case", "src/solver"],
     # Times the solver.
-    "src/bench": ["src/core/base", "src/core/parallel", "src/core/process", "src/particles", "src/grid", "src/material", "src/transfer", "src/io", "src/case", "src/solver"],
+    "src/bench": ["src/core/base", "src/core/parallel", "src/core/process", "src/particles", "src/grid", "src/material", "src/transfer", "src/device",
+                  "src/device/check", "src/io", "src/case", "src/solver"],
     # Many runs of a case as other processes, and the table of what they wrote.
     "src/sweep": ["src/core/base", "src/core/input", "src/core/process", "src/core/hdf5", "src/grid", "src/material", "src/io", "src/case",
                   "src/analysis", "src/run"],
@@ -89,7 +92,7 @@ MAY_USE = {
 # CMake library -> module, where the name is not the last part of the folder.
 LIBRARY_OF = {"whipple_md_data_set": "md_fitting/data_set", "whipple_md_elements": "md_fitting/elements", "whipple_md_plan": "md_fitting/plan",
               "whipple_md_lammps": "md_fitting/lammps", "whipple_md_protocols": "md_fitting/protocols",
-              "whipple_device_material": "src/device/material",
+              "whipple_device_material": "src/device/material", "whipple_device_check": "src/device/check",
               "whipple_fit": "md_fitting/fit", "whipple_eos": "eos", "whipple_eos_curves": "eos/curves",
               "whipple_eos_experiments": "eos/experiments", "whipple_eos_files": "eos/files",
               "whipple_md_simulated_crystal": "md_fitting/simulated_crystal"}
@@ -124,6 +127,7 @@ WORDS_ALLOWED = {
     "python/eos/module.cpp": "keys of material files",
     "src/case": "keys and words of case files",
     "src/core": "reads and checks words",
+    "src/device/check/options.cpp": "options, without a library for them",
     "src/decks": "grammars and cards of other codes' decks",
     "eos/experiments/measured_table.cpp": "heads and empty cells of tables of measurements",
     "md_fitting/fit/constant_list.cpp": "the unit 1",

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "src/app/build_info.hpp"
+#include "src/bench/device_states.hpp"
 #include "src/bench/laws.hpp"
 #include "src/bench/machine.hpp"
 #include "src/bench/measurement.hpp"
@@ -43,6 +44,7 @@ struct BenchOptions {
   solver::Device device = solver::Device::cpu;
   std::string json;
   std::string compare;
+  std::string states;  // folder
   std::string worker;  // file to which one measurement is written
 };
 
@@ -199,9 +201,19 @@ void print_laws(bool quick) {
   }
 }
 
+/// Writes states for whipple-device-check.
+void write_states(const BenchOptions& options) {
+  const std::size_t steps = options.quick ? 20 : 200;
+  for (const std::string& line : bench::write_device_states(options.states, options.problems, steps,
+                                                            build_info().revision, parallel::world())) {
+    fmt::print("{}\n", line);
+  }
+}
+
 void run_bench(BenchOptions options) {
   if (!options.worker.empty()) return run_worker(options);
   if (options.laws) return print_laws(options.quick);
+  if (!options.states.empty()) return write_states(options);
   require_new_file(options.json, options.force);
   std::vector<Measurement> before;
   if (!options.compare.empty()) before = read_measurements(options.compare);
@@ -269,6 +281,12 @@ void add_bench_command(CLI::App& app) {
       ->type_name("OLD.json")
       ->excludes(laws);
   command->add_flag("--force", options->force, "Replace the file of --json")->excludes(laws);
+  command
+      ->add_option("--states", options->states,
+                   "Instead of timing: run small problems and write states for whipple-device-check; with "
+                   "--quick of 20 steps instead of 200; names of problems are those of the states")
+      ->type_name("FOLDER")
+      ->excludes(laws);
   command->add_option("--worker", options->worker)->group("");  // the ranks that this command starts
   std::string footer = "Problems:\n";
   for (const bench::Problem& problem : bench::problems()) {

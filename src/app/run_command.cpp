@@ -8,8 +8,10 @@
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -51,6 +53,7 @@ struct Arguments {
   int threads = 0;
   int ranks = 0;
   Device device = Device::cpu;
+  double bandwidth = 0.0;  // bytes/s, of a graphics processor
   bool force = false;
 };
 
@@ -135,13 +138,22 @@ int run_here(const Arguments& arguments) {
   }
 }
 
+/// Examines a case for `whipple check`.
+run::CaseCheck examine(const Arguments& arguments, bool with_forecast) {
+  std::optional<run::DeviceQuestion> device;
+  if (arguments.device == Device::gpu) device = run::DeviceQuestion{arguments.bandwidth};
+  if (arguments.device != Device::cpu && !device)
+    throw InputError("--device: check estimates cpu and gpu; the others are for comparisons");
+  return run::examine_case(run_options(arguments), with_forecast, parallel::world(), device);
+}
+
 /// Prints what a case would run, or its faults as data.
 /// @throws the error of a wrong case, after its faults were printed
 void print_check_as_json(const Arguments& arguments, bool with_forecast) {
   using nlohmann::json;
   const auto print = [](const json& text) { fmt::print("{}\n", json_text(text, 1)); };
   try {
-    print(run::check_json(run::examine_case(run_options(arguments), with_forecast, parallel::world())));
+    print(run::check_json(examine(arguments, with_forecast)));
   } catch (const InputError& error) {
     json faults = json::array();
     for (const InputFault& fault : error.faults()) {
@@ -267,6 +279,19 @@ void add_check_command(CLI::App& app) {
   command->footer(
       "Example:\n  whipple check cases/copper_disk_on_aluminium/case.toml --threads 2\n"
       "  whipple check cases/copper_disk_on_aluminium/case.toml --preview disk.html");
+  add_word_option(
+      *command, "--device", arguments->device,
+      "cpu | gpu: also whether a graphics processor computes the case, the memory that it needs, and a "
+      "lower bound of its time")
+      ->default_str("cpu");
+  command
+      ->add_option(
+          "--bandwidth", arguments->bandwidth,
+          "Bytes per second that copies reach on the graphics processor, e.g. 4.3TB (default: measured; "
+          "without one 4.3TB)")
+      ->type_name("BYTES")
+      ->transform(CLI::AsNumberWithUnit(std::map<std::string, double>{{"GB", 1e9}, {"TB", 1e12}}))
+      ->check(CLI::PositiveNumber);
   auto json = std::make_shared<bool>(false);
   auto brief = std::make_shared<bool>(false);
   command->add_flag("--json", *json, "The same for programs (SI), with the faults of a wrong case as data");
@@ -281,8 +306,7 @@ void add_check_command(CLI::App& app) {
     if (*json) {
       print_check_as_json(*arguments, !*brief);
     } else {
-      fmt::print("{}",
-                 run::check_text(run::examine_case(run_options(*arguments), !*brief, parallel::world())));
+      fmt::print("{}", run::check_text(examine(*arguments, !*brief)));
     }
     if (!preview->empty()) write_preview(*arguments, *preview);
   });

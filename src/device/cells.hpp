@@ -20,22 +20,8 @@ class Cells {
   using Array = typename Space::template Array<T>;
 
   /// @throws StateError if the domain has too many cells
-  explicit Cells(const Problem& problem) {
-    lattice_.cell_size = problem.cell_size;
-    lattice_.lower = problem.lower;
-    lattice_.cells = problem.cells;
-    for (std::size_t a = 0; a < 3; ++a) {
-      const int edge = Lattice::edge_along(static_cast<int>(a));
-      lattice_.blocks[a] = (problem.cells[a] + edge - 1) / edge + 2;
-    }
-    lattice_.mirrors = problem.mirrors;
-    lattice_.slope_smoothing = problem.slope_smoothing;
-    if constexpr (Lattice::planar) lattice_.blocks[2] = 1;
-    lattice_.fields = problem.fields;
-    lattice_.has_rings = problem.dimension == Dimension::axisymmetric;
-    double places = problem.fields * static_cast<double>(block_nodes);
-    for (const int blocks : lattice_.blocks) places *= blocks;
-    if (places >= 4294967296.0) throw StateError("the domain has too many cells for the device");
+  explicit Cells(const Problem& problem) : lattice_(lattice_of<Lattice>(problem)) {
+    if (has_too_many_cells(problem)) throw StateError("the domain has too many cells for the device");
     reached_.reserve(blocks());
     slot_of_block_.reserve(blocks());
   }

@@ -5,7 +5,7 @@
 #include "src/device/reduction.hpp"
 #include "src/device/stencil.hpp"
 
-/// Conduction of heat in shocks (docs/theory/dissipation.md, eq. 8 and 9).
+/// Heat conduction in shocks (docs/theory/dissipation.md, eq. 8 and 9).
 namespace whipple::device {
 
 /// Constants of a body.

@@ -159,13 +159,15 @@ struct AnyTooLong {
     const bool continuous = fills(points, body.fluidity, p) && (intact || points.at(vaporised, p) > 0.5);
     if (!continuous && !(limits.divides_all && intact)) return;
     const Principal principal = principal_of_domain(e, limits.planar);
-    int longest = 0;
-    if (principal.value[1] > principal.value[longest]) longest = 1;
-    if (principal.value[2] > principal.value[longest]) longest = 2;
-    const double square = principal.value[longest];
+    double square = principal.value[0];  // no index at run time, which would put them into memory
+    Triple<double> n = principal.direction[0];
+    for (int a = 1; a < 3; ++a) {
+      if (!(principal.value[a] > square)) continue;
+      square = principal.value[a];
+      n = principal.direction[a];
+    }
     if (square <= limits.longest) return;
     const double half = 0.5 * std::sqrt(square);
-    const Triple<double>& n = principal.direction[longest];
     const Triple<double> reach = {half * std::fabs(n.x), half * std::fabs(n.y), half * std::fabs(n.z)};
     const Triple<double> x = points.vector(position, p), low = x - reach, high = x + reach;
     const bool inside = low.x > lower.x && low.y > lower.y && high.x < upper.x && high.y < upper.y;

@@ -113,13 +113,17 @@ struct EndStep {
   /// @returns whether it stays
   WHIPPLE_POINT bool pass_faces(std::size_t p, Result& result) const {
     bool stays = true;
+#ifdef __CUDA_ARCH__
+#pragma unroll  // no index at run time, which would put the kernel's arguments into memory
+#endif
     for (int a = 0; a < 3; ++a) {
       double& x = points.at(position + static_cast<std::uint32_t>(a), p);
       const double low = a == 0 ? lower.x : a == 1 ? lower.y : lower.z;
       const double high = a == 0 ? upper.x : a == 1 ? upper.y : upper.z;
       if (x >= low && x <= high) continue;
       const bool below = x < low;
-      const FaceKind kind = faces[static_cast<std::size_t>(2 * a + (below ? 0 : 1))];
+      const auto face = static_cast<std::size_t>(2 * a);
+      const FaceKind kind = below ? faces[face] : faces[face + 1];
       if (kind == FaceKind::outflow || !(x < low || x > high)) {
         stays = false;
         continue;
@@ -170,6 +174,9 @@ struct EndStep {
     if (!(of_step > 0.0)) return;
     const auto bits = static_cast<std::uint32_t>(of_step);
     std::size_t ends = 0;
+#ifdef __CUDA_ARCH__
+#pragma unroll  // so that `ends` is known to the compiler
+#endif
     for (std::size_t k = 0; k < S::sums - S::first_event; ++k) {
       const bool set = (bits >> k & 1U) != 0;
       if (set) result.sum[S::first_event + k] += 1.0;

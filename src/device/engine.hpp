@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -93,6 +94,16 @@ class Engine {
 std::unique_ptr<Engine> emulated_engine(const Problem& problem, const PointsOnHost& points);
 /// Returns whether the program was built with the compiler of a graphics processor.
 bool has_gpu_engine();
+/// Graphics processor of this machine.
+struct Card {
+  std::string name;
+  double memory, free_memory;  ///< bytes
+};
+/// Returns the graphics processor; none if there is none, or if the program was built without its compiler.
+std::optional<Card> find_card();
+/// Measures what it can do at most.
+/// @throws StateError without one
+Rates card_rates();
 /// Starts on the graphics processor.
 /// @throws StateError without one, or without memory
 std::unique_ptr<Engine> gpu_engine(const Problem& problem, const PointsOnHost& points);

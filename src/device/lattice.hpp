@@ -119,8 +119,11 @@ struct BasicLattice {
     return block_of_slot[node / block_nodes] / blocks_of_field();
   }
   [[nodiscard]] WHIPPLE_POINT Place place_of(std::uint32_t node) const {
-    const int block = static_cast<int>(block_of_slot[node / block_nodes] % blocks_of_field());
-    const int i = static_cast<int>(node % block_nodes);
+    return place_in(block_of_slot[node / block_nodes], node % block_nodes);
+  }
+  /// Returns the place of a node from its block, of any field, and its place in that (`inside`).
+  [[nodiscard]] WHIPPLE_POINT Place place_in(std::uint32_t block_of_any, std::uint32_t node) const {
+    const int block = static_cast<int>(block_of_any % blocks_of_field()), i = static_cast<int>(node);
     return {(block / (blocks[1] * blocks[2]) - 1) * block_edge + i / (block_edge * block_edge_z),
             (block / blocks[2] % blocks[1] - 1) * block_edge + i / block_edge_z % block_edge,
             planar ? 0 : (block % blocks[2] - 1) * block_edge_z + i % block_edge_z};

@@ -6,6 +6,10 @@ namespace whipple::device {
 
 bool has_gpu_engine() { return false; }
 
+std::optional<Card> find_card() { return {}; }
+
+Rates card_rates() { throw StateError("this machine has no graphics processor"); }
+
 std::unique_ptr<Engine> gpu_engine(const Problem&, const PointsOnHost&) {
   throw InputError("this program was built without the compiler of a graphics processor (nvcc 12 or later)");
 }

@@ -50,6 +50,40 @@ struct Problem {
   }  ///< of affine fields, per mass
 };
 
+/// Returns the lattice of a problem, without nodes and particles.
+template <class Lattice>
+Lattice lattice_of(const Problem& problem) {
+  Lattice lattice;
+  lattice.cell_size = problem.cell_size;
+  lattice.lower = problem.lower;
+  lattice.cells = problem.cells;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const int edge = Lattice::edge_along(static_cast<int>(a));
+    lattice.blocks[a] = (problem.cells[a] + edge - 1) / edge + 2;
+  }
+  if constexpr (Lattice::planar) lattice.blocks[2] = 1;
+  lattice.mirrors = problem.mirrors;
+  lattice.slope_smoothing = problem.slope_smoothing;
+  lattice.fields = problem.fields;
+  lattice.has_rings = problem.dimension == Dimension::axisymmetric;
+  return lattice;
+}
+
+/// Counts the blocks of the domain, for all fields.
+inline double count_blocks(const Problem& problem) {
+  const std::array<int, 3> blocks = problem.dimension == Dimension::space
+                                        ? lattice_of<SpaceLattice>(problem).blocks
+                                        : lattice_of<SectionLattice>(problem).blocks;
+  double count = problem.fields;
+  for (const int along : blocks) count *= along;
+  return count;
+}
+/// Returns whether its nodes can be numbered.
+inline bool has_too_many_cells(const Problem& problem) {
+  constexpr double numbers = 4294967296.0;
+  return count_blocks(problem) * block_nodes >= numbers;
+}
+
 /// Holds the particles on the host, component by component.
 struct PointsOnHost {
   std::array<std::vector<double>, state_components> numbers;

@@ -20,6 +20,7 @@
 #include "src/io/ranks.hpp"
 #include "src/run/observers/stop_conditions.hpp"
 #include "src/run/preparation.hpp"
+#include "src/solver/device/device.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple::run {
@@ -82,7 +83,8 @@ std::vector<std::string> account_of(const cases::Case& setup, std::size_t body) 
 
 }  // namespace
 
-CaseCheck examine_case(const RunOptions& options, bool with_forecast, MPI_Comm communicator) {
+CaseCheck examine_case(const RunOptions& options, bool with_forecast, MPI_Comm communicator,
+                       const std::optional<DeviceQuestion>& device) {
   set_threads(options.threads, communicator);
   CaseCheck found;
   found.setup = cases::read_case(options.case_file, options.overrides);
@@ -90,7 +92,9 @@ CaseCheck examine_case(const RunOptions& options, bool with_forecast, MPI_Comm c
   require_known_columns(setup, options.overrides);
   require_memory(setup, communicator);
   found.expected_memory = cases::expected_memory(setup);
+  if (device) solver::evaluate_by_tables(setup);
   cases::tabulate_materials(setup, io::Ranks(communicator));
+  if (device) require_device_case(setup);
   setup.transfer.rest_tolerance = 0.0;  // the cost is measured with no block inactive
   solver::Simulation simulation(setup, communicator);
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
@@ -105,7 +109,9 @@ CaseCheck examine_case(const RunOptions& options, bool with_forecast, MPI_Comm c
   found.particles = simulation.particle_count();  // before splitting adds more
   found.splitting = of_splitting(simulation);
   found.threads = parallel::threads();
+  if (device) found.device = estimate_device(simulation, device->bandwidth);
   if (with_forecast) found.cost = forecast(simulation);
+  if (found.device && found.cost) set_time(*found.device, *found.cost);
   found.blocks = simulation.grid().slots();  // active after the first step
   found.bytes = static_cast<double>(simulation.bytes());
   return found;
@@ -141,6 +147,7 @@ nlohmann::json check_json(const CaseCheck& found) {
     text["steps"] = {found.cost->least_steps, found.cost->most_steps};
     text["seconds"] = {found.cost->least_time, found.cost->most_time};
   }
+  if (found.device) text["device"] = device_json(*found.device);
   return text;
 }
 
@@ -169,6 +176,7 @@ std::string check_text(const CaseCheck& found) {
                       found.cost ? fmt::format(", active blocks: {}", found.blocks) : "",
                       format_bytes(found.bytes));
   text += found.splitting;
+  if (found.device) text += device_text(*found.device);
   if (!found.cost) return text;
   const Forecast& cost = *found.cost;
   text += fmt::format("steps: {:.0f} to {:.0f} to t = {:.6g} us\n", cost.least_steps, cost.most_steps,

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "src/case/case.hpp"
+#include "src/run/device_estimate.hpp"
 #include "src/run/forecast.hpp"
 #include "src/run/run.hpp"
 
@@ -31,12 +32,20 @@ struct CaseCheck {
   std::string splitting;                      ///< lines
   int threads = 1;
   std::optional<Forecast> cost;
+  std::optional<DeviceEstimate> device;
+};
+
+/// Asks for the estimate of a graphics processor.
+struct DeviceQuestion {
+  double bandwidth = 0.0;  ///< to assume, bytes/s; 0: measured, or assumed_bandwidth
 };
 
 /// Examines the run of a case without making it: bodies, particles, memory. Collective.
 /// @param with_forecast  also steps and wall time, from a few measured steps
-/// @throws InputError if the case is invalid
-CaseCheck examine_case(const RunOptions& options, bool with_forecast, MPI_Comm communicator);
+/// @param device         also memory and time on a graphics processor
+/// @throws InputError if the case is invalid, or if a graphics processor is asked about that does not compute it
+CaseCheck examine_case(const RunOptions& options, bool with_forecast, MPI_Comm communicator,
+                       const std::optional<DeviceQuestion>& device = {});
 
 /// Returns it as text for people, or for programs (SI).
 std::string check_text(const CaseCheck& found);

@@ -14,6 +14,7 @@
 #include "src/io/ranks.hpp"
 #include "src/solver/carriers/domains.hpp"
 #include "src/solver/carriers/explosives.hpp"
+#include "src/solver/device/problem.hpp"
 #include "src/solver/stages.hpp"
 
 namespace whipple::solver {
@@ -128,6 +129,10 @@ std::size_t Simulation::bytes() const {
       state_->grid.bytes() + (state_->device != nullptr ? state_->device->engine().bytes() : 0);
   for (const Carrier* carrier : stages_->carriers) bytes += carrier->bytes();
   return bytes;
+}
+
+device::Problem Simulation::device_problem() const {
+  return solver::device_problem(*state_, stages_->contact);
 }
 
 double Simulation::next_event() const { return stages_->activity.next_event(); }

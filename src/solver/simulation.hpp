@@ -11,6 +11,10 @@
 #include "src/solver/loads.hpp"
 #include "src/solver/state.hpp"
 
+namespace whipple::device {
+struct Problem;
+}
+
 namespace whipple::solver {
 
 struct Stages;
@@ -89,6 +93,8 @@ class Simulation {
   /// Returns the minimum fraction of its cells that material above a pressure (Pa) fills; 1e300 if there is none. For
   /// tests. Collective.
   [[nodiscard]] double least_fill(double pressure);
+  /// Describes the run as a device needs it; `device_faults` of its case must be empty.
+  [[nodiscard]] device::Problem device_problem() const;
 
  private:
   /// Keeps the particles on a device from now on.

@@ -36,7 +36,7 @@ void check_scheme(const cases::Case& setup, const Faults& faults) {
   refuse_if(transfer.free_flight, faults, "transfer.free_flight", "free flight of single particles");
   refuse_if(!setup.dissipation.keeps_losses(), faults, "dissipation.losses",
             "losses that become heat at once");
-  refuse_if(setup.heat.conduction, faults, "heat.conduction", "conduction of heat between particles");
+  refuse_if(setup.heat.conduction, faults, "heat.conduction", "heat conduction between particles");
   refuse_if(setup.damping.coefficient > 0.0, faults, "damping", "local damping");
 }
 
