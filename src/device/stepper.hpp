@@ -53,9 +53,11 @@ class Stepper final : public Engine {
     }
     timed(Stage::conduction, [&] { conduct(dt); });
     timed(Stage::scatter, [&] { scatter(input.acceleration); });
-    if (lattice().has_rings) {
-      const double force = space_.reduce(store_.points().size, SumHoopForce{store_.points()}).sum[0];
-      outcome_.hoop_impulse = -dt * force;
+    if constexpr (Lattice::planar) {
+      if (lattice().has_rings) {
+        const double force = space_.reduce(store_.points().size, SumHoopForce{store_.points()}).sum[0];
+        outcome_.hoop_impulse = -dt * force;
+      }
     }
     timed(Stage::contact,
           [&] { contact_.find(space_, lattice(), store_.points(), dt, input.least_closing_speed); });
