@@ -47,6 +47,14 @@ struct Problem {
 
   /// Returns the inertia of affine fields per mass, m^2.
   [[nodiscard]] double inertia() const { return 0.25 * cell_size * cell_size; }
+  /// Returns the faces with mirror planes or walls, one bit each.
+  [[nodiscard]] std::uint32_t reflecting_faces() const {
+    std::uint32_t reflecting = 0;
+    for (std::size_t face = 0; face < 6; ++face) {
+      if (faces[face] != FaceKind::outflow) reflecting |= 1U << face;
+    }
+    return reflecting;
+  }
   /// Returns the upper corner of the domain, m.
   [[nodiscard]] Triple<double> upper() const {
     return {lower.x + cells[0] * cell_size, lower.y + cells[1] * cell_size, lower.z + cells[2] * cell_size};

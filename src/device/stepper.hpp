@@ -36,9 +36,7 @@ class Stepper final : public Engine {
     upload(conducting_, problem_.conducting);
     upload(domains_, problem_.domains);
     upload(materials_, problem_.materials);
-    for (std::size_t face = 0; face < 6; ++face) {
-      if (problem_.faces[face] != FaceKind::outflow) reflecting_ |= 1U << face;
-    }
+    reflecting_ = problem_.reflecting_faces();
   }
 
   Outcome step(const StepInput& input) override {
@@ -55,8 +53,8 @@ class Stepper final : public Engine {
     timed(Stage::scatter, [&] { scatter(input.acceleration); });
     if constexpr (Lattice::planar) {
       if (lattice().has_rings) {
-        const double force = space_.reduce(store_.points().size, SumHoopForce{store_.points()}).sum[0];
-        outcome_.hoop_impulse = -dt * force;
+        outcome_.hoop_impulse =
+            -dt * space_.reduce(store_.points().size, SumHoopForce{store_.points()}).sum[0];
       }
     }
     timed(Stage::contact,
@@ -123,8 +121,8 @@ class Stepper final : public Engine {
     const auto begin = std::chrono::steady_clock::now();
     of_stage();
     space_.synchronize();
-    times_[static_cast<std::size_t>(stage)] +=
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const std::chrono::duration<double> lasted = std::chrono::steady_clock::now() - begin;
+    times_[static_cast<std::size_t>(stage)] += lasted.count();
   }
   template <class T>
   static void upload(Array<T>& to, const std::vector<T>& from) {
@@ -149,8 +147,7 @@ class Stepper final : public Engine {
       store_.sort(space_, cells_.order(), problem_.field_of_body.size());
       cells_.bin(space_, store_.points(), field_of_body_.data());
     }
-    outcome_.slots = lattice().slots;
-    outcome_.cells = lattice().stencil_cells;
+    outcome_.slots = lattice().slots, outcome_.cells = lattice().stencil_cells;
   }
 
   void conduct(double dt) {

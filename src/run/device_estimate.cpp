@@ -67,8 +67,7 @@ DeviceEstimate estimate_device(const solver::Simulation& simulation, double band
   DeviceEstimate estimate;
   device::StepSize& size = estimate.size;
   size.particles = static_cast<double>(simulation.particle_count());
-  size.reflects = std::ranges::any_of(
-      problem.faces, [](device::FaceKind kind) { return kind != device::FaceKind::outflow; });
+  size.reflects = problem.reflecting_faces() != 0;
   size.fields = problem.fields;
   size.conducts = problem.shock_conduction > 0.0;
   size.planar = problem.dimension != device::Dimension::space;

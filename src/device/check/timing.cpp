@@ -43,14 +43,13 @@ void measure(Timing& timing, const Arrangement& arrangement, const MakeEngine& m
   timing.steps = timed_steps;
   timing.bytes = static_cast<double>(engine->bytes());
   const Problem& problem = arrangement.problem;
-  timing.size = {
-      .particles = static_cast<double>(engine->size()),
-      .slots = static_cast<double>(outcome.slots),
-      .cells = static_cast<double>(outcome.cells),
-      .blocks = count_blocks(problem),
-      .reflects = std::ranges::any_of(problem.faces, [](FaceKind k) { return k != FaceKind::outflow; }),
-      .fields = problem.fields,
-      .conducts = problem.shock_conduction > 0.0};
+  timing.size = {.particles = static_cast<double>(engine->size()),
+                 .slots = static_cast<double>(outcome.slots),
+                 .cells = static_cast<double>(outcome.cells),
+                 .blocks = count_blocks(problem),
+                 .reflects = problem.reflecting_faces() != 0,
+                 .fields = problem.fields,
+                 .conducts = problem.shock_conduction > 0.0};
 }
 
 }  // namespace
