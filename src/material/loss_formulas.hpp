@@ -50,7 +50,7 @@ WHIPPLE_INLINE WHIPPLE_POINT inline LoosePoint<Number> lose_strength(const Solid
   const Mask<Number> failed = in.failed;
   Mask<Number> loose = failed;
   if constexpr (brittle) loose = Number{} == Number{};
-  const Number softest = broadcast<Number>(least_squared), one = broadcast<Number>(1.0);
+  const auto softest = broadcast<Number>(least_squared), one = broadcast<Number>(1.0);
   const Number bearing = select(in.vaporised > 0.0, Number{}, 1.0 - in.melted) * (1.0 - in.damage);
   const Number solid = select(failed, Number{}, bearing);
 

@@ -316,12 +316,13 @@ TEST(DevicePoint, PolynomialWithoutYieldOrStrength) {
   constants.C2 = 60e9;
   constants.C4 = 2.0;
   constants.heat_capacity = 900.0;
-  const auto eos = std::make_shared<eos::ModelEquationOfState<eos::Polynomial>>(eos::Polynomial(constants));
-  walk(make_material("fluid", eos, nullptr, {criterion(spall(1e8, failure::SpallResponse::failure))}),
+  const auto model = std::make_shared<eos::ModelEquationOfState<eos::Polynomial>>(eos::Polynomial(constants));
+  walk(make_material("fluid", model, nullptr, {criterion(spall(1e8, failure::SpallResponse::failure))}),
        {.heat = 1e6, .tolerance = 1e-11});
   strength::Elastic elastic;
   elastic.shear_modulus = 26e9;
-  const Walk met = walk(make_material("elastic", eos, std::make_shared<strength::ElasticModel>(elastic)), {});
+  const Walk met =
+      walk(make_material("elastic", model, std::make_shared<strength::ElasticModel>(elastic)), {});
   EXPECT_EQ(met.yielded, 0);
 }
 

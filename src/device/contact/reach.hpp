@@ -39,8 +39,8 @@ struct AxisOfReach {
       : place(at),
         cells(lattice.cells[static_cast<std::size_t>(axis)]),
         // Stencils of particles in the domain reach one node beyond a plane.
-        lower(at == 1 && lattice.mirrors[static_cast<std::size_t>(2 * axis)].bonds(field)),
-        upper(at == cells - 1 && lattice.mirrors[static_cast<std::size_t>(2 * axis + 1)].bonds(field)) {}
+        lower(at == 1 && lattice.mirrors[2 * static_cast<std::size_t>(axis)].bonds(field)),
+        upper(at == cells - 1 && lattice.mirrors[2 * static_cast<std::size_t>(axis) + 1].bonds(field)) {}
   [[nodiscard]] WHIPPLE_POINT bool has(int source) const {
     return source == 0 || (source == 1 ? lower : upper);
   }

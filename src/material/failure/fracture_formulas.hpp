@@ -17,9 +17,8 @@ constexpr double tested_triaxiality = 1.5;  ///< of the tests behind the constan
 template <class Law, class Number>
 WHIPPLE_POINT inline Number failure_strain(const Law& law, Number triaxiality, Number rate,
                                            Number temperature) {
-  const Number one = broadcast<Number>(1.0),
-               greatest_exponent =
-                   broadcast<Number>(100.0);  // strong compression: no damage, and no overflow
+  const auto one = broadcast<Number>(1.0),
+             greatest_exponent = broadcast<Number>(100.0);  // strong compression: no damage, and no overflow
   const Number shape =
       law.d1 + law.d2 * exponential(minimum(
                             Number(law.d3 * minimum(triaxiality, broadcast<Number>(tested_triaxiality))),
