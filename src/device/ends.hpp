@@ -122,7 +122,7 @@ struct EndStep {
       const double high = a == 0 ? upper.x : a == 1 ? upper.y : upper.z;
       if (x >= low && x <= high) continue;
       const bool below = x < low;
-      const auto face = static_cast<std::size_t>(2 * a);
+      const auto face = 2 * static_cast<std::size_t>(a);
       const FaceKind kind = below ? faces[face] : faces[face + 1];
       if (kind == FaceKind::outflow || !(x < low || x > high)) {
         stays = false;

@@ -34,7 +34,7 @@ inline void energy_ahead(const Step& step, Chunk& chunk, WithoutElastic without_
       step.distinguishes_heating() ? chunk.heating_viscosity : chunk.artificial_viscosity;
   for (std::size_t k = 0; k < chunk.size; ++k) {
     const SymmetricTensor s = tensor(lanes, k);
-    const double deviatoric = formulas::power<double>(
+    const auto deviatoric = formulas::power<double>(
         {s.xx, s.yy, s.zz, s.xy, s.yz, s.zx},
         {l[0][k], l[1][k], l[2][k], l[3][k], l[4][k], l[5][k], l[6][k], l[7][k], l[8][k]});
     const double power = deviatoric - (chunk.pressure[k] + viscosity[k]) * chunk.motion.divergence[k];

@@ -43,6 +43,7 @@ struct Problem {
   std::string name, text;
   double after_one, after_many;  ///< bounds of the differences, relative to the greatest value of a field
 };
+// NOLINTNEXTLINE(readability-identifier-naming): the name that GoogleTest looks for
 void PrintTo(const Problem& problem, std::ostream* out) { *out << problem.name; }
 
 constexpr const char* common = R"([transfer]
@@ -213,6 +214,7 @@ double largest_difference(const Particles& a, const Particles& b) {
       return;
     }
     double difference = 0.0, scale = scale_of(field.unit);
+    // NOLINTNEXTLINE(bugprone-sizeof-expression): Value may be double
     constexpr std::size_t numbers = std::is_arithmetic_v<Value> ? 1 : sizeof(Value) / sizeof(double);
     const auto number = [](const Value& value, std::size_t k) {
       if constexpr (std::is_arithmetic_v<Value>) {

@@ -2,6 +2,7 @@
 #include "src/device/check/states.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
@@ -54,7 +55,9 @@ class Writer {
     list(points.origin);
     for (std::size_t c = 0; c < state_components; ++c) {
       const std::vector<double>& column = points.numbers[c];
-      const auto same = [&](double x) { return std::memcmp(&x, column.data(), sizeof(x)) == 0; };
+      const auto same = [&](double x) {
+        return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(column.front());
+      };
       if (!column.empty() && std::ranges::all_of(column, same)) {
         value(Column::one_number);
         value(column.front());
