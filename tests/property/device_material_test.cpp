@@ -9,6 +9,7 @@
 #include <numeric>
 #include <random>
 
+#include "eos/model_equation_of_state.hpp"
 #include "eos/models/polynomial.hpp"
 #include "eos/modifiers/floor.hpp"
 #include "eos/table/table_of_model.hpp"

@@ -20,8 +20,7 @@ namespace whipple {
 
 /// Counts the numbers of a register.
 template <class Register>
-constexpr std::size_t width = sizeof(Register) /
-                              sizeof(double);  // NOLINT(bugprone-sizeof-expression): double too
+constexpr std::size_t width = sizeof(Register) / sizeof(double);  // NOLINT(bugprone-sizeof-expression)
 
 // A number.
 WHIPPLE_POINT inline double multiply_add(double a, double b, double c) { return std::fma(a, b, c); }
