@@ -113,9 +113,9 @@ void print(const Measurement& m) {
   }
   row("whole step", m.nanoseconds, bytes, flops);
   fmt::print("{}", text_table(rows, "lr"));
-  if (!m.device.empty()) {
-    fmt::print("  device: {}; copy {:.0f} GB/s, multiply-adds in double precision {:.0f} Gflop/s\n", m.device,
-               1e-9 * m.machine.bandwidth, 1e-9 * m.machine.arithmetic);
+  if (m.device) {
+    fmt::print("  device: {}; copy {:.0f} GB/s, multiply-adds in double precision {:.0f} Gflop/s\n",
+               *m.device, 1e-9 * m.machine.bandwidth, 1e-9 * m.machine.arithmetic);
     return;
   }
   fmt::print(
@@ -214,6 +214,7 @@ void run_bench(BenchOptions options) {
   if (!options.worker.empty()) return run_worker(options);
   if (options.laws) return print_laws(options.quick);
   if (!options.states.empty()) return write_states(options);
+  solver::require(options.device);
   require_new_file(options.json, options.force);
   std::vector<Measurement> before;
   if (!options.compare.empty()) before = read_measurements(options.compare);

@@ -157,7 +157,7 @@ nlohmann::json to_json(const Measurement& m) {
           {"particles_per_block", m.particles_per_block},
           {"bytes_per_particle", m.bytes_per_particle},
           {"peak_memory_bytes", m.peak_memory},
-          {"device", m.device},
+          {"device", m.device ? nlohmann::json(*m.device) : nlohmann::json()},
           {"stages", stages},
           {"bandwidth_bytes_per_s", m.machine.bandwidth},
           {"arithmetic_flops_per_s", m.machine.arithmetic},
@@ -176,7 +176,7 @@ Measurement from_json(const nlohmann::json& json) {
       .particles_per_block = json.at("particles_per_block"),
       .bytes_per_particle = json.at("bytes_per_particle"),
       .peak_memory = json.at("peak_memory_bytes"),
-      .device = json.value("device", ""),
+      .device = {},
       .stages = {},
       .machine = {.bandwidth = json.at("bandwidth_bytes_per_s"),
                   .arithmetic = json.at("arithmetic_flops_per_s"),
@@ -185,6 +185,8 @@ Measurement from_json(const nlohmann::json& json) {
     m.stages.push_back({stage.at("stage"), stage.at("ns_per_particle_step"),
                         stage.at("bytes_per_particle_step"), stage.at("flops_per_particle_step")});
   }
+  if (const auto device = json.find("device"); device != json.end() && device->is_string())
+    m.device = *device;
   return m;
 }
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,9 +33,9 @@ struct Measurement {
   double nanoseconds = 0.0;    ///< wall clock per particle and step, best of several parts of the run
   double share_at_rest = 0.0;  ///< inactive fraction of the particles, mean over the steps
   double particles_per_block = 0.0;
-  double bytes_per_particle = 0.0;  ///< memory of the fields and the grid, all ranks
-  double peak_memory = 0.0;         ///< bytes, resident, of the largest rank's process
-  std::string device;               ///< that kept the particles; empty: none
+  double bytes_per_particle = 0.0;    ///< memory of the fields and the grid, all ranks
+  double peak_memory = 0.0;           ///< bytes, resident, of the largest rank's process
+  std::optional<std::string> device;  ///< that kept the particles
   std::vector<StageMeasurement> stages;
   MachineRates machine;  ///< rates of as many cores, measured immediately afterwards; 0: unknown
 

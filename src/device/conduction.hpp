@@ -54,18 +54,13 @@ struct SumCapacity {
   Node* sums;
 
   WHIPPLE_POINT void operator()(std::size_t i) const {
-    const std::size_t cell = i / Lattice::stencil_nodes;
-    const Place n = Lattice::in_stencil(static_cast<int>(i % Lattice::stencil_nodes));
-    Node sum{};
-    for (std::uint32_t k = lattice.cell_begin[cell]; k < lattice.cell_begin[cell + 1]; ++k) {
-      const std::uint32_t p = lattice.order[k];
+    sums[i] = sum_of_cell(lattice, i, [&](std::uint32_t p, const Place& n, Node& sum) {
       const double weight = seen(weights_at(lattice, exchange.points.vector(position, p), 0.0), n).n;
       const double capacity = weight * exchange.points.at(mass, p) * exchange.body_of(p).heat_capacity;
       sum.n[0] += capacity;
       sum.n[1] += capacity * exchange.points.at(temperature, p);
       sum.n[2] += capacity * exchange.share(p);
-    }
-    sums[i] = sum;
+    });
   }
 };
 

@@ -19,16 +19,11 @@ struct SumVolumes {
   Node* sums;
 
   WHIPPLE_POINT void operator()(std::size_t i) const {
-    const std::size_t cell = i / Lattice::stencil_nodes;
-    const Place n = Lattice::in_stencil(static_cast<int>(i % Lattice::stencil_nodes));
     const double per_cell = 1.0 / lattice.cell_in_section();
-    Node sum{};
-    for (std::uint32_t k = lattice.cell_begin[cell]; k < lattice.cell_begin[cell + 1]; ++k) {
-      const std::uint32_t p = lattice.order[k];
+    sums[i] = sum_of_cell(lattice, i, [&](std::uint32_t p, const Place& n, Node& sum) {
       const double weight = seen(weights_at(lattice, points.vector(position, p), 0.0), n).n;
       sum.n[0] += weight * per_cell * size_in_section<Lattice::planar>(points, p);
-    }
-    sums[i] = sum;
+    });
   }
 };
 

@@ -2,6 +2,7 @@
 #include "src/core/base/error.hpp"
 #include "src/device/engine.hpp"
 
+/// The engine of a program without the compiler of a graphics processor.
 namespace whipple::device {
 
 bool has_gpu_engine() { return false; }
@@ -11,7 +12,7 @@ std::optional<Card> find_card() { return {}; }
 Rates card_rates() { throw StateError("this machine has no graphics processor"); }
 
 std::unique_ptr<Engine> gpu_engine(const Problem&, const PointsOnHost&) {
-  throw InputError("this program was built without the compiler of a graphics processor (nvcc 12 or later)");
+  throw StateError("this program was built without the compiler of a graphics processor (nvcc 12 or later)");
 }
 
 }  // namespace whipple::device

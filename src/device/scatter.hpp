@@ -18,13 +18,7 @@ struct SumCells {
   Node* sums;                   ///< of the stencil_nodes of each cell
 
   WHIPPLE_POINT void operator()(std::size_t i) const {
-    const std::size_t cell = i / Lattice::stencil_nodes;
-    const Place n = Lattice::in_stencil(static_cast<int>(i % Lattice::stencil_nodes));
-    Node sum{};
-    for (std::uint32_t k = lattice.cell_begin[cell]; k < lattice.cell_begin[cell + 1]; ++k) {
-      add(lattice.order[k], n, sum);
-    }
-    sums[i] = sum;
+    sums[i] = sum_of_cell(lattice, i, [this](std::uint32_t p, const Place& n, Node& sum) { add(p, n, sum); });
   }
 
  private:

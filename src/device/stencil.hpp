@@ -82,4 +82,18 @@ WHIPPLE_POINT inline void for_each_seen(const StencilWeights<edge_z>& w, Functio
   }
 }
 
+/// Sums the particles of a cell at one of its nodes, in the order of the list.
+/// @param i    number of the node: stencil_nodes for each cell
+/// @param add  adds particle p at the place n of its stencil: add(p, n, sum)
+template <class Lattice, class Add>
+WHIPPLE_POINT inline Node sum_of_cell(const Lattice& lattice, std::size_t i, Add&& add) {
+  const std::size_t cell = i / Lattice::stencil_nodes;
+  const Place n = Lattice::in_stencil(static_cast<int>(i % Lattice::stencil_nodes));
+  Node sum{};
+  for (std::uint32_t k = lattice.cell_begin[cell]; k < lattice.cell_begin[cell + 1]; ++k) {
+    add(lattice.order[k], n, sum);
+  }
+  return sum;
+}
+
 }  // namespace whipple::device

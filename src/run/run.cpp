@@ -91,10 +91,11 @@ io::RunDirectory new_directory(const cases::Case& setup, const fs::path& path, c
   return created ? *created : io::RunDirectory::open(path, name);
 }
 
-/// Builds the tables of the materials, and checks that the device computes what the case asks for.
-/// @throws InputError with all that it does not compute
+/// Builds the tables of the materials, and checks that there is the device and that it computes what the case asks for.
+/// @throws InputError that says what is missing, or with all that it does not compute
 void prepare_materials(cases::Case& setup, const io::Ranks& ranks) {
   const bool on_device = is_device(solver::default_device());
+  solver::require(solver::default_device());
   if (on_device) solver::evaluate_by_tables(setup);
   cases::tabulate_materials(setup, ranks);
   if (!on_device) return;

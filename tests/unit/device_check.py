@@ -75,6 +75,15 @@ for name, content in {"truncated": whole[:-100], "half": whole[:len(whole) // 2]
 expect(run(check, folder / "none.state").returncode == 2, "a missing file")
 expect(run(check, state, "--steps", "x").returncode == 2, "a wrong option")
 
+# Without a card a run on one is refused before it writes anything.
+case = source / "tests/data/small_impact.toml"
+card = json.loads(run(whipple, "check", case, "--device", "gpu", "--json").stdout)["device"]["card"]
+if card is None:
+    refused = run(whipple, "run", case, "-o", folder / "run_without_card", "--device", "gpu")
+    expect(refused.returncode == 2 and "--device gpu: this" in refused.stderr, "refused without a card", refused)
+    expect(not (folder / "run_without_card").exists(), "nothing is written without a card")
+    expect(run(whipple, "bench", "taylor_bar", "--device", "gpu").returncode == 2, "bench is refused without a card")
+
 # What the program reads to be compiled.
 sources = [source / "src/device/check/main.cpp", source / "src/device/check/states.cpp", source / "src/device/emulated.cpp"]
 headers = run(compiler, "-std=c++20", "-fopenmp", "-march=x86-64-v3", f"-I{source}", "-M", *sources)

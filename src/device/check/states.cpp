@@ -156,6 +156,18 @@ void visit(F& f, P& p) {
   f.list(p.domains), f.list(p.materials), f.list(p.tables);
 }
 
+/// Calls the functions of f for all parts of a state behind its head.
+template <class F, class S>
+void visit_content(F& f, S& state) {
+  f.text(state.name), f.text(state.what);
+  visit(f, state.problem);
+  f.list(state.steps);
+  f.points(state.start, nullptr);
+  f.points(state.first.points, &state.start);
+  f.points(state.last.points, &state.first.points);
+  f.value(state.first.totals), f.value(state.last.totals);
+}
+
 /// Checks what the kernels rely on.
 void require_whole(const StoredState& state, const Reader& reader) {
   const Problem& p = state.problem;
@@ -185,15 +197,7 @@ void write_state(const std::filesystem::path& file, const StoredState& state) {
   out.value(version);
   out.value(sizes);
   out.text(state.revision);
-  out.text(state.name);
-  out.text(state.what);
-  visit(out, state.problem);
-  out.list(state.steps);
-  out.points(state.start, nullptr);
-  out.points(state.first.points, &state.start);
-  out.points(state.last.points, &state.first.points);
-  out.value(state.first.totals);
-  out.value(state.last.totals);
+  visit_content(out, state);
   if (!out.end()) throw std::runtime_error(file.string() + ": error: cannot be written");
 }
 
@@ -213,15 +217,7 @@ StoredState read_state(const std::filesystem::path& file) {
   in.text(state.revision);
   if (of_sizes != sizes)
     in.wrong("was written by other sources (" + state.revision + "): its structures have other sizes");
-  in.text(state.name);
-  in.text(state.what);
-  visit(in, state.problem);
-  in.list(state.steps);
-  in.points(state.start, nullptr);
-  in.points(state.first.points, &state.start);
-  in.points(state.last.points, &state.first.points);
-  in.value(state.first.totals);
-  in.value(state.last.totals);
+  visit_content(in, state);
   in.end();
   require_whole(state, in);
   return state;

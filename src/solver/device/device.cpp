@@ -7,6 +7,7 @@
 
 #include "src/case/section.hpp"
 #include "src/device/contact/constants.hpp"
+#include "src/device/engine.hpp"
 #include "src/device/material/describe.hpp"
 
 namespace whipple::solver {
@@ -63,6 +64,20 @@ void check_contact(const cases::Case& setup, const Faults& faults) {
 Device& default_device() {
   static Device device = Device::cpu;
   return device;
+}
+
+void require(Device device) {
+  if (device != Device::gpu) return;
+  if (!device::has_gpu_engine()) {
+    throw InputError(
+        "--device gpu: this program was built without the compiler of a graphics processor (nvcc 12 or "
+        "later); accepted here: cpu, reference, emulated");
+  }
+  if (!device::find_card()) {
+    throw InputError(
+        "--device gpu: this machine has no graphics processor, or no driver for CUDA "
+        "programs; accepted here: cpu, reference, emulated");
+  }
 }
 
 std::vector<InputFault> device_faults(const cases::Case& setup) {

@@ -31,6 +31,10 @@ constexpr bool is_device(Device device) { return device == Device::emulated || d
 /// kernel_set().
 Device& default_device();
 
+/// Checks that the program and this machine have the device.
+/// @throws InputError that says what is missing
+void require(Device device);
+
 /// Returns what a case asks for that a device does not compute, each with its key; empty if a device can run it.
 std::vector<InputFault> device_faults(const cases::Case& setup);
 

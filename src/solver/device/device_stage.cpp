@@ -151,9 +151,8 @@ void DeviceStage::require_two_fields(const device::Outcome& outcome) const {
   const Triple<double>& at = outcome.crowded_at;
   throw StateError(
       fmt::format("step {}, t = {} s: more than two bodies meet at ({:.6g}, {:.6g}, {:.6g}) m, and a device "
-                  "computes contact "
-                  "of two velocity fields: --device cpu computes that of any number, contact_group joins "
-                  "bodies in one field",
+                  "computes contact of two velocity fields: --device cpu computes that of any number, "
+                  "contact_group joins bodies in one field",
                   state_.run.step, state_.run.time, at.x, at.y, at.z));
 }
 
