@@ -168,8 +168,8 @@ WHIPPLE_WIDE inline void store(double* to, WideLanes x, std::size_t count = 8) {
 }
 /// Transposes pairs of halves: row n in the lower half, row n + 4 in the upper half.
 template <std::size_t count>
-requires(count == 8) WHIPPLE_WIDE
-    inline std::array<WideLanes, 4> transposed(const std::array<Lanes, count>& rows) {
+  requires(count == 8)
+WHIPPLE_WIDE inline std::array<WideLanes, 4> transposed(const std::array<Lanes, count>& rows) {
   std::array<WideLanes, 4> pair;
   for (std::size_t n = 0; n < 4; ++n) {
     pair[n] = __builtin_shufflevector(rows[n], rows[n + 4], 0, 1, 2, 3, 4, 5, 6, 7);
