@@ -25,7 +25,7 @@ if(WHIPPLE_PYTHON)
     find_program(WHIPPLE_CLANG NAMES clang++-19 clang++-18 clang++)
     if(WHIPPLE_CLANG)
       add_test(NAME device_clang COMMAND ${WHIPPLE_PYTHON} ${PROJECT_SOURCE_DIR}/scripts/device_clang.py ${WHIPPLE_CLANG}
-               ${whipple_cuda_folder} ${CMAKE_CURRENT_BINARY_DIR}/device_clang)
+               ${CUDAToolkit_BIN_DIR}/.. ${CMAKE_CURRENT_BINARY_DIR}/device_clang)
       set_tests_properties(device_clang PROPERTIES LABELS long TIMEOUT 600)
     endif()
   endif()

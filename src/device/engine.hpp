@@ -11,6 +11,7 @@
 
 #include "src/device/contact/touches.hpp"
 #include "src/device/ends.hpp"
+#include "src/device/figures.hpp"
 #include "src/device/problem.hpp"
 
 /// The step on a device: an accelerator, or its emulation on the threads of the host.
@@ -69,6 +70,8 @@ class Engine {
   virtual void set_frame(const Triple<double>& velocity) = 0;
   /// Returns the totals and bounds of the present state.
   virtual EndOfStep measure() = 0;
+  /// Returns what the history shows of each body.
+  virtual std::vector<BodyFigures> figures() = 0;
   /// Returns whether any particle is so long that it must be divided before the next step.
   virtual bool must_divide() = 0;
   /// Replaces the particles.

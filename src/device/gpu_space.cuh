@@ -96,6 +96,14 @@ class GpuSpace {
       size_ = n + n / 8;
       check(cudaMalloc(&values_, size_ * sizeof(T)));
     }
+    /// Makes exactly as much room as another array has: the two may then change places any number of times.
+    void match(const Array& other) {
+      if (size_ == other.size_) return;
+      check(cudaFree(values_));
+      values_ = nullptr;
+      size_ = other.size_;
+      check(cudaMalloc(&values_, size_ * sizeof(T)));
+    }
     [[nodiscard]] T* data() { return values_; }
     [[nodiscard]] std::size_t bytes() const { return size_ * sizeof(T); }
     void upload(const T* from, std::size_t n, std::size_t at = 0) {
@@ -160,8 +168,8 @@ class GpuSpace {
   }
   /// Sorts pairs by key; equal keys stay in order.
   void sort(Array<std::uint32_t>& keys, Array<std::uint32_t>& values, std::size_t n, unsigned bits) {
-    other_keys_.reserve(keys.bytes() / sizeof(std::uint32_t));
-    other_values_.reserve(values.bytes() / sizeof(std::uint32_t));
+    other_keys_.match(keys);
+    other_values_.match(values);
     cub::DoubleBuffer<std::uint32_t> key(keys.data(), other_keys_.data()),
         value(values.data(), other_values_.data());
     std::size_t bytes = 0;
@@ -171,6 +179,11 @@ class GpuSpace {
     check(cub::DeviceRadixSort::SortPairs(scratch_.data(), bytes, key, value, n, 0, end));
     if (key.Current() != keys.data()) keys.swap(other_keys_);
     if (value.Current() != values.data()) values.swap(other_values_);
+  }
+
+  /// Returns the memory of what reductions, scans and sorts need, bytes.
+  [[nodiscard]] std::size_t bytes() const {
+    return parts_.bytes() + scratch_.bytes() + other_keys_.bytes() + other_values_.bytes();
   }
 
  private:

@@ -85,6 +85,10 @@ struct HostSpace {
     std::copy_n(v, n, values.data());
   }
 
+  [[nodiscard]] std::size_t bytes() const {
+    return (other_keys_.size() + other_values_.size()) * sizeof(std::uint32_t);
+  }
+
  private:
   std::vector<std::uint32_t> other_keys_, other_values_;
 };

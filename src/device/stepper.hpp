@@ -84,6 +84,10 @@ class Stepper final : public Engine {
     store_.clear_results(space_);
     return space_.reduce(store_.points().size, ends());
   }
+  std::vector<BodyFigures> figures() override {
+    return figures_of_bodies(space_, store_.points(), materials_.data(),
+                             static_cast<std::uint32_t>(problem_.field_of_body.size()));
+  }
   bool must_divide() override {
     if (!follows_domains()) return false;
     return space_
@@ -102,7 +106,7 @@ class Stepper final : public Engine {
   [[nodiscard]] std::size_t size() const override { return store_.points().size; }
   [[nodiscard]] std::size_t slots() const override { return lattice().slots; }
   [[nodiscard]] std::size_t bytes() const override {
-    return store_.bytes() + cells_.bytes() + contact_.bytes() + brought_.bytes() + tables_.bytes();
+    return space_.bytes() + store_.bytes() + cells_.bytes() + contact_.bytes() + brought_.bytes() + tables_.bytes();
   }
   [[nodiscard]] std::string device() const override { return space_.name(); }
   Rates rates() override { return measured_rates<Space>(space_); }

@@ -12,21 +12,9 @@
 
 #include "src/core/base/vector_math.hpp"
 #include "src/particles/particles.hpp"
+#include "src/particles/phases.hpp"
 
 namespace whipple::io {
-
-/// Lists the phases as numbered in the output files and the phase masses of history.csv.
-enum class Phase : std::uint8_t { solid = 0, melting = 1, liquid = 2, vapour = 3 };
-
-/// Returns the phase of a point from its mass fractions: vapour if at least half of the mass is vapour; otherwise solid
-/// below 1 % of melt, liquid above 99 %, melting between. The margins prevent points at the edge of the melting range
-/// (where round-off causes a fraction of 1e-12) from being counted as melting.
-constexpr double least_vapour = 0.5, least_melting = 0.01, greatest_melting = 0.99;
-constexpr Phase phase(double melted_fraction, double vaporised_fraction) {
-  if (vaporised_fraction >= least_vapour) return Phase::vapour;
-  if (melted_fraction < least_melting) return Phase::solid;
-  return melted_fraction <= greatest_melting ? Phase::melting : Phase::liquid;
-}
 
 /// Returns which of four points are solid, melting, liquid, vapour.
 inline std::array<LanesMask, 4> phases(Lanes melted_fraction, Lanes vaporised_fraction) {

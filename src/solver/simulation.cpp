@@ -106,6 +106,13 @@ std::vector<const Carrier*> Simulation::carriers() const {
   return {stages_->carriers.begin(), stages_->carriers.end()};
 }
 
+void Simulation::add_figures(std::span<PhaseMasses> of_body, Figures& figures) const {
+  for (const Carrier* carrier : stages_->carriers) {
+    carrier->add_phases(of_body);
+    carrier->add_figures(figures);
+  }
+}
+
 const std::vector<fem::Mesh>& Simulation::meshes() const { return stages_->hexahedra.meshes(); }
 
 const std::vector<fem::Bars>& Simulation::bars() const { return stages_->trusses.bars(); }

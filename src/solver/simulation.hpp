@@ -65,6 +65,8 @@ class Simulation {
 
   /// Returns this rank's parts of the carriers of the material, particles first.
   [[nodiscard]] std::vector<const Carrier*> carriers() const;
+  /// Adds the phases of the bodies and the figures of this rank's material, which need no particles on the host.
+  void add_figures(std::span<PhaseMasses> of_body, Figures& figures) const;
   /// Returns the particles of this rank.
   [[nodiscard]] const Particles& particles() const {
     synchronize();

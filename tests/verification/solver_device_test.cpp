@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The step on a device, emulated by the threads of the host, beside the kernels of the host (docs/manual/devices.md).
+// The step on a device, emulated by the threads of the host, beside the kernels of the host (docs/manual/devices.md). With
+// WHIPPLE_TEST_DEVICE=gpu the device is a card.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <deque>
 #include <numeric>
 #include <string>
 #include <string_view>
@@ -37,6 +40,12 @@ class OnDevice {
  private:
   Device former_;
 };
+
+/// The device that is compared with the host.
+Device tested() {
+  const char* const word = std::getenv("WHIPPLE_TEST_DEVICE");
+  return word != nullptr && std::string_view(word) == "gpu" ? Device::gpu : Device::emulated;
+}
 
 /// A problem, and what is seen of the differences after one and two hundred steps.
 struct Problem {
@@ -235,18 +244,57 @@ double largest_difference(const Particles& a, const Particles& b) {
   return largest;
 }
 
+/// Returns how often the particles have been copied to the host.
+long fetches(Simulation& simulation) {
+  const std::deque<solver::Profile::Stage>& stages = simulation.profile().stages();
+  const auto found = std::ranges::find(stages, "device to host", &solver::Profile::Stage::name);
+  return found == stages.end() ? 0 : found->calls;
+}
+
+/// Returns the largest difference of what the history shows, relative to the mass or the
+/// energy; speeds, pressures and temperatures to 1 km/s, 1 GPa, 1000 K.
+double difference_of_figures(const Simulation& host, const Simulation& device) {
+  const auto figures_of = [](const Simulation& simulation) {
+    std::vector<solver::PhaseMasses> masses(simulation.setup().bodies.size());
+    solver::Figures f;
+    simulation.add_figures(masses, f);
+    const double mass = simulation.totals().mass,
+                 energy = simulation.totals().internal_energy + simulation.totals().kinetic_energy;
+    std::vector<double> values = {f.speed / 1e3,
+                                  f.pressure / 1e9,
+                                  f.temperature / 1e3,
+                                  f.elastic_energy / energy,
+                                  f.stored_energy / energy,
+                                  f.stored_cold_work / energy};
+    for (const solver::PhaseMasses& of_body : masses) {
+      for (const double phase : of_body.mass) values.push_back(phase / mass);
+      values.push_back(of_body.failed / mass);
+    }
+    return values;
+  };
+  const std::vector<double> expected = figures_of(host), found = figures_of(device);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    largest = std::max(largest, std::abs(found[i] - expected[i]));
+  }
+  return largest;
+}
+
 class DeviceStep : public testing::TestWithParam<Problem> {};
 
 TEST_P(DeviceStep, IsThatOfTheHost) {
   const cases::Case setup = read(GetParam());
   Simulation host(setup, parallel::world());
-  const OnDevice emulated(Device::emulated);
+  const OnDevice on_device(tested());
   Simulation device(setup, parallel::world());
   const auto compare = [&](int steps) {
     advance(host, steps);
     advance(device, steps);
     EXPECT_EQ(device.state().step, host.state().step);
     EXPECT_NEAR(device.state().time, host.state().time, 1e-8 * host.state().time);
+    const long fetched = fetches(device);
+    EXPECT_LT(difference_of_figures(host, device), steps == 1 ? GetParam().after_one : GetParam().after_many);
+    EXPECT_EQ(fetches(device), fetched);
     return largest_difference(host.particles(), device.particles());
   };
   const double one = compare(1), many = compare(199);
@@ -266,8 +314,8 @@ INSTANTIATE_TEST_SUITE_P(Of, DeviceStep,
                                          incline(), rings(), bar_in_ring(), section_at_wall()),
                          [](const auto& info) { return info.param.name; });
 
-TEST(DeviceEmulation, GivesTheSameBitsOnAnyNumberOfThreads) {
-  const OnDevice emulated(Device::emulated);
+TEST(OnADevice, GivesTheSameBitsOnAnyNumberOfThreads) {
+  const OnDevice on_device(tested());
   const int threads = parallel::threads();
   const cases::Case setup = read(ball_at_wall("friction"));
   parallel::set_threads(1);
@@ -281,8 +329,8 @@ TEST(DeviceEmulation, GivesTheSameBitsOnAnyNumberOfThreads) {
   EXPECT_EQ(one.state().ledger.contact_heat, three.state().ledger.contact_heat);
 }
 
-TEST(DeviceEmulation, OutputsChangeNoBitAndARestartGoesOnAsTheRun) {
-  const OnDevice emulated(Device::emulated);
+TEST(OnADevice, OutputsChangeNoBitAndARestartGoesOnAsTheRun) {
+  const OnDevice on_device(tested());
   const TemporaryFolder folder;
   const cases::Case setup = read(melting());
   Simulation whole(setup, parallel::world()), watched(setup, parallel::world());
@@ -299,7 +347,7 @@ TEST(DeviceEmulation, OutputsChangeNoBitAndARestartGoesOnAsTheRun) {
   expect_same(whole, resumed);
 }
 
-TEST(DeviceEmulation, SharesItsCheckpointsWithTheHost) {
+TEST(OnADevice, SharesItsCheckpointsWithTheHost) {
   const TemporaryFolder folder;
   const cases::Case setup = read(ball_at_wall("separating"));
   Simulation host(setup, parallel::world());
@@ -317,16 +365,16 @@ TEST(DeviceEmulation, SharesItsCheckpointsWithTheHost) {
     advance(resumed, 30);
     return largest_difference(host.particles(), resumed.particles());
   };
-  EXPECT_LT(switched(Device::cpu, Device::emulated), 1e-9);
-  EXPECT_LT(switched(Device::emulated, Device::cpu), 1e-9);
+  EXPECT_LT(switched(Device::cpu, tested()), 1e-9);
+  EXPECT_LT(switched(tested(), Device::cpu), 1e-9);
 }
 
-TEST(DeviceEmulation, ParticlesThatLeaveAreBooked) {
+TEST(OnADevice, ParticlesThatLeaveAreBooked) {
   Problem problem = ball_at_wall("separating");
   problem.text.replace(problem.text.find("\"separating\""), 12, "\"outflow\"");
   const cases::Case setup = read(problem);
   Simulation host(setup, parallel::world());
-  const OnDevice emulated(Device::emulated);
+  const OnDevice on_device(tested());
   Simulation device(setup, parallel::world());
   advance(host, 120);
   advance(device, 120);

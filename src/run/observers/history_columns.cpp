@@ -251,10 +251,7 @@ HistorySource::HistorySource(const solver::Simulation& simulation)
       by_body(simulation.setup().bodies.size()),
       particles(static_cast<double>(simulation.particle_count())),
       elements(static_cast<double>(simulation.element_count())) {
-  for (const solver::Carrier* carrier : simulation.carriers()) {
-    carrier->add_phases(by_body);
-    carrier->add_figures(figures);
-  }
+  simulation.add_figures(by_body, figures);
   solver::sum_over_ranks(simulation.communicator(), by_body);
   for (const solver::PhaseMasses& body : by_body) all_bodies += body;
 

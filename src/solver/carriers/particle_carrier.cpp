@@ -93,6 +93,7 @@ void ParticleCarrier::add_totals(Totals& sum) {
 }
 
 void ParticleCarrier::add_phases(std::span<PhaseMasses> of_body) const {
+  if (state_.device != nullptr) return state_.device->add_phases(of_body);
   const Particles& particles = state_.particles;
   for (std::uint32_t b = 0; b < of_body.size(); ++b) {
     const auto own = std::ranges::equal_range(particles.body, b);
@@ -102,6 +103,7 @@ void ParticleCarrier::add_phases(std::span<PhaseMasses> of_body) const {
 }
 
 void ParticleCarrier::add_figures(Figures& figures) const {
+  if (state_.device != nullptr) return state_.device->add_figures(figures);
   add_speeds(state_.particles.velocity, figures);
   add_state(state_.particles, figures);
   add_energy_parts(

@@ -8,7 +8,7 @@
 
 #include "src/afemp/transition.hpp"
 #include "src/case/build/bars.hpp"
-#include "src/io/output_fields.hpp"
+#include "src/particles/phases.hpp"
 #include "src/particles/rows.hpp"
 #include "src/solver/carriers/element_totals.hpp"
 #include "src/solver/carriers/figures.hpp"
@@ -112,7 +112,7 @@ void Trusses::add_phases(std::span<PhaseMasses> of_body) const {
   for (const fem::Bars& bars : bars_) {
     PhaseMasses& sum = of_body[bars.body];
     for (std::size_t b = 0; b < bars.elements.size(); ++b) {
-      sum.mass[static_cast<std::size_t>(io::Phase::solid)] += bars.elements.mass[b];
+      sum.mass[static_cast<std::size_t>(Phase::solid)] += bars.elements.mass[b];
       if (bars.elements.broken[b] != 0) sum.failed += bars.elements.mass[b];
     }
   }

@@ -58,6 +58,33 @@ DeviceStage::~DeviceStage() = default;
 
 Totals DeviceStage::totals() const { return totals_of_sums(measured_); }
 
+const std::vector<device::BodyFigures>& DeviceStage::figures() {
+  if (figures_.empty()) figures_ = engine_->figures();
+  return figures_;
+}
+
+void DeviceStage::add_phases(std::span<PhaseMasses> of_body) {
+  using F = device::BodyFigures;
+  for (std::size_t b = 0; b < of_body.size(); ++b) {
+    const std::array<double, F::sums>& sum = figures()[b].sum;
+    of_body[b] += {{sum[F::solid], sum[F::melting], sum[F::liquid], sum[F::vapour]}, sum[F::failed_mass]};
+  }
+}
+
+void DeviceStage::add_figures(Figures& figures_of_run) {
+  using F = device::BodyFigures;
+  for (const F& body : figures()) {
+    const auto raise = [&](double& so_far, F::Maximum k) { so_far = std::max(so_far, body.largest[k]); };
+    raise(figures_of_run.pressure, F::highest_pressure);
+    raise(figures_of_run.temperature, F::highest_temperature);
+    figures_of_run.speed =
+        std::max(figures_of_run.speed, std::sqrt(std::max(body.largest[F::squared_speed], 0.0)));
+    figures_of_run.elastic_energy += body.sum[F::elastic];
+    figures_of_run.stored_energy += body.sum[F::stored];
+    figures_of_run.stored_cold_work += body.sum[F::stored];
+  }
+}
+
 double DeviceStage::largest_speed(const Vector3& frame) {
   if (frame != frame_) {
     frame_ = frame;
@@ -74,6 +101,7 @@ double DeviceStage::rate_of_most(double share, double least, double largest) {
 double DeviceStage::step(double accurate_step, const Vector3& acceleration, bool looks_at_fill) {
   const double dt = state_.run.time_step;
   is_current_ = false;
+  figures_.clear();
   state_.run.particles_at_rest = 0;  // a device steps all of them
   double beside_voids = 0.0;
   state_.profile.time("device", [&] {
@@ -188,6 +216,7 @@ bool DeviceStage::must_divide() { return engine_->must_divide(); }
 void DeviceStage::upload() {
   to_columns(state_.particles, points_);
   engine_->upload(points_);
+  figures_.clear();
   is_current_ = true;
 }
 

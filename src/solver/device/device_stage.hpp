@@ -37,6 +37,9 @@ class DeviceStage {
   [[nodiscard]] double fastest() const { return measured_.largest[device::StepSums::speed]; }
   [[nodiscard]] Totals totals() const;
   [[nodiscard]] std::size_t particle_count() const { return engine_->size(); }
+  /// Adds what the history shows of the particles.
+  void add_phases(std::span<PhaseMasses> of_body);
+  void add_figures(Figures& figures);
   /// Returns the largest speed (m/s) in a frame of reference.
   double largest_speed(const Vector3& frame);
   /// Returns the closing rate (1/s) that at most the fraction `share` of the mass exceeds (device/rates.hpp).
@@ -44,6 +47,7 @@ class DeviceStage {
   [[nodiscard]] device::Engine& engine() { return *engine_; }
 
  private:
+  const std::vector<device::BodyFigures>& figures();
   void book(const device::Outcome& outcome);
   void require_two_fields(const device::Outcome& outcome) const;
   void require_valid(const device::Outcome& outcome);
@@ -56,6 +60,7 @@ class DeviceStage {
   device::EndOfStep measured_;
   Vector3 frame_ = Vector3::Zero();
   std::array<double, device::stage_count> times_{};  // of the stages, s
+  std::vector<device::BodyFigures> figures_;         // empty: not those of the present state
   bool is_current_ = true;                           // the particles of State are those of the device
 };
 
