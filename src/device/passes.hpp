@@ -6,6 +6,7 @@
 
 #include "src/device/cells.hpp"
 #include "src/device/conduction.hpp"
+#include "src/device/domains.hpp"
 #include "src/device/fill.hpp"
 #include "src/device/nodes.hpp"
 #include "src/device/problem.hpp"
@@ -60,6 +61,19 @@ double exchange_heat(Space& space, Cells<Space, Lattice>& cells, const Exchange&
   space.for_each(cells.nodes(), ShareOfNode{lattice.nodes});
   at_mirrors<CopyShares>(space, cells, true);
   return space.reduce(size, ExchangeHeat<Lattice>{lattice, exchange, cells.cell_of_ordered()}).sum[0];
+}
+
+/// Returns whether any particle must be divided (domains.hpp).
+/// @param bodies  that are followed, on the device
+template <class Space>
+bool any_too_long(Space& space, const Points& points, const DomainsOfBody* bodies, const Problem& problem) {
+  return space
+             .reduce(points.size, AnyTooLong{.points = points,
+                                             .bodies = bodies,
+                                             .limits = problem.domain_limits,
+                                             .lower = problem.lower,
+                                             .upper = problem.upper()})
+             .largest[0] > 0.0;
 }
 
 }  // namespace whipple::device

@@ -89,14 +89,7 @@ class Stepper final : public Engine {
                              static_cast<std::uint32_t>(problem_.field_of_body.size()));
   }
   bool must_divide() override {
-    if (!follows_domains()) return false;
-    return space_
-               .reduce(store_.points().size, AnyTooLong{.points = store_.points(),
-                                                        .bodies = domains_.data(),
-                                                        .limits = problem_.domain_limits,
-                                                        .lower = problem_.lower,
-                                                        .upper = problem_.upper()})
-               .largest[0] > 0.0;
+    return follows_domains() && any_too_long(space_, store_.points(), domains_.data(), problem_);
   }
   void upload(const PointsOnHost& points) override { store_.upload(points); }
   void download(PointsOnHost& points) override { store_.download(space_, points); }
@@ -106,7 +99,8 @@ class Stepper final : public Engine {
   [[nodiscard]] std::size_t size() const override { return store_.points().size; }
   [[nodiscard]] std::size_t slots() const override { return lattice().slots; }
   [[nodiscard]] std::size_t bytes() const override {
-    return space_.bytes() + store_.bytes() + cells_.bytes() + contact_.bytes() + brought_.bytes() + tables_.bytes();
+    return space_.bytes() + store_.bytes() + cells_.bytes() + contact_.bytes() + brought_.bytes() +
+           tables_.bytes();
   }
   [[nodiscard]] std::string device() const override { return space_.name(); }
   Rates rates() override { return measured_rates<Space>(space_); }
