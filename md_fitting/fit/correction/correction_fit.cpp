@@ -206,6 +206,7 @@ class Problem {
     for (const VarianceComponent& deviation : data_.deviations) system.components.push_back(deviation);
     log_factors_ =
         most_probable_factors(system, VectorXd::Zero(static_cast<Index>(system.components.size())));
+    require_sizes();
     prior_ = MatrixXd::Zero(grids_.size() + 1, grids_.size() + 1);
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       const Index size = parts_[i].covariance.rows(), first = parts_[i].first;
@@ -221,6 +222,21 @@ class Problem {
     const SymmetricEigen eigen = symmetric_eigen(prior_);
     prior_root_ = eigen.vectors * eigen.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
     noise_ = Cholesky(rows_.covariance);
+  }
+  /// @throws StateError if GRAY is no base for a correction of the data: sizes without bound, at which their covariance is
+  /// singular to rounding
+  void require_sizes() const {
+    constexpr double greatest =
+        1e4;  // of what is expected; the potentials that are followed ask for 1 to 400
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      const double factor = std::exp(log_factors_[static_cast<Index>(i)]);
+      if (factor <= greatest) continue;
+      throw StateError(fmt::format(
+          "correction: the data ask for a part \"{}\" {:.1e} times as large as expected, beyond {:.0e}: "
+          "corrections that states outside of the data decide; add states there (expanded crystal, "
+          "isochores)",
+          parts_[i].name, factor, greatest));
+    }
   }
   [[nodiscard]] eos::CorrectionConstants part(const eos::FreeEnergyGrid& grid, const VectorXd& c) const {
     const double V0 = constants_.reference_specific_volume;
