@@ -95,11 +95,11 @@ Saturation saturation(const VapourDome::Search& search, double T, double volume_
   // loop, even if the join of the model causes another loop elsewhere.
   // Where a cold isotherm has further loops at negative pressure, the vapour begins at the first maximum with a positive
   // one: material is unstable between them too.
-  const auto spinodal = [&](double outer, bool of_vapour) {
-    double inside = volume_in_loop, last = 0;
+  const auto spinodal = [&](double start, double outer, bool of_vapour) {
+    double inside = start, last = 0;
     bool in_loop = slope(inside) >= 0;
     for (int i = 1; i <= scan_points; ++i) {
-      const double V = spaced(volume_in_loop, outer, i, scan_points);
+      const double V = spaced(start, outer, i, scan_points);
       const bool rises = slope(V) >= 0;
       if (in_loop && !rises) {
         last = find_root(slope, inside, V, "spinodal");
@@ -108,19 +108,20 @@ Saturation saturation(const VapourDome::Search& search, double T, double volume_
       in_loop = rises || (in_loop && last == 0);
       inside = V;
     }
-    if (last > 0) return last;
+    return last;
+  };
+  const double liquid_spinodal = spinodal(volume_in_loop, search.dense_volume, false);
+  double vapour_spinodal = spinodal(volume_in_loop, search.dilute_volume, true);
+  if (!(liquid_spinodal > 0) || !(vapour_spinodal > 0)) {
     throw InputError(
         fmt::format("no liquid-vapour loop at {:.0f} K; check the vapour constants (vapour_attraction, "
                     "covolume_ratio, join_volume_ratio)",
                     T));
-  };
-  const double liquid_spinodal = spinodal(search.dense_volume, false);
-  const double vapour_spinodal = spinodal(search.dilute_volume, true);
-  const double highest = pressure(vapour_spinodal);
-  if (!(highest > 0)) {
+  }
+  if (!(pressure(vapour_spinodal) > 0)) {
     throw InputError(fmt::format(
         "the vapour of {:.0f} K has its largest pressure, {:.3g} Pa, at {:.4g} m^3/kg: no saturated vapour",
-        T, highest, vapour_spinodal));
+        T, pressure(vapour_spinodal), vapour_spinodal));
   }
   const double spinodal_pressure = pressure(liquid_spinodal);
 
@@ -139,7 +140,15 @@ Saturation saturation(const VapourDome::Search& search, double T, double volume_
     const double Vl = liquid_volume(p), Vv = vapour_volume(p);
     return gibbs(search.fluid(Vl, T), Vl, T) - gibbs(search.fluid(Vv, T), Vv, T);
   };
-  const double upper = std::log(highest) - 1e-12;
+  // The liquid boils below the largest pressure of its vapour. Where it would not, what lies at that maximum is no vapour
+  // but a bend of the isotherm within the dome: the vapour begins at a later one.
+  const auto highest = [&] { return std::log(pressure(vapour_spinodal)) - 1e-12; };
+  while (difference(highest()) > 0) {
+    const double next = spinodal(1.0001 * vapour_spinodal, search.dilute_volume, true);
+    if (!(next > vapour_spinodal) || !(pressure(next) > 0)) break;
+    vapour_spinodal = next;
+  }
+  const double upper = highest();
   double lower = spinodal_pressure > 0 ? std::log(spinodal_pressure) + 1e-12 : upper - 1;
   if (spinodal_pressure <= 0) {
     while (difference(lower) < 0 && lower > upper - 600) lower -= 2 * (upper - lower);

@@ -6,7 +6,7 @@ whipple_test(eos_test
           property/eos_identities_test.cpp property/eos_corrected_gray_test.cpp property/eos_wide_gray_test.cpp property/eos_solid_transition_test.cpp
           property/eos_constant_heat_test.cpp verification/eos_loci_test.cpp verification/eos_models_test.cpp
           verification/eos_shock_test.cpp verification/eos_gas_loci_test.cpp validation/eos_copper_test.cpp
-          unit/eos_table_test.cpp verification/eos_table_error_test.cpp
+          unit/eos_table_test.cpp verification/eos_table_error_test.cpp unit/eos_vapour_dome_test.cpp
   DEPENDS whipple_eos GTest::gmock LABELS fast)
 # What the command line shows, without the command line.
 whipple_test(eos_curves_test SOURCES unit/eos_curves_test.cpp unit/eos_experiments_test.cpp
