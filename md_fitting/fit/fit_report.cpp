@@ -348,6 +348,15 @@ std::string plot_data(const NamedFit& named) {
                                     {"corrected", row.corrected},
                                     {"error", row.error}});
     }
+    for (const LeftOutCurves& kind : fit.correction->left_out) {
+      data["correction_left_out"].push_back({{"kind", kind.kind},
+                                             {"data", kind.data},
+                                             {"curves", kind.curves},
+                                             {"inside_68", kind.inside_68},
+                                             {"inside_95", kind.inside_95},
+                                             {"half_width", kind.half_width},
+                                             {"rms", kind.rms}});
+    }
   }
   for (const IsochoreGruneisen& isochore : fit.isochores) {
     data["isochores"].push_back(

@@ -32,7 +32,7 @@ METALS = {
     "aluminium": ("aluminium_zhakhovsky_short", ["aluminium_zhakhovsky_short"], "2.70 g/cm^3",
                   ["al_hugoniot_mcqueen1970_2024", "al_isotherm_298K_dewaele2004", "al_melting_boehler_ross1997"]),
     "nickel": ("nickel_u3_short", ["nickel_u3_short"], "8.90 g/cm^3", ["ni_hugoniot_marsh1980"]),
-    "tantalum": ("tantalum_ravelo_short", ["tantalum_ravelo_short"], "16.69 g/cm^3", ["ta_isotherm_298K_dewaele2004"]),
+    "tantalum": ("tantalum_ravelo_with_expansion", ["tantalum_ravelo_short", "tantalum_ravelo_expanded_short"], "16.69 g/cm^3", ["ta_isotherm_298K_dewaele2004"]),
 }
 CELLS = ("0.8 mm", "0.4 mm")
 
@@ -49,6 +49,25 @@ def residuals(report):
             break
         rows.append([*found.groups()])
     return rows
+
+
+def coverage(report):
+    """Returns kind, number of data and of curves, fractions within 68 and 95 %, half-width and rms in percent of data predicted without
+    their curve, from the report of `whipple fit --correct`."""
+    lines = report.splitlines()
+    begin = next((i for i, line in enumerate(lines) if line.startswith("each curve predicted without itself")), len(lines))
+    rows = []
+    for line in lines[begin + 1:]:
+        found = re.match(r"(\S.*?)\s+(\d+)\s+(\d+)\s+([\d.]+)\s+([\d.]+)\s+([\d.]+)\s+([\d.]+)$", line)
+        if not found:
+            break
+        rows.append([*found.groups()])
+    return rows
+
+
+COVERAGE = ["data", "number", "curves", "within 68 %", "within 95 %", "half-width %", "rms %"]
+COVERAGE_IS = ("Coverage: each curve predicted by all others (fit.md, section 10); median half-width of the 95 % band of the prediction and rms "
+               "deviation in percent of the same scales:\n\n")
 
 
 def outcomes(audit):
@@ -90,7 +109,7 @@ def main():
     options = parser.parse_args()
     whipple, folder = options.bin.resolve() / "whipple", ROOT / "run/corrected_eos"
     folder.mkdir(parents=True, exist_ok=True)
-    followed, measured, audited = [], [], []
+    followed, covered, measured, audited = [], [], [], []
     materials = {}
     for metal, (name, plans, density, tables) in METALS.items():
         store = options.stores / f"{name}.md.h5"
@@ -104,6 +123,7 @@ def main():
                 continue
             materials[metal, label] = material
             followed += [[metal, *row] for row in residuals(fit.stdout)]
+            covered += [[metal, *row] for row in coverage(fit.stdout)]
             audited.append([metal, label, *outcomes(call([whipple, "eos", "audit", material]).stdout)])
         found = {}
         for label in ("GRAY", "corrected"):
@@ -118,6 +138,7 @@ def main():
     parts = ["Deviation of the models from the simulated states, rms in percent of the scale of each kind (fit.md, section 10), and of the "
              "corrected one in units of its errors:\n\n"
              + table(["metal", "data", "number", "GRAY %", "corrected %", "corrected/errors"], followed),
+             COVERAGE_IS + table(["metal", *COVERAGE], covered),
              "Complete models:\n\n"
              + table(["metal", "model", "melts at rest, K", "boils, K", "critical point, K", "audit"], audited),
              "Deviation from measurements, rms of (material - measured)/measured; it contains that of the potential:\n\n"

@@ -16,7 +16,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 from studies.commands import call  # noqa: E402
-from studies.corrected_eos.corrected_eos import outcomes, residuals  # noqa: E402
+from studies.corrected_eos.corrected_eos import COVERAGE, COVERAGE_IS, coverage, outcomes, residuals  # noqa: E402
 from studies.joint_fit.joint_fit import table  # noqa: E402
 
 PAGE = pathlib.Path(__file__).resolve().parent / "README.md"
@@ -53,7 +53,7 @@ def main():
         store = options.stores / f"{name}_with_fluid.md.h5"
         for plan in (f"{name}_short", f"{name}_fluid_short"):
             call([whipple, "md", ROOT / "cases/md" / f"{plan}.toml", "-o", store, "-q"], allowed=(0, 3))  # 3: some points failed or melted
-        followed, models = [], []
+        followed, covered, models = [], [], []
         for label, flags in (("GRAY", []), ("corrected", ["--correct"])):
             material = folder / f"{name}_{label.lower()}.toml"
             fit = call([whipple, "fit", store, "--density", POTENTIALS[name], *flags, "-o", material, "--force"], allowed=(0, 2, 3))
@@ -61,15 +61,17 @@ def main():
                 models.append([name, label, "-", "-", "-", "-", "refused: " + fit.stderr.strip().rsplit("error: ", 1)[-1][:200]])
                 continue
             followed += [[name, *row] for row in residuals(fit.stdout) if row[0].startswith(FLUID)]
+            covered += [[name, *row] for row in coverage(fit.stdout) if row[0].startswith(FLUID)]
             melts, _, critical, verdict = outcomes(call([whipple, "eos", "audit", material], (0, 3)).stdout)
             models.append([name, label, melts, *vaporisation(whipple, material), critical, verdict])
-        known[name] = {"followed": followed, "models": models}
+        known[name] = {"followed": followed, "covered": covered, "models": models}
         results.write_text(json.dumps(known, indent=1), encoding="utf-8")
     rows = [known[name] for name in POTENTIALS if name in known]
     tables = "\n".join([
         "Deviation of the models from the simulated fluid, rms in percent of the scale of each kind (pressures rho0 C^2, energies 3RT, films "
         "R T/V and R T), and of the corrected one in units of its errors:\n\n"
         + table(["potential", "data", "number", "GRAY %", "corrected %", "corrected/errors"], [row for one in rows for row in one["followed"]]),
+        COVERAGE_IS + table(["potential", *COVERAGE], [row for one in rows for row in one["covered"]]),
         "Complete models:\n\n"
         + table(["potential", "model", "melts at rest, K", "boils, K", "heat of vaporisation, MJ/kg", "critical point, K", "audit"],
                 [row for one in rows for row in one["models"]])])

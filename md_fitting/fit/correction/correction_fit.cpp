@@ -11,6 +11,7 @@
 #include "eos/models/three_phase_model.hpp"
 #include "md_fitting/data_set/points.hpp"
 #include "md_fitting/fit/correction/correction_prior.hpp"
+#include "md_fitting/fit/correction/left_out_curves.hpp"
 #include "md_fitting/fit/correction/measured_rows.hpp"
 #include "md_fitting/fit/correction/potential_rows.hpp"
 #include "md_fitting/fit/correction/stability.hpp"
@@ -62,24 +63,29 @@ class Problem {
   }
 
   /// Returns the most probable coefficients with the zero of energy.
-  VectorXd most_probable(int& limited) const {
-    return stable(rows_.values, VectorXd::Zero(prior_.rows()), limited);
+  /// @param rows  the data, and the limits of stability that decided
+  VectorXd most_probable(Rows& rows) const {
+    rows = rows_;
+    return stable(rows, VectorXd::Zero(prior_.rows()));
   }
   /// Returns coefficients drawn from the posterior distribution: a draw from before the data, moved by what the data
   /// say of it (Matheron's rule).
   VectorXd draw(std::mt19937_64& random) const {
     const VectorXd before = prior_root_ * normal(prior_root_.cols(), random);
     const VectorXd noise = noise_.lower() * normal(rows_.values.size(), random);
-    int limited = 0;
-    return stable(rows_.values + noise, before, limited);
+    Rows rows = rows_;
+    rows.values += noise;
+    return stable(rows, before);
   }
   [[nodiscard]] eos::CorrectedGrayConstants constants(const VectorXd& c) const {
     return {constants_, part(grids_.common, c.head(static_cast<Index>(grids_.common.size()))),
             part(grids_.fluid, c.segment(static_cast<Index>(grids_.common.size()),
                                          static_cast<Index>(grids_.fluid.size())))};
   }
-  [[nodiscard]] CorrectionResult report(const VectorXd& c) const {
+  [[nodiscard]] CorrectionResult report(const VectorXd& c, const Rows& with_limits) const {
     CorrectionResult result;
+    result.limited = static_cast<int>(with_limits.values.size() - rows_.values.size());
+    result.left_out = left_out(with_limits);
     const eos::CorrectedGrayConstants all = constants(c);
     result.common = all.common;
     result.fluid = all.fluid;
@@ -206,7 +212,6 @@ class Problem {
     for (const VarianceComponent& deviation : data_.deviations) system.components.push_back(deviation);
     log_factors_ =
         most_probable_factors(system, VectorXd::Zero(static_cast<Index>(system.components.size())));
-    require_sizes();
     prior_ = MatrixXd::Zero(grids_.size() + 1, grids_.size() + 1);
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       const Index size = parts_[i].covariance.rows(), first = parts_[i].first;
@@ -223,21 +228,6 @@ class Problem {
     prior_root_ = eigen.vectors * eigen.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
     noise_ = Cholesky(rows_.covariance);
   }
-  /// @throws StateError if GRAY is no base for a correction of the data: sizes without bound, at which their covariance is
-  /// singular to rounding
-  void require_sizes() const {
-    constexpr double greatest =
-        1e4;  // of what is expected; the potentials that are followed ask for 1 to 400
-    for (std::size_t i = 0; i < parts_.size(); ++i) {
-      const double factor = std::exp(log_factors_[static_cast<Index>(i)]);
-      if (factor <= greatest) continue;
-      throw StateError(fmt::format(
-          "correction: the data ask for a part \"{}\" {:.1e} times as large as expected, beyond {:.0e}: "
-          "corrections that states outside of the data decide; add states there (expanded crystal, "
-          "isochores)",
-          parts_[i].name, factor, greatest));
-    }
-  }
   [[nodiscard]] eos::CorrectionConstants part(const eos::FreeEnergyGrid& grid, const VectorXd& c) const {
     const double V0 = constants_.reference_specific_volume;
     eos::CorrectionConstants result{grid.least_volume / V0,
@@ -250,25 +240,56 @@ class Problem {
   }
 
   /// Returns the coefficients that the rows make most probable.
-  [[nodiscard]] static VectorXd solve(const Rows& rows, const MatrixXd& prior, const VectorXd& before) {
-    const MatrixXd gain = prior * rows.matrix.transpose();
+  /// @throws StateError if their covariance is singular to rounding: the estimated sizes have no bound
+  [[nodiscard]] VectorXd solve(const Rows& rows, const VectorXd& before) const {
+    const MatrixXd gain = prior_ * rows.matrix.transpose();
     const Cholesky sigma(rows.matrix * gain + rows.covariance);
-    if (!sigma.is_positive()) throw StateError("correction: the covariance of the data is not positive");
+    if (!sigma.is_positive()) {
+      Index largest = 0;
+      const double log_factor = log_factors_.head(static_cast<Index>(parts_.size())).maxCoeff(&largest);
+      throw StateError(
+          fmt::format("correction: the data ask for a part \"{}\" {:.1e} times as large as expected, and "
+                      "their covariance is "
+                      "singular: states without data decide; add some (expanded crystal, isochores)",
+                      parts_[static_cast<std::size_t>(largest)].name, std::exp(log_factor)));
+    }
     return before + gain * VectorXd(sigma.solve(rows.values - rows.matrix * before));
   }
 
+  /// Returns how the data of each curve are predicted by all others: states of one isotherm, isochore, Hugoniot, film or
+  /// table, pressures and energies together.
+  [[nodiscard]] std::vector<LeftOutCurves> left_out(const Rows& rows) const {
+    std::vector<LeftOutDatum> data;
+    for (std::size_t i = 0; i + reference_rows < data_.data.size(); ++i) {
+      const CorrectionDatum& datum = data_.data[i];
+      const SurfaceTerm& state = datum.terms.front();
+      std::string curve = datum.kind.substr(0, datum.kind.find(','));
+      if (datum.row == CorrectionRowKind::measured) {
+        curve = datum.kind;
+      } else if (curve.ends_with("isochore") || curve == "fluid") {
+        curve += fmt::format(" {:.5g}", state.volume / constants_.reference_specific_volume);
+      } else if (curve == "film" || curve == "coexistence") {
+        curve += fmt::format(" {:.5g} K", state.temperature);
+      }
+      data.push_back({.kind = datum.kind, .curve = std::move(curve), .scale = datum.scale});
+    }
+    std::vector<LeftOutCurves> kinds = left_out_curves(
+        data, rows.values, rows.matrix * prior_ * rows.matrix.transpose() + rows.covariance, rows.covariance);
+    // The line of GRAY is kept, not known.
+    std::erase_if(kinds, [](const LeftOutCurves& kind) { return kind.kind == "melting line kept"; });
+    return kinds;
+  }
+
   /// Solves, adds the most violated limits of stability as data, and repeats until all hold.
-  [[nodiscard]] VectorXd stable(const VectorXd& values, const VectorXd& before, int& limited) const {
+  /// @param rows  the data; then also these limits
+  [[nodiscard]] VectorXd stable(Rows& rows, const VectorXd& before) const {
     constexpr int most_rounds = 40;
     constexpr std::size_t at_once = 6;
     // Aimed at beyond the limit, so that rows with an error end on the right side of it.
     constexpr double margin = 0.03, error = 0.01;
-    Rows rows = rows_;
-    rows.values = values;
-    limited = 0;
     std::size_t last_violation = 0;
     for (int round = 0; round < most_rounds; ++round) {
-      const VectorXd c = solve(rows, prior_, before);
+      const VectorXd c = solve(rows, before);
       const std::vector<std::size_t> violated = worst_violations(limits_, c.head(grids_.size()), at_once);
       if (violated.empty()) return c;
       last_violation = violated.front();
@@ -285,7 +306,6 @@ class Problem {
         rows.values[old + i] = limit.least + margin;
         rows.covariance(old + i, old + i) = error * error;
       }
-      limited += static_cast<int>(added);
     }
     const StabilityLimit& worst = limits_[last_violation];
     throw StateError(
@@ -314,10 +334,9 @@ void require_material(const eos::CorrectedGrayConstants& constants) { eos::Corre
 
 CorrectionResult fit_with(const CorrectionSource& source, int samples, std::uint64_t seed, Films films) {
   const Problem problem(source, films);
-  int limited = 0;
-  const VectorXd best = problem.most_probable(limited);
-  CorrectionResult result = problem.report(best);
-  result.limited = limited;
+  Rows rows;
+  const VectorXd best = problem.most_probable(rows);
+  CorrectionResult result = problem.report(best, rows);
   require_material(problem.constants(best));
   std::mt19937_64 random(seed);
   int refused = 0;
@@ -362,6 +381,14 @@ std::string correction_text(const CorrectionResult& result) {
       "in percent of rho0 C^2 (pressures of condensed states), 3RT (energies), RT/V and RT (films), of the "
       "heat "
       "of fusion, and of the melting temperature\n";
+  text +=
+      fmt::format("\n{:<38} {:>5} {:>7} {:>9} {:>9} {:>12} {:>8}\n", "each curve predicted without itself",
+                  "", "curves", "in 68 %", "in 95 %", "half-width %", "rms %");
+  for (const LeftOutCurves& kind : result.left_out) {
+    text +=
+        fmt::format("{:<38} {:>5} {:>7} {:>9.2f} {:>9.2f} {:>12.3f} {:>8.3f}\n", kind.kind, kind.data,
+                    kind.curves, kind.inside_68, kind.inside_95, 100.0 * kind.half_width, 100.0 * kind.rms);
+  }
   text += "sizes in units of those expected:";
   for (const CorrectionSize& size : result.sizes) text += fmt::format(" {} {:.2f};", size.name, size.factor);
   text += fmt::format(" {} limits of stability\n", result.limited);

@@ -8,6 +8,7 @@
 
 #include "eos/models/corrected_gray_surfaces.hpp"
 #include "md_fitting/data_set/data_set.hpp"
+#include "md_fitting/fit/correction/left_out_curves.hpp"
 #include "md_fitting/fit/joint/measured_curves.hpp"
 
 /// Fits smooth corrections of GRAY's free energies to the states of a store (docs/theory/fit.md, section 10).
@@ -39,9 +40,10 @@ struct CorrectionResult {
   std::vector<CorrectionResiduals> residuals;
   std::vector<CorrectionRow> rows;
   std::vector<CorrectionSize> sizes;
-  double energy_zero = 0.0;  ///< J/kg, of the simulation at the reference state of the model
-  int limited = 0;           ///< states at which stability decided
-  std::string remark{};      ///< on data that were left out
+  std::vector<LeftOutCurves> left_out;  ///< coverage on data that were not seen
+  double energy_zero = 0.0;             ///< J/kg, of the simulation at the reference state of the model
+  int limited = 0;                      ///< states at which stability decided
+  std::string remark{};                 ///< on data that were left out
   std::vector<eos::CorrectedGrayConstants> samples{};  ///< drawn from the posterior distribution
 };
 

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <string>
+#include <vector>
+
+/// How well corrections predict data that took no part in them (docs/theory/fit.md, section 10).
+namespace whipple::fit {
+
+/// Describes data of one kind, each predicted without the curve that it belongs to.
+struct LeftOutCurves {
+  std::string kind;
+  int data = 0, curves = 0;
+  double inside_68 = 0.0, inside_95 = 0.0;  ///< fraction within both errors, of prediction and datum
+  double half_width = 0.0;  ///< median half-width of the 95 % band of the prediction, over the scale
+  double rms = 0.0;         ///< of datum less prediction, over the scale
+};
+
+/// Names what a datum belongs to.
+struct LeftOutDatum {
+  std::string kind, curve;
+  double scale = 1.0;  ///< of the kind, in the unit of the datum
+};
+
+/// Predicts the data curve by curve from all others, exactly for a linear problem: with the inverse Q of the covariance of
+/// all residuals r the data of a curve deviate by Q_cc^-1 (Q r)_c, with covariance Q_cc^-1 (Dubrule, Math. Geol. 15 (1983)
+/// 687). Sizes and limits of the problem stay those of all data.
+/// @param data        the first rows; those beyond them are kept (limits of stability)
+/// @param covariance  of all residuals: of the corrections before the data, and of the errors
+/// @param errors      of the data alone
+/// @returns one entry for each kind, in the order of the data
+std::vector<LeftOutCurves> left_out_curves(std::span<const LeftOutDatum> data,
+                                           const Eigen::VectorXd& residuals,
+                                           const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& errors);
+
+}  // namespace whipple::fit
