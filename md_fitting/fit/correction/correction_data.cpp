@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "md_fitting/fit/correction/correction_data.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -28,6 +30,7 @@ constexpr double most_correlated = 0.999;
 struct Group {
   std::vector<CorrectionDatum> data;
   Eigen::MatrixXd covariance;
+  std::string curve{};
 };
 
 class Collector {
@@ -38,6 +41,11 @@ class Collector {
     bulk_modulus_ = c.hugoniot_intercept * c.hugoniot_intercept / c.reference_specific_volume;
   }
 
+  /// Names the curve to which the data that follow belong.
+  void begin_curve(std::string name) { curve_ = std::move(name); }
+  void begin_isochore(const std::string& name, double V) {
+    begin_curve(fmt::format("{} {:.5g}", name, V / gray_.constants().reference_specific_volume));
+  }
   /// Adds pressure and energy of a state at (V, T).
   void state(const std::string& kind, PhaseSurface surface, double V, double T, const Estimate& pressure,
              const Estimate& energy, double correlation) {
@@ -51,17 +59,17 @@ class Collector {
     covariance(0, 0) +=
         std::pow(of_pressure * pressure.value, 2) + std::pow(of_bulk_modulus * bulk_modulus_, 2);
     covariance(1, 1) += std::pow(of_energy * heat, 2);
-    groups_.push_back({{pressure_datum(kind, surface, V, T, pressure.value - model.pressure),
-                        energy_datum(kind, surface, V, T, energy.value - model.energy)},
-                       covariance});
+    add({{pressure_datum(kind, surface, V, T, pressure.value - model.pressure),
+          energy_datum(kind, surface, V, T, energy.value - model.energy)},
+         covariance});
   }
   /// Adds a pressure at (V, T).
   void pressure(const std::string& kind, PhaseSurface surface, double V, double T, double pressure,
                 double error) {
     if (!in_range(surface, V)) return;
     const double whole = std::hypot(error, of_pressure * pressure, of_bulk_modulus * bulk_modulus_);
-    groups_.push_back({{pressure_datum(kind, surface, V, T, pressure - at(surface, V, T).pressure)},
-                       Eigen::MatrixXd::Constant(1, 1, whole * whole)});
+    add({{pressure_datum(kind, surface, V, T, pressure - at(surface, V, T).pressure)},
+         Eigen::MatrixXd::Constant(1, 1, whole * whole)});
   }
   /// Adds solid and melt in equilibrium: both pressures, equal Gibbs energies, and the heat of fusion.
   void coexistence(const md::CoexistencePoint& point) {
@@ -86,7 +94,7 @@ class Collector {
         T * entropy,
         0.0,
         {{PhaseSurface::fluid, Vl, T, {.F = 1.0}}, {PhaseSurface::solid, Vs, T, {.F = -1.0}}}};
-    groups_.push_back({{std::move(gibbs)}, Eigen::MatrixXd::Constant(1, 1, error * error)});
+    add({{std::move(gibbs)}, Eigen::MatrixXd::Constant(1, 1, error * error)});
     if (!point.latent_heat) return;
     const double heat = point.latent_heat->value;
     const double heat_error = std::hypot(point.latent_heat->error, of_heat * heat);
@@ -97,7 +105,7 @@ class Collector {
                            0.0,
                            {{PhaseSurface::fluid, Vl, T, {.F = 1.0, .F_T = -T}},
                             {PhaseSurface::solid, Vs, T, {.F = -1.0, .F_T = T}}}};
-    groups_.push_back({{std::move(fusion)}, Eigen::MatrixXd::Constant(1, 1, heat_error * heat_error)});
+    add({{std::move(fusion)}, Eigen::MatrixXd::Constant(1, 1, heat_error * heat_error)});
   }
   /// Keeps the melting line of GRAY, which the constants come from, where melting is not known otherwise: equal Gibbs
   /// energies at its pressures and temperatures.
@@ -115,14 +123,14 @@ class Collector {
       const double entropy = at(PhaseSurface::fluid, t.liquid_volume, T).entropy -
                              at(PhaseSurface::solid, t.solid_volume, T).entropy;
       const double error = of_kept_melting * T * entropy;
-      groups_.push_back({{{"melting line kept",
-                           CorrectionRowKind::kept,
-                           0.0,
-                           T * entropy,
-                           0.0,
-                           {{PhaseSurface::fluid, t.liquid_volume, T, {.F = 1.0}},
-                            {PhaseSurface::solid, t.solid_volume, T, {.F = -1.0}}}}},
-                         Eigen::MatrixXd::Constant(1, 1, error * error)});
+      add({{{"melting line kept",
+             CorrectionRowKind::kept,
+             0.0,
+             T * entropy,
+             0.0,
+             {{PhaseSurface::fluid, t.liquid_volume, T, {.F = 1.0}},
+              {PhaseSurface::solid, t.solid_volume, T, {.F = -1.0}}}}},
+           Eigen::MatrixXd::Constant(1, 1, error * error)});
     }
   }
   /// Adds melt and vapour in equilibrium: equal pressures and Gibbs energies at the simulated densities.
@@ -151,25 +159,25 @@ class Collector {
     Eigen::MatrixXd sources = Eigen::MatrixXd::Zero(3, 3);
     sources << slope_l * liquid, -slope_v * vapour, 0.0,  //
         Vl * slope_l * liquid, -Vv * slope_v * vapour, 0.0, 0.0, -slope_v * vapour, pressure;
-    groups_.push_back({{{"film, pressures",
-                         CorrectionRowKind::film,
-                         v.pressure - l.pressure,
-                         gas / Vv,
-                         0.0,
-                         {P(Vl, 1.0), P(Vv, -1.0)}},
-                        {"film, Gibbs energies",
-                         CorrectionRowKind::film,
-                         v.gibbs(Vv, T) - l.gibbs(Vl, T),
-                         gas,
-                         0.0,
-                         {G(Vl, 1.0), G(Vv, -1.0)}},
-                        {"film, pressure of the vapour",
-                         CorrectionRowKind::film,
-                         stress.value - v.pressure,
-                         gas / Vv,
-                         0.0,
-                         {P(Vv, 1.0)}}},
-                       sources * sources.transpose()});
+    add({{{"film, pressures",
+           CorrectionRowKind::film,
+           v.pressure - l.pressure,
+           gas / Vv,
+           0.0,
+           {P(Vl, 1.0), P(Vv, -1.0)}},
+          {"film, Gibbs energies",
+           CorrectionRowKind::film,
+           v.gibbs(Vv, T) - l.gibbs(Vl, T),
+           gas,
+           0.0,
+           {G(Vl, 1.0), G(Vv, -1.0)}},
+          {"film, pressure of the vapour",
+           CorrectionRowKind::film,
+           stress.value - v.pressure,
+           gas / Vv,
+           0.0,
+           {P(Vv, 1.0)}}},
+         sources * sources.transpose()});
   }
 
   [[nodiscard]] double modulus(PhaseSurface surface, double V, double T) const {
@@ -185,7 +193,10 @@ class Collector {
       const Eigen::Index size = group.covariance.rows();
       all.covariance.block(row, row, size, size) = group.covariance;
       row += size;
-      all.data.insert(all.data.end(), group.data.begin(), group.data.end());
+      for (CorrectionDatum datum : group.data) {
+        datum.curve = group.curve;
+        all.data.push_back(std::move(datum));
+      }
     }
     return all;
   }
@@ -216,9 +227,15 @@ class Collector {
             {{surface, V, T, {.F = 1.0, .F_T = -T}}}};
   }
 
+  void add(Group group) {
+    group.curve = curve_;
+    groups_.push_back(std::move(group));
+  }
+
   const eos::GrayFreeEnergy& gray_;
   FilmErrors film_errors_;
   double bulk_modulus_;
+  std::string curve_;
   std::vector<Group> groups_;
 };
 
@@ -244,13 +261,17 @@ CorrectionData correction_data(std::span<const md::PointRecord> points, const eo
                                Films films, const FilmErrors& film_errors,
                                std::span<const double> melts_measured) {
   Collector collector(classical, film_errors);
-  for (const char* protocol : {"isotherm", "isochore"}) {
-    for (const md::StatePoint& p : md::select_as<md::StatePoint>(points, protocol)) {
-      collector.state(p.solid ? protocol : "molten " + std::string(protocol), phase_of(p.solid),
-                      p.specific_volume, p.temperature, p.pressure, p.specific_internal_energy,
-                      p.error_correlation);
-    }
+  const auto add_state = [&](const std::string& kind, const md::StatePoint& p) {
+    collector.state(p.solid ? kind : "molten " + kind, phase_of(p.solid), p.specific_volume, p.temperature,
+                    p.pressure, p.specific_internal_energy, p.error_correlation);
+  };
+  collector.begin_curve("isotherm");
+  for (const md::StatePoint& p : md::select_as<md::StatePoint>(points, "isotherm")) add_state("isotherm", p);
+  for (const md::StatePoint& p : md::select_as<md::StatePoint>(points, "isochore")) {
+    collector.begin_isochore("isochore", p.specific_volume);
+    add_state("isochore", p);
   }
+  collector.begin_curve("shock");
   for (const md::HugoniotPoint& p : md::select_as<md::HugoniotPoint>(points)) {
     if (!(p.temperature.value > 0.0)) continue;  // an older store
     // The errors of pressure, energy and temperature of a shock are those of one state on the curve: the energy
@@ -258,6 +279,7 @@ CorrectionData correction_data(std::span<const md::PointRecord> points, const eo
     collector.state(p.solid ? "shock" : "molten shock", phase_of(p.solid), p.specific_volume,
                     p.temperature.value, p.pressure, p.specific_internal_energy, 0.0);
   }
+  collector.begin_curve("volume at zero pressure");
   for (const md::ZeroPressurePoint& p : md::select_as<md::ZeroPressurePoint>(points)) {
     const double V = p.specific_volume.value;
     const double error =
@@ -266,9 +288,11 @@ CorrectionData correction_data(std::span<const md::PointRecord> points, const eo
   }
   for (const md::FluidPoint& p : md::select_as<md::FluidPoint>(points)) {
     if (!p.uniform) continue;
+    collector.begin_isochore("fluid", p.specific_volume);
     collector.state("fluid", PhaseSurface::fluid, p.specific_volume, p.temperature, p.pressure,
                     p.specific_internal_energy, p.error_correlation);
   }
+  collector.begin_curve("melt");
   for (const md::LiquidPoint& p : md::select_as<md::LiquidPoint>(points)) {
     if (!p.liquid) continue;
     const double V = p.specific_volume.value;
@@ -283,12 +307,16 @@ CorrectionData correction_data(std::span<const md::PointRecord> points, const eo
   }
   std::vector<double> known(melts_measured.begin(), melts_measured.end());
   for (const md::CoexistencePoint& p : md::select_as<md::CoexistencePoint>(points)) {
+    collector.begin_curve(fmt::format("coexistence at {} Pa", p.pressure));
     collector.coexistence(p);
     if (p.fusion_volume) known.push_back(p.melting_temperature.value);
   }
   collector.melting_line(known);
   if (films == Films::left_out) return collector.result();
-  for (const md::LiquidVapourPoint& p : md::select_as<md::LiquidVapourPoint>(points)) collector.film(p);
+  for (const md::LiquidVapourPoint& p : md::select_as<md::LiquidVapourPoint>(points)) {
+    collector.begin_curve(fmt::format("film of {} K", p.temperature));
+    collector.film(p);
+  }
   return collector.result();
 }
 

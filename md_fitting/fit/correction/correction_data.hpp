@@ -36,6 +36,7 @@ struct CorrectionDatum {
   double scale = 1.0;        ///< by which residuals are reported, in the unit of the datum
   double energy_zero = 0.0;  ///< 1 for an energy, 0 for all others
   std::vector<SurfaceTerm> terms;
+  std::string curve{};  ///< isotherm, isochore, film, table ... that it belongs to; left out as a whole
 };
 
 /// Holds all data with the covariance of their errors.

@@ -262,22 +262,12 @@ class Problem {
     std::vector<LeftOutDatum> data;
     for (std::size_t i = 0; i + reference_rows < data_.data.size(); ++i) {
       const CorrectionDatum& datum = data_.data[i];
-      const SurfaceTerm& state = datum.terms.front();
-      std::string curve = datum.kind.substr(0, datum.kind.find(','));
-      if (datum.row == CorrectionRowKind::measured) {
-        curve = datum.kind;
-      } else if (curve.ends_with("isochore") || curve == "fluid") {
-        curve += fmt::format(" {:.5g}", state.volume / constants_.reference_specific_volume);
-      } else if (curve == "film" || curve == "coexistence") {
-        curve += fmt::format(" {:.5g} K", state.temperature);
-      }
-      data.push_back({.kind = datum.kind, .curve = std::move(curve), .scale = datum.scale});
+      // The line of GRAY is kept, not known.
+      const bool is_known = datum.row != CorrectionRowKind::kept;
+      data.push_back({.kind = datum.kind, .curve = datum.curve, .scale = datum.scale, .is_known = is_known});
     }
-    std::vector<LeftOutCurves> kinds = left_out_curves(
-        data, rows.values, rows.matrix * prior_ * rows.matrix.transpose() + rows.covariance, rows.covariance);
-    // The line of GRAY is kept, not known.
-    std::erase_if(kinds, [](const LeftOutCurves& kind) { return kind.kind == "melting line kept"; });
-    return kinds;
+    return left_out_curves(data, rows.values,
+                           rows.matrix * prior_ * rows.matrix.transpose() + rows.covariance, rows.covariance);
   }
 
   /// Solves, adds the most violated limits of stability as data, and repeats until all hold.

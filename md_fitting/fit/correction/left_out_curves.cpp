@@ -54,11 +54,14 @@ std::vector<LeftOutCurves> left_out_curves(std::span<const LeftOutDatum> data, c
   const MatrixXd Q = sigma.solve(MatrixXd::Identity(covariance.rows(), covariance.rows()));
   const VectorXd weighted = Q * residuals;
   std::map<std::string, std::vector<Index>> curves;
-  for (std::size_t i = 0; i < data.size(); ++i) curves[data[i].curve].push_back(static_cast<Index>(i));
+  for (std::size_t i = 0; i < data.size(); ++i) {
+    if (data[i].is_known) curves[data[i].curve].push_back(static_cast<Index>(i));
+  }
   std::vector<Sums> kinds;
   std::map<std::string, std::size_t> place;
   for (const LeftOutDatum& datum : data) {
-    if (place.emplace(datum.kind, kinds.size()).second) kinds.emplace_back().of_kind.kind = datum.kind;
+    if (datum.is_known && place.emplace(datum.kind, kinds.size()).second)
+      kinds.emplace_back().of_kind.kind = datum.kind;
   }
   for (const auto& [name, rows] : curves) {
     const MatrixXd of_curve = inverse_of_symmetric(Q(rows, rows));

@@ -21,7 +21,8 @@ struct LeftOutCurves {
 /// Names what a datum belongs to.
 struct LeftOutDatum {
   std::string kind, curve;
-  double scale = 1.0;  ///< of the kind, in the unit of the datum
+  double scale = 1.0;    ///< of the kind, in the unit of the datum
+  bool is_known = true;  ///< otherwise it stays and is not predicted
 };
 
 /// Predicts the data curve by curve from all others, exactly for a linear problem: with the inverse Q of the covariance of

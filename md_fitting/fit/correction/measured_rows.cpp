@@ -144,7 +144,8 @@ CorrectionData measured_rows(std::span<const MeasuredCurve> curves, const eos::G
       all.data.push_back({.kind = "measured, " + experiment.name,
                           .residual = measured - here[i],
                           .scale = measured,
-                          .terms = std::move(terms)});
+                          .terms = std::move(terms),
+                          .curve = experiment.name});
     }
     if (sizes.empty()) continue;
     const Eigen::Map<const Eigen::VectorXd> s(sizes.data(), static_cast<Eigen::Index>(sizes.size()));
