@@ -105,13 +105,16 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build/release/bin")
     parser.add_argument("--stores", type=pathlib.Path, default=ROOT / "run/md")
+    parser.add_argument("--only", nargs="+", choices=METALS, default=list(METALS), help="these metals; the rows of the others stay")
     parser.add_argument("--no-clouds", action="store_true", help="leave the runs of the disk out; their table stays as it is")
     options = parser.parse_args()
     whipple, folder = options.bin.resolve() / "whipple", ROOT / "run/corrected_eos"
     folder.mkdir(parents=True, exist_ok=True)
-    followed, covered, measured, audited = [], [], [], []
-    materials = {}
-    for metal, (name, plans, density, tables) in METALS.items():
+    results = folder / "rows.json"  # of every metal so far
+    known = json.loads(results.read_text(encoding="utf-8")) if results.is_file() else {}
+    for metal in options.only:
+        name, plans, density, tables = METALS[metal]
+        followed, covered, measured, audited, materials = [], [], [], [], {}
         store = options.stores / f"{name}.md.h5"
         for plan in plans:
             call([whipple, "md", ROOT / "cases/md" / f"{plan}.toml", "-o", store, "-q"], allowed=(0, 3))  # 3: some points failed or melted
@@ -121,20 +124,25 @@ def main():
             if fit.returncode != 0:
                 audited.append([metal, label, "-", "-", "-", "refused: " + fit.stderr.strip().rsplit("error: ", 1)[-1]])
                 continue
-            materials[metal, label] = material
+            materials[label] = material
             followed += [[metal, *row] for row in residuals(fit.stdout)]
             covered += [[metal, *row] for row in coverage(fit.stdout)]
             audited.append([metal, label, *outcomes(call([whipple, "eos", "audit", material]).stdout)])
         found = {}
         for label in ("GRAY", "corrected"):
-            if (metal, label) not in materials:
+            if label not in materials:
                 continue
             figures = folder / "figures.csv"
-            call([whipple, "compare", materials[metal, label], "--with", *tables, "--csv", figures, "--force"])
+            call([whipple, "compare", materials[label], "--with", *tables, "--csv", figures, "--force"])
             with open(figures, encoding="utf-8") as file:
                 found[label] = relative_rms(csv.DictReader(line for line in file if not line.startswith("#")))
         measured += [[metal, curve, *(f"{found[label].get(curve, math.nan):.2f} %" if label in found else "-" for label in ("GRAY", "corrected"))]
                      for curve in sorted(found["GRAY"])]
+        known[metal] = {"followed": followed, "covered": covered, "audited": audited, "measured": measured}
+        results.write_text(json.dumps(known, indent=1), encoding="utf-8")
+    of_metals = [known[metal] for metal in METALS if metal in known]
+    followed, covered, audited, measured = ([row for one in of_metals for row in one[part]]
+                                            for part in ("followed", "covered", "audited", "measured"))
     parts = ["Deviation of the models from the simulated states, rms in percent of the scale of each kind (fit.md, section 10), and of the "
              "corrected one in units of its errors:\n\n"
              + table(["metal", "data", "number", "GRAY %", "corrected %", "corrected/errors"], followed),
@@ -150,7 +158,7 @@ def main():
     if options.no_clouds:
         parts.append(heading + before.split(heading)[1].rstrip("\n") + "\n" if heading in before else "")
     else:
-        rows = [[cell, label, *fly(whipple, materials["copper, with melting", label], cell, folder)]
+        rows = [[cell, label, *fly(whipple, folder / f"copper_mishin_with_melting_{label.lower()}.toml", cell, folder)]
                 for cell in CELLS for label in ("GRAY", "corrected")]
         parts.append(f"{heading}, by tables of both models (copper, with melting):\n\n"
                      + table(["cells", "model", "not solid", "liquid", "vapour", "ns per particle and step"], rows))
