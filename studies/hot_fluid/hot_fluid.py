@@ -27,6 +27,7 @@ POTENTIALS = {
     "copper_u3": "8.9445 g/cm^3",
     "aluminium_zhakhovsky": "2.70 g/cm^3",
     "aluminium_zhou": "2.70 g/cm^3",
+    "aluminium_winey": "2.70 g/cm^3",
     "lead_zhou": "11.34 g/cm^3",
     "lead_landa": "11.34 g/cm^3",
 }
@@ -58,7 +59,7 @@ def main():
             material = folder / f"{name}_{label.lower()}.toml"
             fit = call([whipple, "fit", store, "--density", POTENTIALS[name], *flags, "-o", material, "--force"], allowed=(0, 2, 3))
             if fit.returncode != 0:
-                models.append([name, label, "-", "-", "-", "-", "refused: " + fit.stderr.strip().rsplit("error: ", 1)[-1][:200]])
+                models.append([name, label, "-", "-", "-", "-", "refused: " + " ".join(fit.stderr.rsplit("error: ", 1)[-1].split())[:200]])
                 continue
             followed += [[name, *row] for row in residuals(fit.stdout) if row[0].startswith(FLUID)]
             covered += [[name, *row] for row in coverage(fit.stdout) if row[0].startswith(FLUID)]
