@@ -144,6 +144,32 @@ void read_materials(Case& setup, const Faults& bodies) {
   }
 }
 
+/// Gives particles of files the volumes that follow from the domain and the densities of their bodies.
+void settle_particles(Case& setup, const Faults& bodies) {
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    Body& body = setup.bodies[b];
+    if (body.shape == nullptr || body.shape->particles().empty() || setup.materials[b] == nullptr) continue;
+    if (body.initial.lithostatic) {
+      bodies.in(b).in("initial").add("lithostatic",
+                                     "'points' have the masses or volumes of their file: the "
+                                     "weight above them cannot set their density");
+    }
+    eos::State state;
+    try {
+      state = body.initial.of(*setup.materials[b]);
+    } catch (const InputError&) {
+      continue;  // reported with the material
+    }
+    try {
+      Settling settling{body_density(*setup.materials[b], state), setup.geometry.is_planar(),
+                        [&](const Vector3& x) { return setup.geometry.depth(x); }};
+      if (auto shape = body.shape->settled(settling)) body.shape = std::move(shape);
+    } catch (const InputError& error) {
+      bodies.in(b).add("shape", error.what());
+    }
+  }
+}
+
 /// Adds faults for settings that are impossible in two dimensions.
 void check_planar(const Case& setup, const Faults& faults) {
   const bool axisymmetric = setup.domain.dimension == grid::Dimension::axisymmetric;
@@ -203,6 +229,7 @@ std::vector<InputFault> settle(Case& setup) {
   make_shapes(setup, bodies);
   read_materials(setup, bodies);
   const std::size_t of_files = list.size();
+  settle_particles(setup, bodies);
   if (setup.bodies.empty()) faults.add("body", "no bodies: expected at least one [[body]]");
   input::check_content(setup, setup, faults);
   if (setup.domain.is_planar()) check_planar(setup, faults);
@@ -287,6 +314,13 @@ Case read_written_case(const std::filesystem::path& path) {
   input::Table root = document.root();
   input::read_content(setup, setup, root);
   document.finish_partly_read();
+  const grid::Geometry geometry = setup.domain.geometry();
+  for (Body& body : setup.bodies) {
+    if (body.shape == nullptr || body.shape->particles().empty()) continue;
+    auto shape = body.shape->settled(
+        {.is_planar = geometry.is_planar(), .depth = [&](const Vector3& x) { return geometry.depth(x); }});
+    if (shape) body.shape = std::move(shape);
+  }
   return setup;
 }
 
