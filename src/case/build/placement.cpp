@@ -81,15 +81,17 @@ std::optional<std::string> given_outside(const Case& setup, const Body& body) {
           below ? plane - (particles[i].position[a] - reach) : particles[i].position[a] + reach - plane;
       if (!(beyond > tolerance)) continue;
       if (count++ == 0) {
-        first = mirror ? fmt::format(
-                             "{}: lies at {} = {} m, beyond the mirror plane or wall at {} m: give only the "
-                             "particles of the part that is computed",
-                             body.shape->source_of(i), "xyz"[a], particles[i].position[a], plane)
-                       : fmt::format(
-                             "{}: at {} = {} m, {:.4g} m wide, reaches beyond the end of the domain at {} m: "
-                             "is the unit of its file right?",
-                             body.shape->source_of(i), "xyz"[a], particles[i].position[a], particles[i].edge,
-                             plane);
+        first =
+            mirror
+                ? fmt::format(
+                      "{}: lies at {} = {:.9g} m, beyond the mirror plane or wall at {:.9g} m: give only the "
+                      "particles of the part that is computed",
+                      body.shape->source_of(i), "xyz"[a], particles[i].position[a], plane)
+                : fmt::format(
+                      "{}: at {} = {:.9g} m, {:.4g} m wide, reaches beyond the end of the domain at {:.9g} "
+                      "m: "
+                      "is the unit of its file right?",
+                      body.shape->source_of(i), "xyz"[a], particles[i].position[a], particles[i].edge, plane);
       }
       break;
     }
