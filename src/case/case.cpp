@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <tuple>
 
@@ -259,6 +260,18 @@ Domain peek_dimension(input::Table& root) {
   return domain;
 }
 
+/// Reads the size of the cells before the shapes, which may be resolved to it; infinite if it is missing or invalid,
+/// which is reported with the section.
+double peek_cell_size(input::Table& root) {
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  auto table = root.optional_table("domain");
+  if (!table || !table->has("cell_size")) return unknown;
+  Domain domain;
+  ParameterTable<Domain> keys = Domain::parameters();
+  keys.remove_if([](const ParameterInfo& info) { return info.name != "cell_size"; });
+  return table->read(keys, domain) ? domain.cell_size : unknown;
+}
+
 Case read(input::Document document, const std::vector<std::pair<std::string, std::string>>& overrides) {
   for (const auto& [key, value] : overrides) document.set(key, value);
   Case setup;
@@ -267,6 +280,7 @@ Case read(input::Document document, const std::vector<std::pair<std::string, std
   root.accept("provenance");
   const Domain section = peek_dimension(root);
   if (section.is_planar()) document.set_section(static_cast<int>(index_of(section.axis)));
+  document.set_resolution(peek_cell_size(root));
   input::read_content(setup, setup, root);
   if (section.is_planar()) {
     setup.domain.boundary =
