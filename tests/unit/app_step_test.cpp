@@ -228,7 +228,7 @@ TEST_F(StepFiles, OneBodyFromFourSources) {
       {"image, 0.25 mm",
        "{ image = { file = \"ball.nrrd\", unit = \"1 mm\", values = [1], smooth = true } }"}};
   for (const auto& [source, shape] : sources) {
-    for (const double cell : {5.0, 2.5, 1.25}) {
+    for (const double cell : {6.0, 3.0, 1.5}) {
       const cases::Case setup = read_with(shape, cell);
       const cases::Body& body = setup.bodies[0];
       const Particles p = cases::seed(setup).particles;
@@ -256,8 +256,10 @@ TEST_F(StepFiles, OneBodyFromFourSources) {
           source, cell, p.size(), 1e2 * error, 1e2 * (1e9 * body.shape->volume() / exact_volume - 1.0), wrong,
           filled, farthest / cell);
       EXPECT_LT(farthest, 0.1 * cell) << source;
-      EXPECT_LT(std::abs(error), cell < 2.0 ? 0.003 : 0.015) << source;
-      EXPECT_LT(std::abs(1e9 * body.shape->volume() / exact_volume - 1.0), 0.005) << source;
+      // The triangles, or voxels, do not follow the cells (but of STEP); how particles sample the surface does.
+      const double of_shape = 1e9 * body.shape->volume() / exact_volume - 1.0;
+      EXPECT_LT(std::abs(of_shape), 0.005) << source;
+      EXPECT_LT(std::abs(error - of_shape), 0.0035 * cell) << source;
     }
   }
 }
