@@ -33,11 +33,12 @@ void triangulate_by_gmsh(const fs::path& step, double edge, const fs::path& stl)
                                  "36",     "-format",     "stl",
                                  "-o",     stl.string()},
                                 {{"GMSH_HOME", folder.path().string()}});  // not the settings of the user
-  } catch (const InputError& error) {
-    throw InputError(fmt::format(
-        "{}: a STEP file is triangulated by the program gmsh ({}): 'scripts/install_deps.sh --step' "
-        "installs it; or save the part as STL",
-        file, error.what()));
+  } catch (const InputError&) {
+    throw InputError(
+        fmt::format("{}: a STEP file is triangulated by the program gmsh, which cannot be started: "
+                    "'scripts/install_deps.sh "
+                    "--step' installs it; or save the part as STL",
+                    file));
   }
   if (code != 0 || !fs::is_regular_file(stl, fault) || fs::file_size(stl, fault) == 0) {
     throw InputError(fmt::format("{}: gmsh does not triangulate it (exit code {})", file, code));
