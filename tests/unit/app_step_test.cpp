@@ -240,7 +240,8 @@ TEST_F(StepFiles, OneBodyFromFourSources) {
       const int n = static_cast<int>(std::ceil(2.0 * radius / spacing)) + 2;
       double farthest = 0.0;
       for (int i = 0; i < n * n * n; ++i) {
-        const Vector3 x = spacing * (Vector3(i % n, i / n % n, i / (n * n)) + Vector3(0.31, 0.17, 0.43) +
+        const int row = i / n % n, layer = i / (n * n);
+        const Vector3 x = spacing * (Vector3(i % n, row, layer) + Vector3(0.31, 0.17, 0.43) +
                                      Vector3::Constant(0.5 * (1 - n)));
         const bool inside = body.shape->contains(1e-3 * x);
         filled += is_inside(x) ? 1 : 0;

@@ -88,12 +88,12 @@ void Surface::find_triangles() {
   // A run keeps NAME.step beside NAME.step.DIGITS.stl.
   if (source_.path.parent_path().filename() == source_.digest.substr(0, digits)) {
     for (const fs::directory_entry& entry : fs::directory_iterator(source_.path.parent_path())) {
-      const std::string name = entry.path().filename().string();
-      if (name.size() != begin.size() + digits + end.size() || !name.starts_with(begin) ||
-          !name.ends_with(end)) {
+      const std::string called = entry.path().filename().string();
+      if (called.size() != begin.size() + digits + end.size() || !called.starts_with(begin) ||
+          !called.ends_with(end)) {
         continue;
       }
-      if (digest_of(entry.path()) != name.substr(begin.size(), digits)) {
+      if (digest_of(entry.path()) != called.substr(begin.size(), digits)) {
         throw InputError(fmt::format("{}: the file has changed: its digest is not that of its name",
                                      utf8(entry.path().string())));
       }
