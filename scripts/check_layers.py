@@ -82,7 +82,7 @@ MAY_USE = {
     # whipple-md for states.
     "src/app": ["src/core/base", "src/core/input", "src/core/parallel", "src/core/process", "eos", "eos/curves", "eos/experiments", "eos/files",
                 "src/particles", "src/grid", "src/material",
-                "src/transfer", "src/io", "src/analysis", "src/view", "src/monitor", "src/decks", "src/shields", "src/case", "src/solver", "src/run", "src/sweep", "src/bench",
+                "src/transfer", "src/io", "src/analysis", "src/view", "src/monitor", "src/decks", "src/shields", "src/case", "src/solver", "src/run", "src/sweep", "src/bench", "src/solids",
                 "md_fitting/elements", "md_fitting/plan",
                 "md_fitting/simulated_crystal"],
     # The Python module whipple.eos: no MPI, no grid.

@@ -5,11 +5,12 @@ set -euo pipefail
 
 usage() {
   cat <<'TEXT'
-usage: scripts/install_deps.sh [--dev] [--kim] [--paraview] [--site] [--list]
+usage: scripts/install_deps.sh [--dev] [--kim] [--paraview] [--site] [--step] [--list]
   --dev        also clang-tidy-19 (scripts/lint.sh), zsh, fish and man (test app_completion)
   --kim        also the models of OpenKIM (250 MB): more interatomic potentials for `whipple md`
   --paraview   also ParaView with its Python interface and a virtual screen (tests of the output files)
   --site       also Sphinx with MyST and Furo, KaTeX, Node, Doxygen, Chromium (scripts/site.sh and its test)
+  --step       also gmsh (180 MB): bodies from STEP files
   --list       print the packages and whether each is installed; install nothing
 TEXT
 }
@@ -31,6 +32,7 @@ for argument in "$@"; do
     --kim) packages+=(openkim-models) ;;
     --paraview) packages+=(paraview python3-paraview xvfb xauth) ;;
     --site) packages+=(python3-sphinx python3-myst-parser furo libjs-katex nodejs doxygen chromium chromium-driver) ;;
+    --step) packages+=(gmsh) ;;
     --list) list=true ;;
     -h | --help) usage; exit 0 ;;
     *) echo "install_deps.sh: unknown option '$argument'" >&2; usage >&2; exit 2 ;;

@@ -5,8 +5,9 @@ whipple_test(shields_test SOURCES unit/shields_equations_test.cpp unit/shields_c
 whipple_test(bench_test SOURCES unit/bench_reference_kernel_test.cpp DEPENDS whipple_bench LABELS fast)
 whipple_test(app_command_line_test SOURCES unit/app_command_line.cpp DEPENDS GTest::gmock nlohmann_json::nlohmann_json LABELS fast)
 whipple_test(app_planar_impact_test SOURCES unit/app_planar_impact_test.cpp unit/monitor_table_test.cpp DEPENDS whipple_app nlohmann_json::nlohmann_json LABELS fast)
+whipple_test(step_test SOURCES unit/app_step_test.cpp ../src/app/step_mesher.cpp DEPENDS whipple_case whipple_process GTest::gmock LABELS fast)
 whipple_test(foreign_files_test SOURCES fuzz/foreign_files.cpp DEPENDS whipple_app GTest::gmock LABELS fast)
-whipple_test(decks_import_test SOURCES unit/decks_import_test.cpp unit/decks_dyna_test.cpp unit/decks_eos_card_test.cpp unit/decks_soil_test.cpp DEPENDS whipple_decks whipple_case GTest::gmock LABELS fast)
+whipple_test(decks_import_test SOURCES unit/decks_import_test.cpp unit/decks_dyna_test.cpp unit/decks_eos_card_test.cpp unit/decks_soil_test.cpp unit/decks_points_test.cpp DEPENDS whipple_decks whipple_case GTest::gmock LABELS fast)
 add_dependencies(app_command_line_test whipple whipple-md whipple-fit)
 
 # Which module may depend on which (docs/manual/architecture.md), and that the checker finds violations.

@@ -39,7 +39,7 @@ target_link_libraries(orders_of_convergence PRIVATE whipple_flags whipple_solver
 whipple_test(test_case SOURCES unit/case_bodies_test.cpp unit/case_grains_test.cpp unit/case_lattice_test.cpp unit/case_case_test.cpp unit/case_check_test.cpp unit/case_loads_test.cpp unit/case_shape_test.cpp unit/case_remarks_test.cpp
              DEPENDS whipple_case LABELS fast)
 # Bodies from files and generated ones.
-whipple_test(test_solids SOURCES unit/case_surface_test.cpp unit/case_solids_test.cpp unit/case_image_test.cpp DEPENDS whipple_case LABELS fast)
+whipple_test(test_solids SOURCES unit/case_surface_test.cpp unit/case_solids_test.cpp unit/case_image_test.cpp unit/case_points_test.cpp DEPENDS whipple_case GTest::gmock LABELS fast)
 
 # Distributed: against one rank, restart on another number of ranks, errors and killed ranks.
 add_executable(test_solver_ranks parallel/solver_ranks.cpp parallel/solver_wall_ranks.cpp parallel/sweep_ranks.cpp parallel/solver_element_ranks.cpp

@@ -9,11 +9,13 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <span>
 #include <tuple>
 #include <unordered_map>
 
 #include "src/analysis/table.hpp"
 #include "src/case/case.hpp"
+#include "src/case/shapes/points.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
 #include "src/core/base/json.hpp"
@@ -111,7 +113,10 @@ void take_bodies(const std::vector<cases::Body>& bodies, Run& run) {
     const Vector3 velocity = body.velocity - run.frame_velocity;
     // An element counts as the eight particles into which it may be converted.
     const cases::Discretization& made = body.discretization;
-    const double spacing = made.has_particles()
+    const auto given =
+        body.shape != nullptr ? body.shape->particles() : std::span<const cases::GivenParticle>();
+    const double spacing = !given.empty() ? cases::mean_edge(given, run.dimension != grid::Dimension::space)
+                           : made.has_particles()
                                ? run.cell_size / std::cbrt(static_cast<double>(made.per_cell))
                                : 0.5 * made.size(run.cell_size);
     run.bodies.push_back({.name = body.name,

@@ -36,11 +36,13 @@
 #include "src/app/run_command.hpp"
 #include "src/app/shield_command.hpp"
 #include "src/app/steer_command.hpp"
+#include "src/app/step_mesher.hpp"
 #include "src/app/sweep_command.hpp"
 #include "src/app/units_command.hpp"
 #include "src/app/version_command.hpp"
 #include "src/app/view_command.hpp"
 #include "src/core/base/error.hpp"
+#include "src/solids/step.hpp"
 
 namespace {
 
@@ -66,6 +68,7 @@ int whipple_main(int argc, char** argv) {
   using namespace whipple::app;
   // The equations of state do not depend on any other program: the source of crystal simulations is injected here.
   whipple::eos::set_isochore_source(whipple::md::worker_source);
+  whipple::solids::set_step_mesher(triangulate_by_gmsh);
   CLI::App app{
       "From atoms to debris clouds: equations of state from molecular dynamics, and the material point\n"
       "method for hypervelocity impact",

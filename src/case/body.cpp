@@ -126,6 +126,13 @@ void Body::check(const Case& setup, const Faults& faults) const {
   if (has_own_shape()) {
     const std::string fault = shape == nullptr ? "is missing" : fault_of(*shape);
     if (!fault.empty()) faults.add("shape", "'shape' " + fault);
+    const bool is_given = shape != nullptr && !shape->particles().empty();
+    if (is_given && (discretization.partial_volumes || discretization.lattice != Arrangement::regular)) {
+      faults.in("discretization")
+          .add(discretization.partial_volumes ? "partial_volumes" : "lattice",
+               "'points' are taken as they are, without a lattice: 'partial_volumes' and 'lattice' do not "
+               "apply");
+    }
   }
   if (driven && (discretization.has_elements() || discretization.is_bars())) {
     faults.add("driven", "only bodies of particles are 'driven'; nodes of elements have a node_condition");

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <tuple>
 
@@ -144,6 +145,32 @@ void read_materials(Case& setup, const Faults& bodies) {
   }
 }
 
+/// Gives particles of files the volumes that follow from the domain and the densities of their bodies.
+void settle_particles(Case& setup, const Faults& bodies) {
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    Body& body = setup.bodies[b];
+    if (body.shape == nullptr || body.shape->particles().empty() || setup.materials[b] == nullptr) continue;
+    if (body.initial.lithostatic) {
+      bodies.in(b).in("initial").add("lithostatic",
+                                     "'points' have the masses or volumes of their file: the "
+                                     "weight above them cannot set their density");
+    }
+    eos::State state;
+    try {
+      state = body.initial.of(*setup.materials[b]);
+    } catch (const InputError&) {
+      continue;  // reported with the material
+    }
+    try {
+      Settling settling{body_density(*setup.materials[b], state), setup.geometry.is_planar(),
+                        [&](const Vector3& x) { return setup.geometry.depth(x); }};
+      if (auto shape = body.shape->settled(settling)) body.shape = std::move(shape);
+    } catch (const InputError& error) {
+      bodies.in(b).add("shape", error.what());
+    }
+  }
+}
+
 /// Adds faults for settings that are impossible in two dimensions.
 void check_planar(const Case& setup, const Faults& faults) {
   const bool axisymmetric = setup.domain.dimension == grid::Dimension::axisymmetric;
@@ -203,6 +230,7 @@ std::vector<InputFault> settle(Case& setup) {
   make_shapes(setup, bodies);
   read_materials(setup, bodies);
   const std::size_t of_files = list.size();
+  settle_particles(setup, bodies);
   if (setup.bodies.empty()) faults.add("body", "no bodies: expected at least one [[body]]");
   input::check_content(setup, setup, faults);
   if (setup.domain.is_planar()) check_planar(setup, faults);
@@ -232,6 +260,18 @@ Domain peek_dimension(input::Table& root) {
   return domain;
 }
 
+/// Reads the size of the cells before the shapes, which may be resolved to it; infinite if it is missing or invalid,
+/// which is reported with the section.
+double peek_cell_size(input::Table& root) {
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  auto table = root.optional_table("domain");
+  if (!table || !table->has("cell_size")) return unknown;
+  Domain domain;
+  ParameterTable<Domain> keys = Domain::parameters();
+  keys.remove_if([](const ParameterInfo& info) { return info.name != "cell_size"; });
+  return table->read(keys, domain) ? domain.cell_size : unknown;
+}
+
 Case read(input::Document document, const std::vector<std::pair<std::string, std::string>>& overrides) {
   for (const auto& [key, value] : overrides) document.set(key, value);
   Case setup;
@@ -240,6 +280,7 @@ Case read(input::Document document, const std::vector<std::pair<std::string, std
   root.accept("provenance");
   const Domain section = peek_dimension(root);
   if (section.is_planar()) document.set_section(static_cast<int>(index_of(section.axis)));
+  document.set_resolution(peek_cell_size(root));
   input::read_content(setup, setup, root);
   if (section.is_planar()) {
     setup.domain.boundary =
@@ -287,6 +328,13 @@ Case read_written_case(const std::filesystem::path& path) {
   input::Table root = document.root();
   input::read_content(setup, setup, root);
   document.finish_partly_read();
+  const grid::Geometry geometry = setup.domain.geometry();
+  for (Body& body : setup.bodies) {
+    if (body.shape == nullptr || body.shape->particles().empty()) continue;
+    auto shape = body.shape->settled(
+        {.is_planar = geometry.is_planar(), .depth = [&](const Vector3& x) { return geometry.depth(x); }});
+    if (shape) body.shape = std::move(shape);
+  }
   return setup;
 }
 

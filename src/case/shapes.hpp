@@ -17,6 +17,7 @@
 #include "src/case/shapes/moved.hpp"            // IWYU pragma: export
 #include "src/case/shapes/ogive.hpp"            // IWYU pragma: export
 #include "src/case/shapes/packing.hpp"          // IWYU pragma: export
+#include "src/case/shapes/points.hpp"           // IWYU pragma: export
 #include "src/case/shapes/prism.hpp"            // IWYU pragma: export
 #include "src/case/shapes/revolve.hpp"          // IWYU pragma: export
 #include "src/case/shapes/scaled.hpp"           // IWYU pragma: export

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "src/case/case.hpp"
+#include "src/case/shapes/points.hpp"
 
 namespace whipple::cases {
 
@@ -31,11 +32,15 @@ ParameterTable<Splitting> Splitting::parameters() {
 /// Adds a fault for a length below that of the particles: all of them would be split as often as the generations allow.
 void Splitting::check(const Case& setup, const Faults& faults) const {
   for (const Body& body : setup.bodies) {
-    const double own = std::cbrt(1.0 / static_cast<double>(body.discretization.per_cell));
+    const bool is_given = body.shape != nullptr && !body.shape->particles().empty();
+    const double own = is_given ? largest_edge(body.shape->particles()) / setup.domain.cell_size
+                                : std::cbrt(1.0 / static_cast<double>(body.discretization.per_cell));
     if (length == 0.0 || length >= own || !body.discretization.has_particles()) continue;
-    faults.add("length", fmt::format("'length' is {}, and the particles of body \"{}\" are {:.3g} cells long "
-                                     "from the start: expected at least that, or 0 (never)",
-                                     length, body.name, own));
+    faults.add("length",
+               fmt::format("'length' is {}, and the particles of body \"{}\" are {:.3g} cells long "
+                           "from the start: expected at least that, or 0 (never){}",
+                           length, body.name, own,
+                           is_given ? "; particles of a file want cells no smaller than they are" : ""));
     return;
   }
 }

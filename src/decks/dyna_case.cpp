@@ -19,6 +19,7 @@
 #include "src/decks/dyna_mesh.hpp"
 #include "src/decks/dyna_model.hpp"
 #include "src/decks/lattice.hpp"
+#include "src/decks/points.hpp"
 #include "src/decks/toml_text.hpp"
 
 namespace whipple::decks::dyna {
@@ -223,11 +224,12 @@ class CaseWriter {
     return true;
   }
 
-  /// Converts SPH elements on a cubic lattice to boxes.
+  /// Converts SPH elements: to boxes on a cubic lattice, else to a file of particles.
   bool lattice(Body& body) {
     const Part& part = *body.part;
     body.method = Method::lattice;
     std::vector<Vector3> places;
+    std::vector<double> masses;
     double least = 0.0, greatest = 0.0, total = 0.0;
     for (const SphPoint& point : part.points) {
       const double mass =
@@ -235,16 +237,23 @@ class CaseWriter {
       least = places.empty() ? mass : std::min(least, mass);
       greatest = std::max(greatest, mass);
       total += mass;
+      masses.push_back(mass);
       places.push_back(place_of(model_, part, point.node));
     }
     const double spacing = std::cbrt(greatest / body.material.density);
     const bool alike = least > 0.0 && greatest - least <= 1e-3 * greatest;
     const auto boxes = alike ? boxes_of_points(places, spacing, most_boxes_of_points) : std::nullopt;
+    body.held.lower -= Vector3::Constant(0.5 * spacing);
+    body.held.upper += Vector3::Constant(0.5 * spacing);
+    body.held.shortest_edge = spacing;
     if (!boxes) {
-      remark(Outcome::missing, *part.block,
-             fmt::format("{}: {} points that fill no cubic lattice of equal particles", part.name,
-                         places.size()));
-      return false;
+      body.shape = shape_of_points(import_, part.name, units_, places, masses);
+      remark(body.shape.empty() ? Outcome::missing : Outcome::converted, *part.block,
+             fmt::format("{}: {} points that fill no cubic lattice of equal particles{}", part.name,
+                         places.size(),
+                         body.shape.empty() ? ", some without mass" : ": its particles, in a file"));
+      add_row(body, "SPH points as given", places.size(), total);
+      return !body.shape.empty();
     }
     std::string list;
     for (const LatticeBox& box : *boxes) {
@@ -252,9 +261,6 @@ class CaseWriter {
                           vector(box.lower, dimension::length), vector(box.upper, dimension::length));
     }
     body.shape = boxes->size() == 1 ? list : fmt::format("{{ union = [{}] }}", list);
-    body.held.lower -= Vector3::Constant(0.5 * spacing);
-    body.held.upper += Vector3::Constant(0.5 * spacing);
-    body.held.shortest_edge = spacing;
     add_row(body, fmt::format("SPH points of a cubic lattice, {} boxes", boxes->size()), places.size(),
             total);
     return true;

@@ -10,6 +10,7 @@
 
 #include "src/core/base/error.hpp"
 #include "src/decks/lattice.hpp"
+#include "src/decks/points.hpp"
 
 namespace whipple::decks::mpm3d {
 namespace {
@@ -201,6 +202,7 @@ class BodyBuilder {
   void points(const Statement& statement, CaseBody& body, Numbers& numbers) {
     const std::vector<double>& n = statement.numbers;
     std::vector<Vector3> places;
+    std::vector<double> masses;
     double least = 0.0, greatest = 0.0;
     bool mixed = false;
     for (std::size_t i = 1; i < n.size(); i += 6) {
@@ -214,6 +216,7 @@ class BodyBuilder {
       least = std::min(least, n[i + 2]);
       greatest = std::max(greatest, n[i + 2]);
       body.mass += n[i + 2];
+      masses.push_back(n[i + 2]);
       places.emplace_back(n[i + 3], n[i + 4], n[i + 5]);
       body.lower = body.lower.cwiseMin(places.back());
       body.upper = body.upper.cwiseMax(places.back());
@@ -224,15 +227,21 @@ class BodyBuilder {
     body.description = fmt::format("{} points", places.size());
     const bool alike = !mixed && least > 0.0 && greatest - least <= 1e-3 * greatest;
     const auto boxes = alike ? boxes_of_points(places, body.spacing, most_boxes) : std::nullopt;
+    if (!boxes && !mixed) body.shape = shape_of_points(import_, body.name, units_, places, masses);
+    body.is_given = !body.shape.empty();
+    if (boxes || body.is_given) {
+      body.lower -= Vector3::Constant(0.5 * body.spacing);
+      body.upper += Vector3::Constant(0.5 * body.spacing);
+    }
     if (!boxes) {
-      import_.remark(
-          Outcome::missing, statement.line, statement.name(),
-          fmt::format("{}: {} points that fill no cubic lattice of equal particles: bodies of given points",
-                      body.name, places.size()));
+      import_.remark(body.is_given ? Outcome::converted : Outcome::missing, statement.line, statement.name(),
+                     fmt::format("{}: {} points that fill no cubic lattice of equal particles{}", body.name,
+                                 places.size(),
+                                 body.is_given ? ": its particles, in a file"
+                                 : mixed       ? ", of several materials"
+                                               : ", some without mass"));
       return;
     }
-    body.lower -= Vector3::Constant(0.5 * body.spacing);
-    body.upper += Vector3::Constant(0.5 * body.spacing);
     std::string list;
     for (const LatticeBox& each : *boxes) list += (list.empty() ? "" : ",\n  ") + box(each.lower, each.upper);
     body.shape = boxes->size() == 1 ? list : fmt::format("{{ union = [{}] }}", list);

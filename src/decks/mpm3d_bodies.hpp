@@ -22,6 +22,7 @@ struct CaseBody {
   Vector3 lower, upper;     ///< bounding box
   double particles = 0.0, mass = 0.0, spacing = 0.0;
   Vector3 velocity = Vector3::Zero();
+  bool is_given = false;  ///< by a file of particles, not filled again
 };
 
 struct BodyOptions {

@@ -41,6 +41,7 @@ class CaseBuilder {
     const std::map<int, CaseMaterial> materials = materials_of(deck_, units_, import_);
     std::map<int, double> density;
     for (const auto& [index, material] : materials) density[index] = material.density;
+    written_materials_ = import_.files.size();
     bodies_ = bodies_of(deck_, density, units_, {.old_mass = options_.old_mass}, import_);
     counts();
     head();
@@ -146,7 +147,7 @@ class CaseBuilder {
     if (const Statement* statement = one(Keyword::components))
       remark(Outcome::exact, *statement, "components: contact_group of the bodies");
     if (const Statement* statement = one(Keyword::materials)) {
-      remark(Outcome::exact, *statement, fmt::format("{} materials", import_.files.size()));
+      remark(Outcome::exact, *statement, fmt::format("{} materials", written_materials_));
     }
   }
 
@@ -325,7 +326,9 @@ class CaseBuilder {
     }
     if (grouped_) toml_.entry("contact_group", fmt::format("\"component_{}\"", body.component));
     const double across = std::round(cell_ / body.spacing);
-    if (across >= 1.0 && across <= 4.0) {
+    if (body.is_given) {
+      // Nothing is filled: the file holds the particles.
+    } else if (across >= 1.0 && across <= 4.0) {
       if (across != 2.0)
         toml_.entry("discretization", fmt::format("{{ per_cell = {} }}", across * across * across));
     } else {
@@ -441,6 +444,7 @@ class CaseBuilder {
   std::vector<InputFault> faults_;
   GridOfDeck grid_;
   double cell_ = 0.0;
+  std::size_t written_materials_ = 0;
   bool grouped_ = false;
 };
 

@@ -48,20 +48,31 @@ class VtuReader {
     }
   }
 
-  VtkGrid read() {
-    const Tree& root = child(tree_, "VTKFile");
-    if (const std::string type = attribute(root, "type"); type != "UnstructuredGrid") {
-      fail(fmt::format("holds \"{}\", expected an UnstructuredGrid (.vtu)", type));
+  VtkPoints points(const std::function<bool(std::string_view)>& wanted) {
+    const Tree& piece = only_piece();
+    const std::size_t count = announced(piece, "NumberOfPoints");
+    VtkPoints found;
+    for (const auto& [name, array] : child(piece, "Points")) {
+      if (name == "DataArray") found.points = values<double>(array, 3 * count);
     }
-    if (attribute(root, "byte_order") == "BigEndian") fail("is big endian: write it as little endian");
-    header_ = attribute(root, "header_type") == "UInt64" ? 8 : 4;
-    const std::string compressor = attribute(root, "compressor");
-    is_packed_ = !compressor.empty();
-    if (is_packed_ && compressor != "vtkZLibDataCompressor")
-      fail(fmt::format("is packed by {}: only vtkZLibDataCompressor is read", compressor));
-    const Tree& grid = child(root, "UnstructuredGrid");
-    if (grid.count("Piece") != 1) fail(fmt::format("has {} pieces, expected one", grid.count("Piece")));
-    const Tree& piece = child(grid, "Piece");
+    if (found.points.size() != 3 * count)
+      fail(fmt::format("announces {} points and has {} coordinates", count, found.points.size()));
+    const auto data = piece.get_child_optional("PointData");
+    if (!data) return found;
+    for (const auto& [name, array] : *data) {
+      const std::string called = attribute(array, "Name"), parts = attribute(array, "NumberOfComponents");
+      if (name != "DataArray" || (!parts.empty() && parts != "1") || !wanted(called)) continue;
+      found.data.push_back({called, values<double>(array, count)});
+      if (found.data.back().values.size() != count) {
+        fail(fmt::format("the array \"{}\" has {} values for {} points", called,
+                         found.data.back().values.size(), count));
+      }
+    }
+    return found;
+  }
+
+  VtkGrid read() {
+    const Tree& piece = only_piece();
     // Nothing longer than announced by the piece is decompressed.
     constexpr std::size_t most_corners = 27;  // of a cell
     const std::size_t points = announced(piece, "NumberOfPoints"), cells = announced(piece, "NumberOfCells");
@@ -90,6 +101,22 @@ class VtuReader {
  private:
   [[noreturn]] void fail(const std::string& what) const {
     throw InputError(fmt::format("{}: error: {}", file_, what));
+  }
+  /// Reads the head of the file. @returns its only piece
+  const Tree& only_piece() {
+    const Tree& root = child(tree_, "VTKFile");
+    if (const std::string type = attribute(root, "type"); type != "UnstructuredGrid") {
+      fail(fmt::format("holds \"{}\", expected an UnstructuredGrid (.vtu)", type));
+    }
+    if (attribute(root, "byte_order") == "BigEndian") fail("is big endian: write it as little endian");
+    header_ = attribute(root, "header_type") == "UInt64" ? 8 : 4;
+    const std::string compressor = attribute(root, "compressor");
+    is_packed_ = !compressor.empty();
+    if (is_packed_ && compressor != "vtkZLibDataCompressor")
+      fail(fmt::format("is packed by {}: only vtkZLibDataCompressor is read", compressor));
+    const Tree& grid = child(root, "UnstructuredGrid");
+    if (grid.count("Piece") != 1) fail(fmt::format("has {} pieces, expected one", grid.count("Piece")));
+    return child(grid, "Piece");
   }
   /// Rejects deeply nested files, as the parser is recursive.
   void require_shallow(std::string_view head) const {
@@ -304,5 +331,10 @@ class VtuReader {
 }  // namespace
 
 VtkGrid read_vtu(const std::string& text, const std::string& file) { return VtuReader(text, file).read(); }
+
+VtkPoints read_vtu_points(const std::string& text, const std::string& file,
+                          const std::function<bool(std::string_view)>& wanted) {
+  return VtuReader(text, file).points(wanted);
+}
 
 }  // namespace whipple::fem

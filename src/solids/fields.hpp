@@ -78,6 +78,7 @@ class Fields {
   /// Returns whether nothing but blanks is left of the line.
   [[nodiscard]] bool is_blank() const { return line_.find_first_not_of(blanks) == std::string_view::npos; }
   [[nodiscard]] std::string_view rest() const { return line_; }
+  [[nodiscard]] std::size_t line_number() const { return number_; }
   /// Returns the number of bytes up to the next line.
   [[nodiscard]] std::size_t bytes_read() const { return std::min(at_, text_.size()); }
   [[nodiscard]] bool at_end() const { return at_ >= text_.size(); }

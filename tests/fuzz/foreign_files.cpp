@@ -15,6 +15,7 @@
 #include "src/analysis/run.hpp"
 #include "src/case/case.hpp"
 #include "src/case/shapes/image.hpp"
+#include "src/case/shapes/points.hpp"
 #include "src/case/shapes/surface.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
@@ -250,6 +251,53 @@ TEST_F(ForeignFiles, Surfaces) {
       const cases::Surface body({.file = "surface", .unit = 1.0, .digest = {}}, folder_);
       ASSERT_GT(body.volume(), 0.0);
       static_cast<void>(body.contains(Vector3(0.1, 0.1, 0.1)));
+    });
+  }
+}
+
+/// Eight particles as CSV and as VTU, written and packed.
+TEST_F(ForeignFiles, Points) {
+  std::string csv = "# eight\nx [mm],y [mm],z [mm],mass [g]\n", places, masses;
+  std::string bytes(4, '\0');
+  const auto append = [&](auto value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); };
+  bytes[0] = static_cast<char>(8 * 8);
+  for (int i = 0; i < 8; ++i) append(0.1 + 0.01 * i);
+  const std::size_t offset = bytes.size();
+  append(std::uint32_t{8 * 24});
+  for (int i = 0; i < 8; ++i) {
+    csv += fmt::format("{},{},{},{}\n", 5 * (i % 2), 5 * (i / 2 % 2), 5 * (i / 4), 1.0 + 0.1 * i);
+    places += fmt::format("{} {} {} ", 5 * (i % 2), 5 * (i / 2 % 2), 5 * (i / 4));
+    masses += fmt::format("{} ", 1.0 + 0.1 * i);
+    for (const int x : {i % 2, i / 2 % 2, i / 4}) append(5.0 * x);
+  }
+  const auto vtu = [](const std::string& of_masses, const std::string& of_places, const std::string& end) {
+    const std::string array =
+        "<DataArray type=\"Float64\" Name=\"{}\" NumberOfComponents=\"{}\" {}/DataArray>\n";
+    return fmt::format(
+        "<VTKFile type=\"UnstructuredGrid\" byte_order=\"LittleEndian\" header_type=\"UInt32\">\n"
+        "<UnstructuredGrid>\n<Piece NumberOfPoints=\"8\" NumberOfCells=\"0\">\n<PointData>{}</PointData>\n"
+        "<Points>{}</Points>\n</Piece>\n</UnstructuredGrid>\n{}</VTKFile>\n",
+        fmt::format(fmt::runtime(array), "mass", 1, of_masses),
+        fmt::format(fmt::runtime(array), "Points", 3, of_places), end);
+  };
+  const std::string written = vtu("format=\"ascii\">" + masses + "<", "format=\"ascii\">" + places + "<", "");
+  const std::string packed_raw =
+      vtu("format=\"appended\" offset=\"0\"><", fmt::format("format=\"appended\" offset=\"{}\"><", offset),
+          "<AppendedData encoding=\"raw\">\n_" + bytes + "\n</AppendedData>\n");
+  for (const auto& [text, change] :
+       {std::pair<std::string, Change>{csv, garbled}, {written, garbled}, {packed_raw, damaged}}) {
+    const fs::path path = folder_ / "points";
+    std::ofstream(path, std::ios::binary) << text;
+    try_all("points", path, change, [&] {
+      cases::PointsKeys keys;
+      keys.file = "points";
+      if (text != csv) keys.unit = keys.mass_unit = 1e-3;
+      const cases::Points read(keys, folder_);
+      ASSERT_GT(read.volume(), 0.0);
+      const auto body = read.settled({.density = 8000.0});
+      ASSERT_GT(body->volume(), 0.0);
+      static_cast<void>(body->contains(Vector3(1e-4, 1e-4, 1e-4)));
+      for (const cases::GivenParticle& each : body->particles()) ASSERT_TRUE(each.position.allFinite());
     });
   }
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/case/build/lattice.hpp"
 
+#include "src/case/shapes/points.hpp"
+
 namespace whipple::cases {
 namespace {
 
@@ -94,6 +96,7 @@ Shape::Bounds domain_of(const Case& setup) {
 }
 
 double lattice_size(const Case& setup, const Body& body) {
+  if (const auto given = body.shape->particles(); !given.empty()) return static_cast<double>(given.size());
   const Shape::Bounds inside = common_part(bounds_of(setup, body), domain_of(setup));
   return ((inside.upper - inside.lower).cwiseMax(0.0) / wanted_spacing(setup, body)).prod();
 }
@@ -103,6 +106,10 @@ Lattice lattice_of(const Case& setup, const Body& body) {
   const double wanted = wanted_spacing(setup, body);
   Lattice lattice;
   lattice.lower = bounds.lower;
+  if (const auto given = body.shape->particles(); !given.empty()) {
+    lattice.spacing = Vector3::Constant(mean_edge(given, setup.geometry.is_planar()));
+    return lattice;
+  }
   for (std::size_t a = 0; a < 3; ++a) {
     const auto axis = static_cast<Eigen::Index>(a);
     const double length = bounds.upper[axis] - bounds.lower[axis];
@@ -120,8 +127,20 @@ Lattice lattice_of(const Case& setup, const Body& body) {
   return lattice;
 }
 
+Site site_of(const Case& setup, const Lattice& lattice, const GivenParticle& particle) {
+  const double half = 0.5 * particle.edge, edges = particle.edge / lattice.spacing[0];
+  const bool planar = setup.geometry.is_planar();
+  Vector3 place = particle.position;
+  if (planar) place[2] = setup.geometry.lower[2];
+  return {place,
+          planar ? edges * edges : edges * edges * edges,
+          {half * half, half * half, half * half, 0, 0, 0}};
+}
+
 Vector3 place_of_particle(const Case& setup, const Body& body, const Lattice& lattice, const Site& site) {
-  if (body.discretization.lattice == Arrangement::regular || site.fraction < 1.0) return site.position;
+  const bool is_given = !body.shape->particles().empty();
+  if (is_given || body.discretization.lattice == Arrangement::regular || site.fraction < 1.0)
+    return site.position;
   const bool planar = setup.geometry.is_planar();
   const int axes = planar ? 2 : 3;
   std::size_t part = 0;

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
+#include <utility>
 
 #include "src/case/case.hpp"
 
@@ -65,12 +67,31 @@ std::optional<Site> site_at(const Case& setup, const Body& body, const Lattice& 
 /// across a face of the body, whose outermost layer remains flat.
 Vector3 place_of_particle(const Case& setup, const Body& body, const Lattice& lattice, const Site& site);
 
+/// Returns the particle that the shape of a body gives, as a site of its lattice.
+Site site_of(const Case& setup, const Lattice& lattice, const GivenParticle& particle);
+
+/// Returns whether f(site) is true for any given particle inside a box, up to the first match.
+template <class Function>
+bool any_given(const Case& setup, std::span<const GivenParticle> particles, const Lattice& lattice,
+               const Shape::Bounds& box, Function&& f) {
+  for (const GivenParticle& particle : particles) {
+    const Site site = site_of(setup, lattice, particle);
+    const bool is_near = (site.position.array() >= box.lower.array() - particle.edge).all() &&
+                         (site.position.array() <= box.upper.array() + particle.edge).all();
+    if (is_near && f(site)) return true;
+  }
+  return false;
+}
+
 /// Returns whether f(site) is true for any particle of the body inside the domain. Only sites in and near a box are
 /// tested, up to the first match.
 template <class Function>
 bool any_site(const Case& setup, const Body& body, const Lattice& lattice, const Shape::Bounds& box,
               Function&& f) {
   const Shape::Bounds part = common_part(box, domain_of(setup));
+  if (const auto given = body.shape->particles(); !given.empty()) {
+    return any_given(setup, given, lattice, part, std::forward<Function>(f));
+  }
   std::array<long, 3> first{}, end{};
   for (std::size_t a = 0; a < 3; ++a) {
     const auto axis = static_cast<Eigen::Index>(a);

@@ -9,6 +9,7 @@
 #include "src/case/build/bars.hpp"
 #include "src/case/build/lattice.hpp"
 #include "src/case/build/meshing.hpp"
+#include "src/case/shapes/points.hpp"
 #include "src/core/base/error.hpp"
 
 namespace whipple::cases {
@@ -62,6 +63,41 @@ double excess_volume(const Case& setup, const Body& body) {
   double sites = 0.0;
   for_each_site(setup, body, lattice, [&](const Site& site) { sites += site.fraction; });
   return std::ldexp(sites * lattice.spacing.prod(), cuts) / body.shape->volume() - 1.0;
+}
+
+/// Returns a fault if a given particle lies beyond a mirror plane or wall, or reaches beyond the domain elsewhere.
+std::optional<std::string> given_outside(const Case& setup, const Body& body) {
+  const grid::Geometry& g = setup.geometry;
+  const std::span<const GivenParticle> particles = body.shape->particles();
+  const double tolerance = 1e-9 * g.cell_size;
+  std::string first;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    for (int face = 0; face < (g.is_planar() ? 4 : 6); ++face) {
+      const int a = face / 2;
+      const bool mirror = is_mirror(setup, face), below = face % 2 == 0;
+      const double plane = below ? g.lower[a] : g.upper(a), reach = mirror ? 0.0 : 0.5 * particles[i].edge;
+      const double beyond =
+          below ? plane - (particles[i].position[a] - reach) : particles[i].position[a] + reach - plane;
+      if (!(beyond > tolerance)) continue;
+      if (count++ == 0) {
+        first =
+            mirror
+                ? fmt::format(
+                      "{}: lies at {} = {:.9g} m, beyond the mirror plane or wall at {:.9g} m: give only the "
+                      "particles of the part that is computed",
+                      body.shape->source_of(i), "xyz"[a], particles[i].position[a], plane)
+                : fmt::format(
+                      "{}: at {} = {:.9g} m, {:.4g} m wide, reaches beyond the end of the domain at {:.9g} "
+                      "m: "
+                      "is the unit of its file right?",
+                      body.shape->source_of(i), "xyz"[a], particles[i].position[a], particles[i].edge, plane);
+      }
+      break;
+    }
+  }
+  if (count == 0) return std::nullopt;
+  return count == 1 ? first : fmt::format("{} ({} such particles)", first, count);
 }
 
 bool boxes_meet(const Shape::Bounds& a, const Shape::Bounds& b) {
@@ -138,11 +174,15 @@ std::vector<PlacementFault> placement_faults(const Case& setup) {
     const Body& body = setup.bodies[b];
     const Shape::Bounds bounds = bounds_of(setup, body);
     const double tolerance = 1e-9 * setup.geometry.cell_size;
+    const bool is_given = !body.shape->particles().empty();
+    if (is_given) {
+      if (const auto fault = given_outside(setup, body)) faults.push_back({b, *fault});
+    }
     for (int face = 0; face < (setup.geometry.is_planar() ? 4 : 6); ++face) {
       const int a = face / 2;
       const bool beyond = face % 2 == 0 ? bounds.lower[a] < setup.geometry.lower[a] - tolerance
                                         : bounds.upper[a] > setup.geometry.upper(a) + tolerance;
-      if (beyond && !is_mirror(setup, face)) {
+      if (beyond && !is_given && !is_mirror(setup, face)) {
         faults.push_back(
             {b, fmt::format("body \"{}\" reaches {} = {} m, outside of the domain, which goes from {} m "
                             "to {} m{}",
@@ -162,12 +202,14 @@ std::vector<PlacementFault> placement_faults(const Case& setup) {
       }
     }
     const Lattice lattice = lattice_of(setup, body);
+    const double widest =
+        is_given ? largest_edge(body.shape->particles()) : double{lattice.spacing.maxCoeff()};
     if (setup.transfer.shape_function == transfer::ShapeFunction::gimp &&
-        lattice.spacing.maxCoeff() > (1.0 + 1e-9) * setup.geometry.cell_size) {
+        widest > (1.0 + 1e-9) * setup.geometry.cell_size) {
       faults.push_back({b, fmt::format("body \"{}\": its particles are {:.3g} cells wide, and "
                                        "shape_function = \"gimp\" takes particles of one cell at most: raise "
                                        "'per_cell' to 8, or take \"convected_gimp\" or a B-spline",
-                                       body.name, lattice.spacing.maxCoeff() / setup.geometry.cell_size)});
+                                       body.name, widest / setup.geometry.cell_size)});
     }
     for (std::size_t other = 0; other < b; ++other) {
       if (const auto fault = overlap(setup, body, setup.bodies[other])) faults.push_back({b, *fault});
@@ -216,8 +258,10 @@ std::vector<Shape::Bounds> particle_boxes(const Case& setup, const Body& body, c
   Body whole = body;
   whole.discretization.partial_volumes = false;
   const Lattice lattice = lattice_of(setup, whole);
-  const Vector3 half = 0.5 * lattice.spacing;
+  const bool is_given = !body.shape->particles().empty();
   any_site(setup, whole, lattice, near, [&](const Site& site) {
+    const Vector3 half =
+        is_given ? Vector3::Constant(std::sqrt(site.extent.xx)) : Vector3(0.5 * lattice.spacing);
     boxes.push_back({site.position - half, site.position + half});
     return false;
   });

@@ -28,6 +28,7 @@ struct Allotment {
   double volume = 0.0;    // of the body, in cells of the lattice
   double least = 0.0;     // minimum fraction of a site that becomes a particle
   double enlarged = 1.0;  // factor of the fraction of a cut site
+  bool is_given = false;  // by a file, with their volumes
 
   [[nodiscard]] bool takes(const Site& site) const { return site.fraction >= least; }
   [[nodiscard]] double fraction(const Site& site) const {
@@ -46,6 +47,7 @@ Allotment allotment_of(const Case& setup, const Body& body, const Lattice& latti
     volume += site.fraction;
     if (site.fraction < 1.0) (is_small ? small : cut) += site.fraction;
   });
+  if (!body.shape->particles().empty()) return {.particles = sites, .volume = volume, .is_given = true};
   if (small > 0.25 * cut) return {.particles = sites, .volume = volume};
   return {.particles = sites - small_sites,
           .volume = volume,
@@ -109,13 +111,16 @@ Seeding seed(const Case& setup, int rank, int ranks) {
       particles.body[p] = static_cast<std::uint32_t>(b);
       particles.mass[p] = mass_of_site * allotment.fraction(site);
       const Vector3 place = place_of_particle(setup, body, lattice, site);
-      particles.position[p] = setup.geometry.is_axisymmetric() ? centre_of_mass(site) : place;
+      particles.position[p] =
+          setup.geometry.is_axisymmetric() && !allotment.is_given ? centre_of_mass(site) : place;
       particles.velocity[p] = body.velocity_at_start() + gradient * (place - center);
       particles.affine_velocity[p] = gradient;
       particles.extent[p] = site.extent;
       particles.generation[p] = 0;
       if (body.varies_failure()) {
-        threshold_factor.push_back(body.failure_factor(particles.id[p], planar ? area * depth : volume,
+        const double whole = planar ? area * depth : volume;
+        threshold_factor.push_back(body.failure_factor(particles.id[p],
+                                                       allotment.is_given ? site.fraction * whole : whole,
                                                        particles.position[p], setup.geometry));
       }
     });

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <type_traits>
 
 #include "src/case/shapes/shape.hpp"
 #include "src/core/base/error.hpp"
@@ -11,8 +12,8 @@
 
 namespace whipple::cases {
 
-/// Supplies the reading of a shape that is constructed from its keys and the folder of the case, with an InputError
-/// where that is not possible.
+/// Supplies the reading of a shape that is constructed from its keys and the folder of the case, and the resolution of
+/// the case if it takes one, with an InputError where that is not possible.
 /// @tparam Kind  the shape
 /// @tparam Keys  its keys, with `parameters()`
 template <class Kind, class Keys>
@@ -24,7 +25,11 @@ struct Made {
     Keys keys;
     if (!table || !table->read(Keys::parameters(), keys)) return nullptr;
     try {
-      return std::make_unique<Kind>(keys, table->folder());
+      if constexpr (std::is_constructible_v<Kind, Keys, std::filesystem::path, double>) {
+        return std::make_unique<Kind>(keys, table->folder(), table->resolution());
+      } else {
+        return std::make_unique<Kind>(keys, table->folder());
+      }
     } catch (const InputError& error) {
       holder.error_at(key, "'" + table->name() + "': " + error.what());
       return nullptr;

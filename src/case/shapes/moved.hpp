@@ -59,7 +59,11 @@ class Moved final : public Shape {
   Moved(const Motion& motion, std::unique_ptr<Shape> shape)
       : motion_(motion),
         rotation_(Eigen::AngleAxisd(motion.angle, motion.axis.normalized())),
-        shape_(std::move(shape)) {}
+        shape_(std::move(shape)) {
+    for (const GivenParticle& each : shape_->particles()) {
+      particles_.push_back({image(each.position), each.edge});
+    }
+  }
   [[nodiscard]] bool contains(const Vector3& point) const override {
     return shape_->contains(rotation_.transpose() * (point - motion_.translation - motion_.center) +
                             motion_.center);
@@ -68,12 +72,21 @@ class Moved final : public Shape {
     const Bounds box = shape_->bounds();
     if (!(box.upper - box.lower).allFinite()) return box;
     const Vector3 half = 0.5 * (box.upper - box.lower);
-    const Vector3 middle =
-        rotation_ * (0.5 * (box.upper + box.lower) - motion_.center) + motion_.center + motion_.translation;
+    const Vector3 middle = image(0.5 * (box.upper + box.lower));
     const Vector3 reach = rotation_.cwiseAbs() * half;
     return {middle - reach, middle + reach};
   }
   [[nodiscard]] double volume() const override { return shape_->volume(); }
+  [[nodiscard]] std::span<const GivenParticle> particles() const override { return particles_; }
+  [[nodiscard]] std::string source_of(std::size_t particle) const override {
+    return shape_->source_of(particle);
+  }
+  [[nodiscard]] std::unique_ptr<Shape> settled(const Settling& settling) const override {
+    Settling before = settling;
+    if (settling.depth) before.depth = [&](const Vector3& x) { return settling.depth(image(x)); };
+    std::unique_ptr<Shape> shape = shape_->settled(before);
+    return shape ? std::make_unique<Moved>(motion_, std::move(shape)) : nullptr;
+  }
   void visit(const std::function<void(const Shape&)>& f) const override {
     f(*this);
     shape_->visit(f);
@@ -82,7 +95,7 @@ class Moved final : public Shape {
     return shape_->smallest_extent(rotation_.transpose() * direction);
   }
   [[nodiscard]] bool fills_lattice() const override {
-    return rotation_.isIdentity(1e-12) && shape_->fills_lattice();
+    return !particles_.empty() || (rotation_.isIdentity(1e-12) && shape_->fills_lattice());
   }
   [[nodiscard]] std::string toml() const override { return holder_as_toml(name, motion_, *shape_); }
   [[nodiscard]] std::optional<fem::Hexahedra> hexahedra(double size, const Bounds& clip) const override {
@@ -100,9 +113,14 @@ class Moved final : public Shape {
   }
 
  private:
+  [[nodiscard]] Vector3 image(const Vector3& x) const {
+    return rotation_ * (x - motion_.center) + motion_.center + motion_.translation;
+  }
+
   Motion motion_;
   Matrix3 rotation_;
   std::unique_ptr<Shape> shape_;
+  std::vector<GivenParticle> particles_;  // moved
 };
 
 }  // namespace whipple::cases

@@ -9,11 +9,13 @@
 
 namespace whipple::cases {
 
-/// Returns `{ NAME = { ... } }` with all keys of a shape described by a single parameter table.
+/// Returns `{ NAME = { ... } }` with all keys of a shape described by a single parameter table that are
+/// given or have a default.
 template <class Primitive>
 std::string shape_as_toml(Primitive shape) {
   std::string keys;
   for (const BoundParameter& parameter : whipple::bind(Primitive::parameters(), shape)) {
+    if (is_unset(parameter)) continue;
     keys += fmt::format("{}{} = {}", keys.empty() ? "" : ", ", parameter.info.name, value_as_toml(parameter));
   }
   return fmt::format("{{ {} = {{ {} }} }}", Primitive::name, keys);

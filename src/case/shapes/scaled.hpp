@@ -35,6 +35,12 @@ class Scaled final : public Shape {
     const bool good = table->read(Scaling::parameters(), scaling);
     std::unique_ptr<Shape> shape = read_member(*table, "shape");
     if (!good || !shape) return nullptr;
+    bool has_points = false;
+    shape->visit([&](const Shape& part) { has_points = has_points || !part.particles().empty(); });
+    if (has_points) {
+      table->error_at("shape", "'points' are particles and no solid: they are not stretched");
+      return nullptr;
+    }
     return std::make_unique<Scaled>(scaling, std::move(shape));
   }
 

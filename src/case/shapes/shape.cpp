@@ -56,6 +56,7 @@ const Catalogue<ShapeEntry>& shape_catalogue() {
                                                       // From files.
                                                       entry<Surface>(),
                                                       entry<VoxelBody>(),
+                                                      entry<Points>(),
                                                       // Combinations of other shapes.
                                                       entry<Union>(),
                                                       entry<Intersection>(),
@@ -93,6 +94,13 @@ std::unique_ptr<Shape> read_only_shape(input::Table& holder) {
 }
 
 std::string fault_of(const Shape& shape) {
+  bool has_points = false;
+  shape.visit([&](const Shape& part) { has_points = has_points || !part.particles().empty(); });
+  if (has_points && shape.particles().empty()) {
+    return "combines 'points', which are particles and no solid: they are the shape of a body alone, or "
+           "within "
+           "'moved'";
+  }
   const Shape::Bounds bounds = shape.bounds();
   if (!(bounds.lower.array() < bounds.upper.array()).all()) {
     return "is empty: the lower corner is not below the upper one";

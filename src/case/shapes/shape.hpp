@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,20 @@ struct SourceFile {
   std::filesystem::path path;  ///< absolute
   std::string digest;          ///< SHA-256 of the file, and of its companions if there are any
   std::vector<std::filesystem::path> companions;  ///< absolute; further files that it names
+};
+
+/// Describes a particle that a shape gives itself, instead of being filled on a lattice.
+struct GivenParticle {
+  Vector3 position;
+  double edge;  ///< m, of the cube that is its volume; in two dimensions of the square that is its area
+};
+
+/// Tells a shape with given particles what their masses and volumes mean.
+struct Settling {
+  double density =
+      std::numeric_limits<double>::infinity();  ///< kg/m^3, of the body; infinite: that of the keys
+  bool is_planar = false;
+  std::function<double(const Vector3&)> depth = nullptr;  ///< m, at a place of a plane or axisymmetric domain
 };
 
 /// Describes the region of space that a body initially fills.
@@ -43,6 +58,13 @@ class Shape {
   }
   /// Returns whether whole cells of a lattice over its bounds fill it exactly, as for a box aligned with the axes.
   [[nodiscard]] virtual bool fills_lattice() const { return false; }
+  /// Returns the particles that this shape gives itself; empty: a lattice fills it.
+  [[nodiscard]] virtual std::span<const GivenParticle> particles() const { return {}; }
+  /// Returns where a given particle comes from, for messages: "points.csv:7".
+  [[nodiscard]] virtual std::string source_of(std::size_t /*particle*/) const { return {}; }
+  /// Returns this shape with the edges of its given particles; null if there are none, or no density is known.
+  /// @throws InputError if they are not those of this density, or have no volume
+  [[nodiscard]] virtual std::unique_ptr<Shape> settled(const Settling& /*settling*/) const { return nullptr; }
   /// Calls f for this shape and for all that it is made of.
   virtual void visit(const std::function<void(const Shape&)>& f) const { f(*this); }
   /// Returns the file that this shape was read from, if any; of what it is made of, see `visit`.

@@ -11,9 +11,12 @@
 #include "src/case/shapes/combination.hpp"
 #include "src/case/shapes/primitive.hpp"
 #include "src/case/shapes/source_file.hpp"
+#include "src/core/base/files.hpp"
+#include "src/core/base/hash.hpp"
 #include "src/core/base/text.hpp"
 #include "src/core/parallel/threads.hpp"
 #include "src/solids/inside.hpp"
+#include "src/solids/step.hpp"
 #include "src/solids/surface_file.hpp"
 
 namespace whipple::cases {
@@ -21,16 +24,20 @@ namespace whipple::cases {
 ParameterTable<SurfaceKeys> SurfaceKeys::parameters() {
   using K = SurfaceKeys;
   return {
-      text("file", &K::file, "STL (text or binary), OBJ or PLY, relative to the case file"),
-      real("unit", &K::unit, "m", range::positive(), "length of one unit of the file: \"1 mm\", \"1 inch\""),
+      text("file", &K::file, "STL (text or binary), OBJ, PLY or STEP, relative to the case file"),
+      real("unit", &K::unit, "m", range::positive(), "length of one unit of the file: \"1 mm\", \"1 inch\"")
+          .optional("that of a STEP file; of others it must be given"),
+      real("triangle_size", &K::triangle_size, "m", range::positive(),
+           "longest edge of the triangles of a STEP file, which gmsh makes")
+          .optional("domain.cell_size"),
       text("digest", &K::digest, "SHA-256 that the file must have; runs write it").optional()};
 }
 
-Surface::Surface(SurfaceKeys keys, const std::filesystem::path& folder)
+Surface::Surface(SurfaceKeys keys, const std::filesystem::path& folder, double resolution)
     : keys_(std::move(keys)), source_(find_source(keys_.file, keys_.digest, folder)) {
   keys_.file = named_file(keys_.file, folder).string();
   keys_.digest = source_.digest;
-  std::vector<solids::Triangle> triangles = solids::read_surface(source_.path, keys_.unit);
+  std::vector<solids::Triangle> triangles = read_triangles(resolution);
   try {
     audit_ = solids::repair(triangles);
   } catch (const InputError& error) {
@@ -44,6 +51,61 @@ Surface::Surface(SurfaceKeys keys, const std::filesystem::path& folder)
                                  utf8(source_.path.string()), audit_.triangles, audit_.open_edges));
   }
   measure_thickness();
+}
+
+std::vector<solids::Triangle> Surface::read_triangles(double resolution) {
+  const std::string file = utf8(source_.path.string());
+  if (!solids::is_step(source_.path)) {
+    if (!std::isfinite(keys_.unit)) {
+      throw InputError(
+          fmt::format("{}: 'unit' is missing: the file does not state its unit of length", file));
+    }
+    if (std::isfinite(keys_.triangle_size)) {
+      throw InputError(
+          fmt::format("{}: 'triangle_size' belongs to STEP files, this one has its triangles", file));
+    }
+    return solids::read_surface(source_.path, keys_.unit);
+  }
+  if (std::isfinite(keys_.unit)) {
+    throw InputError(fmt::format("{}: a STEP file states its unit of length: leave 'unit' out", file));
+  }
+  if (!std::isfinite(keys_.triangle_size)) keys_.triangle_size = resolution;
+  if (!std::isfinite(keys_.triangle_size)) {
+    throw InputError(
+        fmt::format("{}: 'triangle_size' is missing, and the size of the cells is not known", file));
+  }
+  find_triangles();
+  return solids::read_surface(source_.companions.front(), 1.0);
+}
+
+void Surface::find_triangles() {
+  namespace fs = std::filesystem;
+  constexpr std::size_t digits = 12;
+  const std::string begin = source_.path.filename().string() + ".", end = ".stl";
+  const auto digest_of = [&](const fs::path& path) {
+    return sha256_of_file(regular_file(path)).substr(0, digits);
+  };
+  // A run keeps NAME.step beside NAME.step.DIGITS.stl.
+  if (source_.path.parent_path().filename() == source_.digest.substr(0, digits)) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(source_.path.parent_path())) {
+      const std::string called = entry.path().filename().string();
+      if (called.size() != begin.size() + digits + end.size() || !called.starts_with(begin) ||
+          !called.ends_with(end)) {
+        continue;
+      }
+      if (digest_of(entry.path()) != called.substr(begin.size(), digits)) {
+        throw InputError(fmt::format("{}: the file has changed: its digest is not that of its name",
+                                     utf8(entry.path().string())));
+      }
+      source_.companions = {entry.path()};
+      return;
+    }
+  }
+  made_ = std::make_shared<const TemporaryFolder>();
+  const fs::path raw = made_->path() / "triangles.stl";
+  solids::triangulate_step(source_.path, keys_.triangle_size, raw);
+  source_.companions = {made_->path() / (begin + digest_of(raw) + end)};
+  fs::rename(raw, source_.companions.front());
 }
 
 bool Surface::contains(const Vector3& point) const { return inside_->contains(point); }
@@ -88,6 +150,9 @@ std::vector<std::string> Surface::account() const {
                   source_.digest),
       fmt::format("  volume {:.6g} mm^3 by {}; thinnest part {:.3g} mm", 1e9 * volume_,
                   enclosure_ ? "the divergence theorem" : "counting", 1e3 * thickness_)};
+  if (!source_.companions.empty()) {
+    lines.push_back(fmt::format("  triangulated by gmsh, edges up to {:.4g} mm", 1e3 * keys_.triangle_size));
+  }
   if (enclosure_ && enclosure_->inverted > 0) {
     lines.push_back(fmt::format("  {} of {} closed parts turned inside out: read as their inside",
                                 enclosure_->inverted, enclosure_->parts));

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
 #include <memory>
+#include <vector>
 
 #include "src/case/shapes/made.hpp"
+#include "src/core/base/temporary_folder.hpp"
 #include "src/solids/enclosure.hpp"
 #include "src/solids/surface.hpp"
 
@@ -17,7 +20,8 @@ namespace whipple::cases {
 struct SurfaceKeys {
   static constexpr const char* name = "surface";
   std::string file;
-  double unit = 0.0;
+  double unit = std::numeric_limits<double>::infinity();           ///< m; infinite: not given
+  double triangle_size = std::numeric_limits<double>::infinity();  ///< m; infinite: not given
   std::string digest;
 
   static ParameterTable<SurfaceKeys> parameters();
@@ -27,10 +31,14 @@ struct SurfaceKeys {
 class Surface final : public Shape, public Made<Surface, SurfaceKeys> {
  public:
   static constexpr const char* name = SurfaceKeys::name;
-  static constexpr const char* summary = "what a surface of triangles encloses, from an STL, OBJ or PLY file";
+  static constexpr const char* summary =
+      "what a surface of triangles encloses, from an STL, OBJ or PLY file, or the faces of a STEP file";
 
-  /// Reads the file. @throws InputError naming it: not found, unreadable, without a volume
-  Surface(SurfaceKeys keys, const std::filesystem::path& folder);
+  /// Reads the file; a STEP file is triangulated, unless it is the copy of a run, which holds the triangles as well.
+  /// @param resolution  m, of triangles of a STEP file without `triangle_size`; infinite: not known
+  /// @throws InputError naming it: not found, unreadable, without a volume, a unit that is missing or not its own
+  Surface(SurfaceKeys keys, const std::filesystem::path& folder,
+          double resolution = std::numeric_limits<double>::infinity());
 
   [[nodiscard]] bool contains(const Vector3& point) const override;
   [[nodiscard]] Bounds bounds() const override { return {audit_.lower, audit_.upper}; }
@@ -46,10 +54,15 @@ class Surface final : public Shape, public Made<Surface, SurfaceKeys> {
   [[nodiscard]] const solids::Audit& audit() const { return audit_; }
 
  private:
+  /// Returns the triangles of the file, m.
+  std::vector<solids::Triangle> read_triangles(double resolution);
+  /// Finds or makes the file of triangles of a STEP file.
+  void find_triangles();
   void measure_thickness();
 
   SurfaceKeys keys_;
-  SourceFile source_;
+  SourceFile source_;                            // of a STEP file with its triangles as a companion
+  std::shared_ptr<const TemporaryFolder> made_;  // triangles of a STEP file
   solids::Audit audit_;
   std::shared_ptr<const solids::Inside> inside_;
   std::optional<solids::Enclosure> enclosure_;  // nothing: counted

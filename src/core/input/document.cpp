@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <sstream>
@@ -22,6 +23,7 @@ struct Document::State {
   std::filesystem::path path;
   bool needs_units = false;         ///< bare numbers are rejected
   std::optional<int> section = {};  ///< set by `set_section`
+  double resolution = std::numeric_limits<double>::infinity();
   toml::table root;
   std::vector<InputFault> errors;  // sorted by position when thrown
   std::map<const toml::table*, std::set<std::string, std::less<>>> known_keys;  // keys requested by readers
@@ -314,6 +316,8 @@ const std::filesystem::path& Document::path() const { return state_->path; }
 
 void Document::set_section(int first) { state_->section = first; }
 
+void Document::set_resolution(double length) { state_->resolution = length; }
+
 void Document::finish() {
   report_unknown(*state_, state_->root, "");
   finish_partly_read();
@@ -464,5 +468,7 @@ std::string Table::where(std::string_view key) const {
 std::filesystem::path Table::folder() const {
   return std::filesystem::path(state_->file_of(as_table(node_).source())).parent_path();
 }
+
+double Table::resolution() const { return state_->resolution; }
 
 }  // namespace whipple::input

@@ -51,6 +51,8 @@ class Document {
   /// words that select a direction, refer to space, of which the plane is a section.
   /// @param first  spatial direction (0, 1, 2) that becomes the first one of the plane; the next one becomes the second
   void set_section(int first);
+  /// Sets what `Table::resolution` returns.
+  void set_resolution(double length);
 
   /// Adds faults found by a check of the values, each at the location of its key, or of the nearest existing table.
   /// Faults at, above or below a key that already has a fault are dropped, as the checked value is then not the one in
@@ -111,6 +113,8 @@ class Table {
   [[nodiscard]] std::string key_path() const;
   /// Returns the folder of the file that contains the table: relative paths in the input are resolved against it.
   [[nodiscard]] std::filesystem::path folder() const;
+  /// Returns the length (m) that what is read is resolved to, as the size of the cells; infinite: not known.
+  [[nodiscard]] double resolution() const;
 
  private:
   friend class Document;
