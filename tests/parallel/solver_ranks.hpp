@@ -21,10 +21,10 @@ inline void advance_to(Simulation& simulation, double time) {
 
 inline bool is_root() { return parallel::rank(MPI_COMM_WORLD) == 0; }
 
-/// Advances the reference run of one rank on the root only: the other ranks sleep until it has ended, as there are
-/// fewer cores than ranks.
-inline void advance_on_root(Simulation& alone, double time) {
-  if (is_root()) advance_to(alone, time);
+/// Calls f() on the root only: the other ranks sleep until it has ended, as there are fewer cores than ranks.
+template <class Function>
+void compute_on_root(Function&& f) {
+  if (is_root()) f();
   MPI_Request request = MPI_REQUEST_NULL;
   MPI_Ibarrier(MPI_COMM_WORLD, &request);
   for (int ended = 0;;) {
@@ -32,6 +32,11 @@ inline void advance_on_root(Simulation& alone, double time) {
     if (ended != 0) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
+}
+
+/// Advances the reference run of one rank on the root only.
+inline void advance_on_root(Simulation& alone, double time) {
+  compute_on_root([&] { advance_to(alone, time); });
 }
 
 /// Requires that every rank of a run holds bitwise equal sums.
