@@ -88,7 +88,8 @@ TEST(Plan, ShippedPlansAreValid) {
     ++plans;
     Plan plan;
     EXPECT_NO_THROW(plan = read_plan(entry.path())) << entry.path();
-    EXPECT_TRUE(plan.hugoniot.has_value() || !plan.coexistences.empty() || !plan.fluids.empty())
+    EXPECT_TRUE(plan.hugoniot.has_value() || !plan.coexistences.empty() || !plan.fluids.empty() ||
+                !plan.isochores.empty())
         << entry.path();
   }
   EXPECT_GE(plans, 4);
