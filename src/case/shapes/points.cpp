@@ -170,7 +170,7 @@ std::unique_ptr<Shape> Points::settled(const Settling& settling) const {
                     list.are_masses ? "the unit of mass, and the density," : "the unit of the volumes"));
   }
   // Cubes are looked up in bins no smaller than they reach, and not many more bins than particles.
-  double edge = 0.5 * cases::largest_edge(made->particles_);
+  double edge = 0.5 * largest_edge(made->particles_);
   const auto bins = [&] { return (box / edge).cwiseMax(0.0).array().floor().operator+(1.0).prod(); };
   while (bins() > 4.0 * static_cast<double>(list.places.size()) + 64.0) edge *= 1.26;
   made->bins_.emplace(made->bounds_.lower, made->bounds_.upper, edge);

@@ -60,7 +60,6 @@ class Points final : public Shape, public Made<Points, PointsKeys> {
 
   /// Sets bounds, volume and the bins from the particles.
   void measure();
-  [[nodiscard]] double largest_edge() const;
 
   PointsKeys keys_;
   std::shared_ptr<const Read> read_;
