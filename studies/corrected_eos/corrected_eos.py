@@ -37,32 +37,29 @@ METALS = {
 CELLS = ("0.8 mm", "0.4 mm")
 
 
-def residuals(report):
-    """Returns kind, number, deviation of GRAY and of the corrected model in percent, and the latter over its errors, from the report of
-    `whipple fit --correct`."""
+def rows_below(report, heading, counts, figures):
+    """Returns the rows below a heading in the report of `whipple fit --correct`: a name, whole numbers, and figures, as texts."""
     lines = report.splitlines()
-    begin = next((i for i, line in enumerate(lines) if line.startswith("correction of the free energy")), len(lines))
+    begin = next((i for i, line in enumerate(lines) if line.startswith(heading)), len(lines))
+    pattern = re.compile(r"(\S.*?)" + counts * r"\s+(\d+)" + figures * r"\s+([\d.]+)" + "$")
     rows = []
     for line in lines[begin + 1:]:
-        found = re.match(r"(\S.*?)\s+(\d+)\s+([\d.]+)\s+([\d.]+)\s+([\d.]+)$", line)
+        found = pattern.match(line)
         if not found:
             break
         rows.append([*found.groups()])
     return rows
+
+
+def residuals(report):
+    """Returns kind, number, deviation of GRAY and of the corrected model in percent, and the latter over its errors."""
+    return rows_below(report, "correction of the free energy", 1, 3)
 
 
 def coverage(report):
     """Returns kind, number of data and of curves, fractions within 68 and 95 %, half-width and rms in percent of data predicted without
-    their curve, from the report of `whipple fit --correct`."""
-    lines = report.splitlines()
-    begin = next((i for i, line in enumerate(lines) if line.startswith("each curve predicted without itself")), len(lines))
-    rows = []
-    for line in lines[begin + 1:]:
-        found = re.match(r"(\S.*?)\s+(\d+)\s+(\d+)\s+([\d.]+)\s+([\d.]+)\s+([\d.]+)\s+([\d.]+)$", line)
-        if not found:
-            break
-        rows.append([*found.groups()])
-    return rows
+    their curve."""
+    return rows_below(report, "each curve predicted without itself", 2, 4)
 
 
 COVERAGE = ["data", "number", "curves", "within 68 %", "within 95 %", "half-width %", "rms %"]

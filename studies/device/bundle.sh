@@ -26,6 +26,8 @@ strip "$to"/bin/*
 cp "$(command -v orted)" "$to/bin/"
 "$build/bin/whipple" bench --states "$to/states"
 
+echo "$root" > "$to/source"  # where the tests look for the project
+
 # Libraries: those of the programs, and the modules of Open MPI that a single process may load
 cp -r /usr/share/xml/udunits "$to/share/"
 modules=$(ompi_info --path libdir --parsable | sed 's/.*://')/openmpi3

@@ -17,8 +17,8 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 xz -dc "$1" | tar xf - -C "$work" || exit 2
 bundle=$work/bundle
-# The tests read the project where it was built.
-[ -e /work/main ] || { mkdir -p /work && ln -sfn "$root" /work/main; }
+source=$(cat "$bundle/source")  # the tests read the project where it was built
+[ -e "$source" ] || { mkdir -p "$(dirname "$source")" && ln -sfn "$root" "$source"; }
 export UDUNITS2_XML_PATH=$bundle/share/udunits/udunits2.xml LD_LIBRARY_PATH=$bundle/lib OPAL_PREFIX=$bundle
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_ess_singleton_isolated=1
 export OMPI_MCA_mca_base_component_path=$bundle/lib/openmpi3 OMPI_MCA_btl=self OMPI_MCA_pml=ob1 OMP_WAIT_POLICY=passive
