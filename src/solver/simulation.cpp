@@ -43,6 +43,7 @@ Simulation::Simulation(const cases::Case& of_case, MPI_Comm communicator) {
   state_->bodies = std::move(seeding.bodies);
   for (Carrier* carrier : stages_->carriers) carrier->keep_share();
   stages_->particles.complete_seeded(domains::are_needed(*state_, stages_->contact.may_meet_images()));
+  stages_->load_step.begin_run();
   use(default_device());
   stages_->balance.sum();
   Ledger& ledger = state_->run.ledger;
@@ -66,6 +67,7 @@ Simulation::Simulation(const cases::Case& of_case, Particles particles, const Ru
   state_->particles = std::move(particles);
   for (Carrier* carrier : stages_->carriers) carrier->gather();
   stages_->particles.complete_read(domains::are_needed(*state_, stages_->contact.may_meet_images()));
+  stages_->load_step.begin_run();
   use(default_device());
   stages_->balance.sum();
   if (state.step == 0) {
