@@ -28,7 +28,7 @@ ParameterTable<QuasiStatic> QuasiStatic::parameters() {
                  "undeformed in every load step | that of the start: finite elements with particles as "
                  "integration points")
               .optional(),
-          real("border_stiffness", &QuasiStatic::border_stiffness, "", range::between(0.0, 1e-2),
+          real("border_stiffness", &QuasiStatic::border_stiffness, "", range::between(0.0, 1.0),
                "stiffness of the cells at the border of the material against displacements of a load step, "
                "as a part of that of the material: holds nodes of small support")
               .optional()};

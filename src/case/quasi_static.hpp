@@ -24,7 +24,7 @@ struct QuasiStatic {
   double tolerance = 1e-8;
   std::int64_t iterations = 12;
   LoadStepGrid grid = LoadStepGrid::reset;
-  double border_stiffness = 1e-6;
+  double border_stiffness = 1e-3;
 
   static ParameterTable<QuasiStatic> parameters();
   void check(const Case& setup, const Faults& faults) const;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace whipple::quasi_static {
@@ -80,21 +81,26 @@ bool Newton::advance(Trial& at) {
   const double given_left = 1.0 - at.given_factor;
   Eigen::VectorXd du;
   if (!system_.solve(tangents, at.residual, given_left, du)) return false;
-  constexpr int most_halvings = 6;
-  // With given displacements the residual of the start is not that of a neighbouring state.
-  const bool must_fall = given_left == 0.0;
+  constexpr int most_halvings = 4;
+  constexpr double enough = 0.8;
+  // The line search asks for less work of the residual on the increment, not for a smaller residual: material that is
+  // bent far has residuals that rise before they fall. Nothing is asked where displacements are given.
+  const double work = std::abs(at.residual.dot(du));
   Trial best;
+  double least = std::numeric_limits<double>::infinity(), length = 1.0;
   bool found = false;
-  double length = 1.0;
   for (int halving = 0; halving <= most_halvings; ++halving, length *= 0.5) {
     Trial next;
     next.unknown = at.unknown + length * du;
     next.given_factor = at.given_factor + length * given_left;
     if (!evaluate(next)) continue;
-    const bool falls = next.residual.norm() < (1.0 - 1e-4 * length) * at.residual.norm();
-    if (!found || next.residual.norm() < best.residual.norm()) best = std::move(next);
+    const double left = std::abs(next.residual.dot(du));
+    if (left < least) {
+      least = left;
+      best = std::move(next);
+    }
     found = true;
-    if (falls || !must_fall) break;
+    if (given_left > 0.0 || least <= enough * work) break;
   }
   if (found) at = std::move(best);
   return found;

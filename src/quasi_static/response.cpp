@@ -35,12 +35,13 @@ void Response::update(std::span<const Matrix3> f) {
   }
 }
 
-void Response::collect(std::span<const Matrix3> f, std::span<double> forces) const {
+void Response::collect(const MaterialPoints& points, std::span<const Matrix3> f,
+                       std::span<double> forces) const {
   const auto m = static_cast<std::size_t>(strains_);
   parallel::for_each(before_.size(), [&](std::size_t p) {
-    Matrix3 stress = trial_.deviatoric_stress[p].matrix();
-    stress.diagonal().array() -= trial_.pressure[p];
-    const Matrix3 force = trial_.volume[p] * stress * f[p].inverse().transpose();
+    Matrix3 stress = points.deviatoric_stress[p].matrix();
+    stress.diagonal().array() -= points.pressure[p];
+    const Matrix3 force = points.volume[p] * stress * f[p].inverse().transpose();
     for (std::size_t k = 0; k < m; ++k) {
       const auto [row, column] = component(strains_, static_cast<int>(k));
       forces[m * p + k] = force(row, column);
@@ -48,9 +49,13 @@ void Response::collect(std::span<const Matrix3> f, std::span<double> forces) con
   });
 }
 
+void Response::at_beginning(std::span<double> forces) const {
+  collect(before_, std::vector<Matrix3>(before_.size(), Matrix3::Identity()), forces);
+}
+
 bool Response::evaluate(std::span<const Matrix3> f, std::span<double> forces) {
   update(f);
-  collect(f, forces);
+  collect(trial_, f, forces);
   if (!std::ranges::all_of(forces, [](double x) { return std::isfinite(x); })) return false;
   return std::ranges::all_of(reports_, [](const MaterialReport& report) {
     return report.valid() && report.limited_volume_changes == 0 && report.limited_densities == 0;
@@ -67,7 +72,7 @@ void Response::differentiate(std::span<const Matrix3> f, std::span<const double>
     const auto [row, column] = component(strains_, static_cast<int>(k));
     for (Matrix3& moved : moved_) moved(row, column) += step;
     update(moved_);
-    collect(moved_, beside);
+    collect(trial_, moved_, beside);
     parallel::for_each(before_.size(), [&](std::size_t p) {
       for (std::size_t i = 0; i < m; ++i)
         tangents[(m * p + i) * m + k] = (beside[m * p + i] - forces[m * p + i]) / step;

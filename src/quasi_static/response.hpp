@@ -31,6 +31,8 @@ class Response {
   /// @param[out] forces  `strains` numbers per particle
   /// @returns whether the update is defined: no state is out of range, no volume is limited
   bool evaluate(std::span<const Matrix3> f, std::span<double> forces);
+  /// Computes T of the beginning, where f is the identity.
+  void at_beginning(std::span<double> forces) const;
   /// Computes dT/df of all particles by differences (eq. 4): row by row, `strains`^2 numbers per particle, from `forces`
   /// at `f`. The trial state is lost.
   void differentiate(std::span<const Matrix3> f, std::span<const double> forces, std::span<double> tangents);
@@ -48,7 +50,7 @@ class Response {
 
  private:
   void update(std::span<const Matrix3> f);
-  void collect(std::span<const Matrix3> f, std::span<double> forces) const;
+  void collect(const MaterialPoints& points, std::span<const Matrix3> f, std::span<double> forces) const;
 
   const Particles& before_;
   std::vector<Group> groups_;

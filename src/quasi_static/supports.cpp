@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "src/transfer/plain_nodes.hpp"
 
@@ -57,8 +58,9 @@ void list_nodes(Supports& supports, const plain::Functions& functions, double sm
   }
 }
 
-/// Adds integration points to the cells that hold particles and have a neighbour that holds none: two along each
-/// direction. Mirror planes are no border.
+/// Adds integration points to the cells at the border of the material, those with particles and a neighbour without:
+/// two along each direction. A point holds the difference of the slopes there and at the same place of the neighbour
+/// that holds the most material, so that it resists only what a uniform deformation does not explain (eq. 9).
 class Border {
  public:
   Border(Supports& supports, const plain::Functions& functions, double smoothing, const Particles& particles,
@@ -73,54 +75,87 @@ class Border {
       Place cell{};
       for (int a = 0; a < directions_; ++a)
         cell[static_cast<std::size_t>(a)] = static_cast<std::int32_t>(std::floor(x[a]));
-      filled_.try_emplace(cell, static_cast<std::uint32_t>(p));
+      Filling& filling = filled_.try_emplace(cell, Filling{static_cast<std::uint32_t>(p), 0.0}).first->second;
+      filling.volume += geometry_.size_in_section(particles.volume[p], particles.position[p]);
     }
-    for (std::size_t i = 0; i < supports.nodes(); ++i) node_at_[supports.places[i]] = i;
+    for (std::size_t i = 0; i < supports.nodes(); ++i) {
+      Place place = supports.places[i];
+      if (directions_ == 2) place[2] = 0;
+      node_at_[place] = i;
+    }
   }
 
   void add() {
-    for (const auto& [cell, particle] : filled_) {
-      if (is_border(cell)) add_points(cell, particle);
+    for (const auto& [cell, filling] : filled_) {
+      if (const std::optional<Place> fuller = fullest_neighbour(cell, filling)) {
+        add_points(cell, *fuller, filling.particle);
+      }
     }
   }
 
  private:
-  [[nodiscard]] bool is_border(const Place& cell) const {
+  struct Filling {
+    std::uint32_t particle;  // one of them
+    double volume;           // in the plane: area
+  };
+
+  /// Returns the neighbour of a cell at the border that holds the most material, none of other cells or if none holds
+  /// more.
+  [[nodiscard]] std::optional<Place> fullest_neighbour(const Place& cell, const Filling& own) const {
+    constexpr double more = 1.0 + 1e-6;
     const int first_z = directions_ == 3 ? -1 : 0;
+    bool is_border = false;
+    std::optional<Place> fullest;
+    double most = more * own.volume;
     for (int i = -1; i <= 1; ++i) {
       for (int j = -1; j <= 1; ++j) {
         for (int k = first_z; k <= -first_z; ++k) {
-          if (is_empty({cell[0] + i, cell[1] + j, cell[2] + k})) return true;
+          const Place place = {cell[0] + i, cell[1] + j, cell[2] + k};
+          const auto found = filled_.find(inside(place));
+          if (found == filled_.end()) {
+            is_border = true;
+          } else if (found->first == place && found->second.volume > most) {
+            most = more * found->second.volume;
+            fullest = place;
+          }
         }
       }
     }
-    return false;
+    return is_border ? fullest : std::nullopt;
   }
-  /// Returns whether a cell holds no particle, nor the image of one.
-  [[nodiscard]] bool is_empty(Place cell) const {
+  /// Returns a cell, beyond a mirror plane its image.
+  [[nodiscard]] Place inside(Place cell) const {
     for (std::size_t a = 0; a < static_cast<std::size_t>(directions_); ++a) {
       if (cell[a] < 0 && geometry_.mirrors(2 * a)) cell[a] = -1 - cell[a];
       if (cell[a] >= geometry_.cells[a] && geometry_.mirrors(2 * a + 1)) {
         cell[a] = 2 * geometry_.cells[a] - 1 - cell[a];
       }
     }
-    return !filled_.contains(cell);
+    return cell;
   }
-  void add_points(const Place& cell, std::uint32_t particle) {
+  void add_points(const Place& cell, const Place& fuller, std::uint32_t particle) {
     const double near = 0.5 - 0.5 / std::sqrt(3.0);
     const double dx = geometry_.cell_size;
     for (int corner = 0; corner < 1 << directions_; ++corner) {
-      Vector3 x = Vector3::Zero();  // in cells
-      for (int a = 0; a < directions_; ++a)
-        x[a] = cell[static_cast<std::size_t>(a)] + ((corner >> a & 1) != 0 ? 1.0 - near : near);
-      add_point(x);
+      Vector3 x = Vector3::Zero(), shift = x;  // in cells
+      for (int a = 0; a < directions_; ++a) {
+        const auto i = static_cast<std::size_t>(a);
+        x[a] = cell[i] + ((corner >> a & 1) != 0 ? 1.0 - near : near);
+        shift[a] = fuller[i] - cell[i];
+      }
+      std::map<std::uint32_t, Vector3> slopes;
+      add_slopes(x, 1.0, slopes);
+      add_slopes(x + shift, -1.0, slopes);
+      for (const auto& [node, slope] : slopes) supports_.border.reached.push_back({node, 0.0, slope});
+      supports_.border.begin.push_back(supports_.border.reached.size());
       const Vector3 position = geometry_.lower + dx * x;
       const double depth = directions_ == 2 ? geometry_.depth(position) : dx;
       supports_.border_volume.push_back(dx * dx * depth / (1 << directions_));
       supports_.border_particle.push_back(particle);
     }
   }
-  void add_point(const Vector3& x) {
+  /// Adds the slopes of the nodes at a place, times a factor.
+  void add_slopes(const Vector3& x, double factor, std::map<std::uint32_t, Vector3>& slopes) const {
     constexpr double quarter = 0.25;  // half-size of the domain of a point with GIMP, in cells
     std::array<transfer::AxisWeights<plain::most_nodes>, 3> along;
     Place first{};
@@ -133,6 +168,7 @@ class Border {
       first[i] = static_cast<std::int32_t>(std::floor(x[a] - functions_.stencil.shift));
       along[i] = plain::along_axis(functions_.kind, x[a] - first[i], quarter, cells_.along(i));
     }
+    const auto &u = along[0], &v = along[1], &w = along[2];
     for (std::size_t i = 0; i < functions_.count; ++i) {
       for (std::size_t j = 0; j < functions_.count; ++j) {
         for (std::size_t k = 0; k < functions_.count_z; ++k) {
@@ -140,16 +176,14 @@ class Border {
               node_at_.find({first[0] + static_cast<std::int32_t>(i), first[1] + static_cast<std::int32_t>(j),
                              first[2] + static_cast<std::int32_t>(k)});
           if (found == node_at_.end()) continue;
-          const auto &u = along[0], &v = along[1], &w = along[2];
-          supports_.border.reached.push_back(
-              {static_cast<std::uint32_t>(found->second),
-               u.weight[i] * v.weight[j] * w.weight[k],
-               {u.derivative[i] * v.weight[j] * w.weight[k], u.weight[i] * v.derivative[j] * w.weight[k],
-                u.weight[i] * v.weight[j] * w.derivative[k]}});
+          Vector3& slope =
+              slopes.try_emplace(static_cast<std::uint32_t>(found->second), Vector3::Zero()).first->second;
+          slope += factor * Vector3(u.derivative[i] * v.weight[j] * w.weight[k],
+                                    u.weight[i] * v.derivative[j] * w.weight[k],
+                                    u.weight[i] * v.weight[j] * w.derivative[k]);
         }
       }
     }
-    supports_.border.begin.push_back(supports_.border.reached.size());
   }
 
   Supports& supports_;
@@ -157,7 +191,7 @@ class Border {
   const grid::Geometry& geometry_;
   transfer::Cells cells_;
   int directions_;
-  std::map<Place, std::uint32_t> filled_;  // a particle of each cell
+  std::map<Place, Filling> filled_;
   std::map<Place, std::size_t> node_at_;
 };
 
@@ -176,7 +210,10 @@ Supports find_supports(const transfer::ShapeFunctions& functions, const Particle
     if (grid.geometry().is_axisymmetric()) {
       for (const Vector3& x : particles.position) supports.per_radius.push_back(1.0 / x[1]);
     }
-    if (with_border) Border(supports, as_numbers, smoothing, particles, grid).add();
+    if (with_border) {
+      ++supports.most_along;  // with the neighbour of a cell
+      Border(supports, as_numbers, smoothing, particles, grid).add();
+    }
     return supports;
   });
 }

@@ -35,7 +35,7 @@ struct Reach {
 /// Describes the nodes of a load step and the points that reach them.
 struct Supports {
   grid::Dimension dimension = grid::Dimension::space;
-  int most_along = 0;                               ///< nodes that a point reaches along a direction
+  int most_along = 0;                               ///< nodes along a direction that a point connects
   std::vector<std::uint32_t> grid_node;             ///< of each active node: its index in the grid, ascending
   std::vector<std::array<std::int32_t, 3>> places;  ///< of each active node, in cells
   Reach particles;                                  ///< of every particle

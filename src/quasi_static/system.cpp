@@ -11,8 +11,8 @@
 namespace whipple::quasi_static {
 namespace {
 
-/// Relative asymmetry of K below which it counts as symmetric: that of differences is 1e-7.
-constexpr double symmetric_below = 1e-5;
+/// Relative asymmetry of K below which it is neglected: each iteration then reduces the residual by this factor at least.
+constexpr double symmetric_below = 1e-3;
 
 /// Lists the points of each node, in ascending order.
 template <class AtNode>

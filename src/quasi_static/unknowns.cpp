@@ -50,7 +50,7 @@ std::map<std::uint32_t, Master> masters_at_planes(const grid::BlockGrid& grid) {
 }  // namespace
 
 Unknowns::Unknowns(const Supports& supports, const grid::BlockGrid& grid,
-                   std::span<const std::optional<Vector3>> given)
+                   std::span<const std::optional<Given>> given)
     : components_(supports.nodes()) {
   const std::map<std::uint32_t, Master> masters = masters_at_planes(grid);
   const auto master_of = [&](std::size_t node) {
@@ -61,7 +61,7 @@ Unknowns::Unknowns(const Supports& supports, const grid::BlockGrid& grid,
   for (std::size_t node = 0; node < supports.nodes(); ++node) {
     if (!given[node]) continue;
     const Master master = master_of(node);
-    Vector3 u = *given[node];
+    Vector3 u = given[node]->u;
     for (int a = 0; a < 3; ++a) u[a] *= master.sign[static_cast<std::size_t>(a)];
     if (master.node == supports.grid_node[node]) {
       given_at[master.node] = u;
@@ -110,20 +110,20 @@ bool Unknowns::are_any_given() const {
   return false;
 }
 
-std::vector<std::optional<Vector3>> given_displacements(const Supports& supports, const Particles& particles,
-                                                        std::span<const std::optional<Vector3>> of_body) {
-  std::vector<std::optional<Vector3>> given(supports.nodes());
+std::vector<std::optional<Given>> given_displacements(const Supports& supports, const Particles& particles,
+                                                      std::span<const std::optional<Vector3>> of_body) {
+  std::vector<std::optional<Given>> given(supports.nodes());
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const std::optional<Vector3>& u = of_body[particles.body[p]];
     if (!u) continue;
     for (const Reached& reached : supports.particles.of(p)) {
-      std::optional<Vector3>& at = given[reached.node];
-      if (at && *at != *u) {
+      std::optional<Given>& at = given[reached.node];
+      if (at && at->u != *u) {
         throw InputError(
             "two driven bodies with different velocities reach a node together: a quasi-static load step "
             "needs a cell or two between them");
       }
-      at = u;
+      at = Given{*u, particles.body[p]};
     }
   }
   return given;

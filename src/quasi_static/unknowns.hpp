@@ -19,14 +19,20 @@ struct Component {
   double given = 0.0;  ///< m
 };
 
+/// Describes the displacement that the particles of a driven body give to a node.
+struct Given {
+  Vector3 u;  ///< m
+  std::uint32_t body;
+};
+
 /// Numbers the unknown displacements of the nodes: images beyond mirror planes move as their nodes do (R u), nodes on a
 /// plane do not leave it, and nodes that driven material reaches move as it does (eq. 6).
 class Unknowns {
  public:
-  /// @param given  displacement (m) of each active node, where it is given
+  /// @param given  of each active node, where a driven body reaches it
   /// @throws InputError if two bodies give a node different displacements
   Unknowns(const Supports& supports, const grid::BlockGrid& grid,
-           std::span<const std::optional<Vector3>> given);
+           std::span<const std::optional<Given>> given);
 
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] const Component& of(std::size_t node, int direction) const {
@@ -47,7 +53,7 @@ class Unknowns {
 
 /// Returns the displacement (m) of each active node that the particles of some bodies reach.
 /// @param of_body  displacement of a driven body, none for others
-std::vector<std::optional<Vector3>> given_displacements(const Supports& supports, const Particles& particles,
-                                                        std::span<const std::optional<Vector3>> of_body);
+std::vector<std::optional<Given>> given_displacements(const Supports& supports, const Particles& particles,
+                                                      std::span<const std::optional<Vector3>> of_body);
 
 }  // namespace whipple::quasi_static

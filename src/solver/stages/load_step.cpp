@@ -33,6 +33,7 @@ constexpr double growth = 1.5;  // of the step then
 /// Holds one attempt at a load step: the equations of a step of a given length, and what became of them.
 struct LoadStep::Attempt {
   const quasi_static::Supports& supports;
+  std::vector<std::optional<quasi_static::Given>> given;  // of the active nodes
   quasi_static::Unknowns unknowns;
   quasi_static::System system;
   quasi_static::Response response;
@@ -45,9 +46,14 @@ struct LoadStep::Attempt {
           std::span<const std::optional<Vector3>> of_bodies, std::vector<quasi_static::Group> groups,
           std::vector<double> border)
       : supports(nodes),
-        unknowns(nodes, grid, quasi_static::given_displacements(nodes, particles, of_bodies)),
+        given(quasi_static::given_displacements(nodes, particles, of_bodies)),
+        unknowns(nodes, grid, given),
         system(nodes, unknowns, std::move(border)),
-        response(particles, std::move(groups), nodes.strains()) {}
+        response(particles, std::move(groups), nodes.strains()) {
+    std::vector<double> forces(particles.size() * static_cast<std::size_t>(nodes.strains()));
+    response.at_beginning(forces);
+    internal_before = system.internal(forces, std::vector<Vector3>(nodes.nodes(), Vector3::Zero()));
+  }
 };
 
 LoadStep::LoadStep(State& state, const Loads& loads, AppliedLoads& applied_loads, Partition& partition)
@@ -263,21 +269,30 @@ void LoadStep::book(const Attempt& attempt) {
   for (std::size_t p = 0; p < particles.size(); ++p) {
     booked.external_impulse += particles.mass[p] * dt * attempt.after[p];
   }
+  double scale = 0.0;  // of the impulses
   for (std::size_t node = 0; node < attempt.supports.nodes(); ++node) {
     const Vector3& u = attempt.result.u[node];
     const Vector3 loads = 0.5 * (attempt.external_before[node] + attempt.external_after[node]);
     booked.external_work += loads.dot(u);
     const Vector3 reaction = attempt.result.internal[node] - attempt.external_after[node];
-    Vector3 held = Vector3::Zero();
+    const Vector3 at_beginning = attempt.internal_before[node] - attempt.external_before[node];
     for (int a = 0; a < 3; ++a) {
-      if (attempt.unknowns.of(node, a).unknown < 0) held[a] = reaction[a];
+      if (attempt.unknowns.of(node, a).unknown < 0)
+        booked.external_work += 0.5 * (reaction[a] + at_beginning[a]) * u[a];
     }
     booked.wall_impulse += dt * reaction;
-    booked.external_work += held.dot(u);
-    if (state_.force_gauges.any()) {
+    scale += dt * reaction.norm();
+    if (!state_.force_gauges.any()) continue;
+    if (const auto& given = attempt.given[node]) {
+      const auto& place = attempt.supports.places[node];
+      const Vector3 position = state_.setup.geometry.lower +
+                               state_.setup.geometry.cell_size * Vector3(place[0], place[1], place[2]);
+      state_.force_gauges.book_held(given->body, position, -dt * reaction);
+    } else {
       state_.force_gauges.book_node(state_.grid, attempt.supports.grid_node[node], dt * reaction);
     }
   }
+  state_.run.ledger.largest_momentum = std::max(state_.run.ledger.largest_momentum, scale);
 }
 
 void LoadStep::give_up(const Attempt& attempt) const {
