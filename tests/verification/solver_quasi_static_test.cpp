@@ -418,6 +418,35 @@ TEST(LoadSteps, ADrivenPlateDoesTheWorkOfItsForce) {
   }
 }
 
+// Laws of metals, soil, concrete, ceramics, foam and rubber as they are: a block is pushed down by 1 %, no step is cut,
+// and the force on the plate is that on the floor.
+TEST(LoadSteps, TakeEveryLawOfASolid) {
+  const std::string cases_of = WHIPPLE_SOURCE_DIR "/cases/";
+  for (const std::string& material :
+       {std::string("copper_johnson_cook.toml"), std::string("copper.toml"),
+        std::string("copper_ofhc_half_hard_mts_mie_gruneisen.toml"), std::string("concrete_48mpa_hjc.toml"),
+        std::string("alumina_99_5_jh2.toml"), cases_of + "slope_failure/soil.toml",
+        cases_of + "foam_block/foam.toml", std::string(WHIPPLE_SOURCE_DIR "/tests/data/rubber.toml")}) {
+    std::string text = block("", "");
+    for (const auto& [from, to] :
+         {std::pair{column_material(), material}, std::pair{column_material(), material},
+          std::pair{std::string("-0.5"), std::string("-0.03")},
+          std::pair{std::string("steps = 40"), std::string("steps = 10")}}) {
+      const std::size_t at = text.find(from);
+      ASSERT_NE(at, std::string::npos) << from;
+      text.replace(at, from.size(), to);
+    }
+    solver::Simulation simulation(cases::read_case_text(text, "block.toml"), parallel::world());
+    run_to(simulation, 1.0);
+    EXPECT_EQ(simulation.state().step, 10) << material;
+    EXPECT_LT(simulation.equilibrium().residual(), 1e-8) << material;
+    const Vector3 on_plate = simulation.state().gauged[0].impulse,
+                  on_floor = simulation.state().gauged[1].impulse;
+    EXPECT_GT(on_plate[1], 0.0) << material;
+    EXPECT_NEAR(on_plate[1], -on_floor[1], 1e-6 * on_plate[1]) << material;
+  }
+}
+
 TEST(LoadSteps, WhatTheyDoNotComputeIsRefusedByName) {
   const auto message_of = [](const std::string& text) {
     try {
