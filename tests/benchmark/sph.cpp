@@ -211,8 +211,8 @@ void Simulation::heat_and_find_gradients(double dt) {
     gradient_[j] += volume(i) * rate;
     shape_[j] += volume(i) * length;
   }
-  // A particle with neighbours in one plane or fewer keeps the sum as it is.
-  constexpr double flat = 0.05;
+  // Inside the shape is 1, at a corner 1/8; a particle with neighbours in one plane or fewer keeps the sum as it is.
+  constexpr double flat = 1e-4;
   for (std::size_t i = 0; i < q.size(); ++i) {
     if (std::abs(shape_[i].determinant()) > flat) gradient_[i] = (gradient_[i] * shape_[i].inverse()).eval();
   }

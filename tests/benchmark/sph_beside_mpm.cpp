@@ -95,7 +95,7 @@ double front(const Particles& q, double share) {
 const std::vector<Measure> impact = {
     {"0.5 % of the mass is beyond (mm)", [](const Particles& q, double) { return front(q, 0.005); }},
     {"radius of the hole (mm)", [](const Particles& q, double d) {
-       // of particles of the plate that are within its first thickness and hardly move
+       // nearest particle of the plate to the axis between the planes of its faces
        double least = 1e300;
        for (std::size_t i = 0; i < q.size(); ++i) {
          const Vector3& x = q.position[i];
@@ -105,7 +105,7 @@ const std::vector<Measure> impact = {
      }}};
 
 const std::vector<Problem> problems = {
-    {"Taylor bar", "cases/taylor_bar/case.toml", {"1.52 mm", "1.01 mm", "0.76 mm"}, {}, bar},
+    {"Taylor bar", "cases/taylor_bar/case.toml", {"1.52 mm", "1.09 mm", "0.76 mm"}, {}, bar},
     {"Lead sphere on lead plate",
      "cases/lead_sphere_on_plate/case.toml",
      {"4.24 mm", "3 mm", "2.12 mm"},
@@ -166,8 +166,10 @@ std::string table(const Problem& problem) {
     text += material_points(setup, cell, problem);
     std::cerr << text.substr(text.rfind('\n', text.size() - 2) + 1);
     text += smoothed(setup, cell, problem, {}, "SPH");
+    std::cerr << text.substr(text.rfind('\n', text.size() - 2) + 1);
+    if (cell != problem.cells[1]) continue;
     text += smoothed(setup, cell, problem, {.artificial_stress = 0.0}, "SPH without artificial stress");
-    std::cerr << text;
+    std::cerr << text.substr(text.rfind('\n', text.size() - 2) + 1);
   }
   return text;
 }

@@ -56,35 +56,66 @@ ThrownBlockResult throw_particles(const ThrownBlock& block, double cell) {
 
 Material foam() { return *thrown_block({.end = 1e-6}, 1e-3).materials[0]; }
 
-TEST(CompactionShock, ZonesConvergeToTheLockingFormula) {
-  const Material material = foam();
-  for (const double speed : {50.0, 100.0, 200.0}) {
-    const ThrownBlock block{.speed = speed};
-    const ThrownBlockResult rigid = locking_block(block, plateau, foam_density, locking);
-    const ThrownBlockResult coarse = throw_in_zones(material, block, 50),
-                            fine = throw_in_zones(material, block, 100);
-    std::printf("%.0f m/s: formula %.3f mm %.4f; 50 zones %.3f %.4f, 100 %.3f %.4f, energy %.1e\n", speed,
-                1e3 * rigid.length, rigid.momentum, 1e3 * coarse.length, coarse.momentum, 1e3 * fine.length,
-                fine.momentum, fine.energy_error);
-  }
+ThrownBlockResult formula(const ThrownBlock& block) {
+  return locking_block(block, plateau, foam_density, locking);
 }
 
-TEST(CompactionShockFine, Table) {
+/// Returns the limit of two resolutions of which the second is twice as fine, for errors of first order.
+double limit(double coarse, double fine) { return 2.0 * fine - coarse; }
+
+TEST(CompactionShock, ZonesApproachTheLockingFormula) {
   const Material material = foam();
+  const ThrownBlock block;
+  const double exact = formula(block).length;
+  const ThrownBlockResult coarse = throw_in_zones(material, block, 25),
+                          fine = throw_in_zones(material, block, 50);
+  std::printf("formula %.3f mm; 25 zones %.3f, 50 %.3f\n", 1e3 * exact, 1e3 * coarse.length,
+              1e3 * fine.length);
+  EXPECT_LT(std::abs(fine.energy_error), 1e-12);
+  EXPECT_LT(fine.length - exact, 0.7 * (coarse.length - exact));
+  EXPECT_NEAR(limit(coarse.length, fine.length), exact, 0.5e-3);
+  EXPECT_NEAR(fine.momentum, formula(block).momentum, 0.02);
+}
+
+TEST(CompactionShock, ParticlesStopWhereZonesOfTheSameWidthDo) {
+  const ThrownBlock block;
+  const ThrownBlockResult zones = throw_in_zones(foam(), block, 50), particles = throw_particles(block, 2e-3);
+  std::printf("zones %.3f mm, particles %.3f mm\n", 1e3 * zones.length, 1e3 * particles.length);
+  EXPECT_LT(particles.energy_error, 1e-12);
+  EXPECT_NEAR(particles.length, zones.length, 1e-3);
+  EXPECT_NEAR(particles.momentum, zones.momentum, 0.02);
+}
+
+// The table of docs/theory/foam.md, section 3.
+TEST(CompactionShockFine, ThreeSpeedsThreeCellsThreeViscosities) {
+  const Material material = foam();
+  std::printf("| speed, formula | c1 | 4 mm: zones, cells | 2 mm | 1 mm | limit of zones, cells |\n");
   for (const double speed : {50.0, 100.0, 200.0}) {
+    double nearest = 1.0;
     for (const double viscosity : {0.25, 0.06, 0.02}) {
       const ThrownBlock block{.speed = speed, .linear_viscosity = viscosity};
-      const ThrownBlockResult rigid = locking_block(block, plateau, foam_density, locking);
-      std::printf("%.0f m/s, c1 %.2f: formula %.3f mm %.4f\n", speed, viscosity, 1e3 * rigid.length,
-                  rigid.momentum);
-      for (const int zones : {50, 100, 200, 400}) {
-        const ThrownBlockResult a = throw_in_zones(material, block, zones);
-        std::printf("  zones %d: %.3f %.4f (%.1e)\n", zones, 1e3 * a.length, a.momentum, a.energy_error);
-        if (zones > 200) continue;
-        const ThrownBlockResult b = throw_particles(block, block.length / zones);
-        std::printf("  cells %d: %.3f %.4f (%.1e)\n", zones, 1e3 * b.length, b.momentum, b.energy_error);
+      const ThrownBlockResult exact = formula(block);
+      std::string row = fmt::format("| {} m/s, {:.2f} mm, {:.4f} | {} |", speed, 1e3 * exact.length,
+                                    exact.momentum, viscosity);
+      std::vector<ThrownBlockResult> zones, cells;
+      for (const std::size_t count : {25, 50, 100}) {
+        zones.push_back(throw_in_zones(material, block, count));
+        cells.push_back(throw_particles(block, block.length / static_cast<double>(count)));
+        row += fmt::format(" {:.2f} {:.4f}, {:.2f} {:.4f} |", 1e3 * zones.back().length,
+                           zones.back().momentum, 1e3 * cells.back().length, cells.back().momentum);
+        EXPECT_LT(cells.back().energy_error, 1e-12);
+        EXPECT_LT(std::abs(zones.back().energy_error), 1e-12);
       }
+      const double of_zones = limit(zones[1].length, zones[2].length),
+                   of_cells = limit(cells[1].length, cells[2].length);
+      std::printf("%s %.2f, %.2f |\n", row.c_str(), 1e3 * of_zones, 1e3 * of_cells);
+      std::fflush(stdout);
+      // Less viscosity is nearer to the formula, and particles approach the zones.
+      EXPECT_LT(std::abs(of_zones - exact.length), nearest + 1e-4);
+      nearest = std::abs(of_zones - exact.length);
+      EXPECT_LT(std::abs(cells[2].length - zones[2].length), std::abs(cells[0].length - zones[0].length));
     }
+    EXPECT_LT(nearest, 1e-3);
   }
 }
 

@@ -19,7 +19,7 @@ cases::Case corner_block(const std::string& velocity) {
       "[domain]\nlower = [0, 0, 0]\nupper = [0.02, 0.02, 0.02]\ncell_size = 1e-3\n"
       "boundary = { x_lower = \"symmetry\", y_lower = \"symmetry\", z_lower = \"symmetry\" }\n"
       "[time]\nend = 1e-6\n[[body]]\nname = \"block\"\nmaterial = \"" +
-          aluminium("sph_aluminium", "0.3 GPa") + "\"\nvelocity = [" + velocity +
+          aluminium("sph_aluminium", "1 kPa") + "\"\nvelocity = [" + velocity +
           ", 0, 0]\nshape = { box = { lower = [0, 0, 0], upper = [0.01, 0.01, 0.01] } }\n",
       "block.toml");
 }
@@ -39,6 +39,7 @@ TEST(SmoothedParticles, LinearVelocityFieldsHaveExactGradients) {
 TEST(SmoothedParticles, KeepEnergyAndLateralMomentum) {
   const cases::Case setup = cases::read_case(std::string(WHIPPLE_SOURCE_DIR) + "/cases/taylor_bar/case.toml",
                                              {{"domain.cell_size", "1.52 mm"},
+                                              {"domain.lower", "['-6.08 mm', '-6.08 mm', '0 mm']"},
                                               {"domain.boundary.x_lower", "outflow"},
                                               {"domain.boundary.y_lower", "outflow"}});
   sph::Simulation simulation(setup);
@@ -75,7 +76,7 @@ TEST(SmoothedParticles, ABlockOnAWallIsOnTheHugoniot) {
   }
   ASSERT_GT(mass, 0.0);
   const double shock = c0 + s * speed;
-  EXPECT_NEAR(stress / mass, density * shock * speed + 0.2e9, 0.02 * density * shock * speed);
+  EXPECT_NEAR(stress / mass, density * shock * speed, 0.01 * density * shock * speed);
   EXPECT_NEAR(mass / volume, density / (1.0 - speed / shock), 0.005 * density);
 }
 
