@@ -9,6 +9,7 @@
 #include <ctime>
 #include <functional>
 #include <iostream>
+#include <numbers>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -94,14 +95,18 @@ double front(const Particles& q, double share) {
 
 const std::vector<Measure> impact = {
     {"0.5 % of the mass is beyond (mm)", [](const Particles& q, double) { return front(q, 0.005); }},
-    {"radius of the hole (mm)", [](const Particles& q, double d) {
-       // nearest particle of the plate to the axis between the planes of its faces
-       double least = 1e300;
+    {"radius of the hole (mm)", [](const Particles& q, double) {
+       // what is missing of a circle of 30 mm between the planes of the faces of the plate, a square of 80 mm
+       constexpr double within = 30e-3, half_edge = 80e-3, thickness = 6.36e-3;
+       double all = 0.0, left = 0.0;
        for (std::size_t i = 0; i < q.size(); ++i) {
+         if (q.body[i] != 1) continue;
          const Vector3& x = q.position[i];
-         if (q.body[i] == 1 && x.x() > 0.0 && x.x() < 6.36e-3) least = std::min(least, x.tail<2>().norm());
+         all += q.mass[i];
+         if (x.x() > 0.0 && x.x() < thickness && x.tail<2>().norm() < within) left += q.mass[i];
        }
-       return least - 0.5 * d;
+       const double area = left / all * half_edge * half_edge;
+       return std::sqrt(within * within - 4.0 / std::numbers::pi * area);
      }}};
 
 const std::vector<Problem> problems = {

@@ -44,12 +44,14 @@ ThrownBlockResult throw_particles(const ThrownBlock& block, double cell) {
   std::vector<std::size_t> order(q.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::sort(order, std::greater<>(), [&](std::size_t p) { return q.position[p].x(); });
-  double beyond = 0.0;
-  for (const std::size_t p : order) {
-    beyond += q.mass[p];
-    result.length = q.position[p].x();
-    if (beyond > 0.01 * simulation.totals().mass) break;
-  }
+  // Two particles across the column; their mass is half on either side of their place.
+  const auto place = [&](std::size_t k) {
+    return 0.5 * (q.position[order[2 * k]].x() + q.position[order[2 * k + 1]].x());
+  };
+  const double behind =
+      0.01 * static_cast<double>(q.size() / 2) - 0.5;  // in rows, from the place of the last one
+  const auto row = static_cast<std::size_t>(std::max(0.0, behind));
+  result.length = place(row) + (behind - static_cast<double>(row)) * (place(row + 1) - place(row));
   result.energy_error = watch.worst;
   return result;
 }
