@@ -110,10 +110,10 @@ const std::vector<Measure> impact = {
      }}};
 
 const std::vector<Problem> problems = {
-    {"Taylor bar", "cases/taylor_bar/case.toml", {"1.52 mm", "1.09 mm", "0.76 mm"}, {}, bar},
+    {"Taylor bar", "cases/taylor_bar/case.toml", {"1.9 mm", "1.52 mm", "1.2 mm"}, {}, bar},
     {"Lead sphere on lead plate",
      "cases/lead_sphere_on_plate/case.toml",
-     {"4.24 mm", "3 mm", "2.12 mm"},
+     {"6 mm", "4.24 mm", "3 mm"},
      {{"splitting.length", "0"}},
      impact}};
 
