@@ -37,7 +37,7 @@ whipple_test(test_rotation STARTS_MPI SOURCES verification/solver_rotation_test.
 # Writes docs/generated/orders_of_convergence.md; a program of its own, as it takes minutes.
 add_executable(orders_of_convergence EXCLUDE_FROM_ALL verification/solver_orders.cpp)
 target_link_libraries(orders_of_convergence PRIVATE whipple_flags whipple_solver)
-# Smoothed particles, and the program that writes docs/generated/sph_beside_mpm.md.
+# Smoothed particles, and the program that measures them beside the step.
 add_library(whipple_sph STATIC EXCLUDE_FROM_ALL benchmark/sph.cpp)
 target_link_libraries(whipple_sph PUBLIC whipple_flags whipple_solver)
 whipple_test_flags(whipple_sph OPTIMIZED)

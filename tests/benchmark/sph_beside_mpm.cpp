@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes docs/generated/sph_beside_mpm.md: smoothed particles beside material points with the same particles and the same
+// Writes a table: smoothed particles beside material points with the same particles and the same
 // update of the material, on one thread.
-//   build/release/tests/bin/sph_beside_mpm docs/generated/sph_beside_mpm.md
+//   build/release/tests/bin/sph_beside_mpm TABLE.md
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -181,9 +181,8 @@ std::string table(const Problem& problem) {
 
 void write(const std::string& file) {
   std::string text =
-      "# SPH beside MPM\n\nWritten by `build/release/tests/bin/sph_beside_mpm "
-      "docs/generated/sph_beside_mpm.md`; one thread, "
-      "processor time.\n";
+      "# SPH beside MPM\n\nWritten by `build/release/tests/bin/sph_beside_mpm`; one thread, processor "
+      "time.\n";
   for (const Problem& problem : problems) text += table(problem);
   io::write_text_atomically(file, text);
 }

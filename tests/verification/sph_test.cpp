@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The smoothed particles of docs/generated/sph_beside_mpm.md: exact balances and gradients, the Hugoniot, the bar.
+// The smoothed particles of docs/manual/performance.md: exact balances and gradients, the Hugoniot, the bar.
 #include "tests/benchmark/sph.hpp"
 
 #include <gtest/gtest.h>
