@@ -27,7 +27,7 @@ ACROSS = 8         # cells across the sphere, at most
 COUNT = 20
 MOST = 200_000     # particles of a quarter
 SETTINGS = dict.fromkeys(run_shots.SETTINGS, "")
-MEASURES = {"left": "least_left.wall", "hole [mm]": "hole_diameter.wall", "bulge [mm]": "bulge.wall"}  # of `whipple analyse`
+MEASURES = {"left": "least_left.wall", "left on the axis": "left_on_axis.wall", "hole [mm]": "hole_diameter.wall"}  # of `whipple analyse`
 
 
 def options(model):
