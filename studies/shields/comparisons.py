@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Parts of the page about shields: three dimensions beside sections, what unsafe misses have in common, the control of tiles."""
+import math
+import statistics
+
+from studies.shields import scores
+from studies.shields.scores import table
+
+DEFEATS = {"perforated", "detached spall"}
+SIZES = {"speed": "speed, km/s", "thickness": "bumper over sphere", "wall": "wall over sphere", "spacing": "spacing over sphere"}
+SPACE = """Twenty scored shots, chosen by the SHA-256 of their names among those whose quarter has at most 200,000 particles with 8 cells
+across the sphere and two through every sheet (`python3 -m studies.shields.three_dimensions`, the list was written before any was computed).
+Quarter: three dimensions between two mirror planes; section: the same cells; section of the rule: of outcomes.csv, twice as many cells
+through the bumper. Left: least fraction of the thickness that connected material keeps (on the axis), hole: diameter in mm."""
+CONTROL = """The tile of the rule (seed 1) and the same mass, speed and delays as dust in the same cells (`python3 -m
+studies.shields.tile_control`): with the mean load of the grains, which crowd in the middle of the tile, and uniform. The first shots
+with a tile in the order of the SHA-256 of their names. Speed: of the rear half of the wall, which decides; over spread: over that of the
+load spread over the wall; rim: distance in which the rim stops it over the thickness, failed from 1 on."""
+
+
+def defeated(outcome):
+    return None if outcome == "undecided" else outcome in DEFEATS
+
+
+def number(text):
+    return math.nan if text in ("", None) else float(text)
+
+
+def ratio_text(values):
+    """Median and range of ratios; "-" of nothing."""
+    own = [value for value in values if math.isfinite(value)]
+    return f"{statistics.median(own):.2f} ({min(own):.2f} to {max(own):.2f}, {len(own)} shots)" if own else "-"
+
+
+def space_section(rows, of_rule, measured):
+    """Three dimensions beside sections. rows: of three_dimensions.csv; of_rule: outcomes of sections by shot; measured: failed or not, by shot."""
+    quarters = {row["shot"]: row for row in rows if row["model"] == "space"}
+    sections = {row["shot"]: row for row in rows if row["model"] == "section"}
+    both = [name for name in quarters if name in sections]
+    if not both:
+        return []
+    counts = []
+    for title, other in (("section, same cells", {name: sections[name]["outcome"] for name in both}), ("section of the rule", of_rule)):
+        pairs = [(quarters[name]["outcome"], other[name], measured[name]) for name in both
+                 if defeated(quarters[name]["outcome"]) is not None and defeated(other[name]) is not None]
+        alike = sum(defeated(a) == defeated(b) for a, b, _ in pairs)
+        right = sum(defeated(a) == failed for a, _, failed in pairs), sum(defeated(b) == failed for _, b, failed in pairs)
+        alone = sum(defeated(a) == failed != defeated(b) for a, b, failed in pairs), sum(defeated(b) == failed != defeated(a) for a, b, failed in pairs)
+        counts.append([title, len(pairs), scores.percent(alike, len(pairs)), sum(a == b for a, b, _ in pairs), *right, f"{scores.mcnemar(*alone):.2g}"])
+    left = [number(quarters[name]["left"]) / number(sections[name]["left"]) for name in both
+            if number(quarters[name]["left"]) > 0 and number(sections[name]["left"]) > 0]
+    hole = [number(quarters[name]["hole [mm]"]) / number(sections[name]["hole [mm]"]) for name in both]
+    seconds = [(number(quarters[name]["seconds"]), number(sections[name]["seconds"])) for name in both]
+    lines = ["## Three dimensions beside sections", "", SPACE, "",
+             *table(["beside", "decided by both", "same verdict", "same word", "quarter right", "section right", "p"], counts),
+             f"Quarter over section in the same cells: left {ratio_text(left)}; hole {ratio_text(hole)}. Cost: "
+             f"{sum(a for a, _ in seconds) / 3600:.2g} and {sum(b for _, b in seconds) / 3600:.2g} core hours in all, "
+             f"{statistics.median(a / b for a, b in seconds):.0f} times as much per shot (median).", ""]
+    body = []
+    for name in both:
+        own, other = quarters[name], sections[name]
+        body.append([name, "P" if measured[name] else "NP", of_rule.get(name, "-"), other["outcome"], own["outcome"],
+                     *(f"{row['left'] or '-'} ({row['left on the axis'] or '-'})" for row in (other, own)),
+                     f"{other['hole [mm]'] or '-'}, {own['hole [mm]'] or '-'}",
+                     *(f"{row['particles']}, {row['steps']}, {number(row['seconds']):.0f}" for row in (other, own))])
+    return lines + table(["shot", "measured", "section of the rule", "section", "quarter", "left, section", "left, quarter", "holes",
+                          "section: particles, steps, s", "quarter: particles, steps, s"], body)
+
+
+def common_section(scored):
+    """What the misses of scored shots have in common: tables of two by two, shots above the median of a ratio or of one alloy beside the others."""
+    groups = [(f"{title} above {{:.3g}}", name) for name, title in SIZES.items()]
+    rows = []
+    for measured, right, wrong in ((True, "found", "unsafe"), (False, "held", "called failed")):
+        own = [shot for shot in scored if shot.failed == measured]
+        if not own:
+            continue
+        tests = []
+        for title, name in groups:
+            edge = statistics.median(getattr(shot, name) for shot in own)
+            tests.append((title.format(edge), lambda shot, name=name, edge=edge: getattr(shot, name) > edge))
+        for kind in ("alloy", "sphere"):
+            for alloy in sorted({getattr(shot, kind) for shot in own}):
+                if sum(getattr(shot, kind) == alloy for shot in own) >= 5:
+                    tests.append((f"{'wall' if kind == 'alloy' else 'sphere'} of {alloy}", lambda shot, kind=kind, alloy=alloy: getattr(shot, kind) == alloy))
+        for title, within in tests:
+            numbers = [sum(within(shot) == inside and (shot.defeated() == shot.failed) == good for shot in own)
+                       for inside in (True, False) for good in (True, False)]
+            p = scores.fisher(*numbers)
+            rows.append([f"{right} or {wrong}", title, f"{numbers[0]}, {numbers[1]}", f"{numbers[2]}, {numbers[3]}", f"{p:.2g}", f"{min(1.0, p * len(tests)):.2g}"])
+    return ["### What misses have in common", "",
+            "Right and wrong shots in the group and out of it; edges are medians of the shots with that result, alloys those of five shots or more, so",
+            "that no edge is chosen by an outcome. p: exact test of Fisher; corrected: times the number of groups (Bonferroni).", "",
+            *table(["right or wrong", "group", "in it", "out of it", "p", "corrected"], rows)]
+
+
+def control_section(rows):
+    """Tiles struck by grains and by dust. rows: of tile_control.csv"""
+    if not rows:
+        return []
+    body = [[row["shot"], row["load"], row["number"], row["cell size [mm]"], row["outcome"], row["speed [m/s]"], row["over spread"],
+             row["rim over thickness"]] for row in rows]
+    speeds = {}
+    for row in rows:
+        speeds.setdefault(row["shot"], {})[row["load"]] = number(row["speed [m/s]"])
+    parts = [f"{load}: {ratio_text([own[load] / own['grains'] for own in speeds.values() if load in own and own.get('grains', math.nan) > 0])}"
+             for load in ("dust as grains", "dust")]
+    return ["## Tiles struck by dust", "", CONTROL, "", *table(["shot", "load", "number", "cells, mm", "outcome", "speed, m/s", "over spread", "rim"], body),
+            f"Speed over that with grains: {'; '.join(parts)}.", ""]
