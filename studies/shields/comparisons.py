@@ -8,6 +8,7 @@ from studies.shields.scores import table
 
 DEFEATS = {"perforated", "detached spall"}
 SIZES = {"speed": "speed, km/s", "thickness": "bumper over sphere", "wall": "wall over sphere", "spacing": "spacing over sphere"}
+CLOSE = 11  # spacing over sphere, an edge that was read off the outcomes
 SPACE = """Twenty scored shots, chosen by the SHA-256 of their names among those whose quarter has at most 200,000 particles with 8 cells
 across the sphere and two through every sheet (`python3 -m studies.shields.three_dimensions`, the list was written before any was computed).
 Quarter: three dimensions between two mirror planes; section: the same cells; section of the rule: of outcomes.csv, twice as many cells
@@ -88,10 +89,15 @@ def common_section(scored):
                        for inside in (True, False) for good in (True, False)]
             p = scores.fisher(*numbers)
             rows.append([f"{right} or {wrong}", title, f"{numbers[0]}, {numbers[1]}", f"{numbers[2]}, {numbers[3]}", f"{p:.2g}", f"{min(1.0, p * len(tests)):.2g}"])
+    near = [shot for shot in scored if shot.spacing <= CLOSE]
+    called, other = sum(shot.defeated() for shot in near), sum(shot.defeated() for shot in scored) - sum(shot.defeated() for shot in near)
+    failed = sum(shot.failed for shot in near), sum(shot.failed for shot in scored) - sum(shot.failed for shot in near)
     return ["### What misses have in common", "",
             "Right and wrong shots in the group and out of it; edges are medians of the shots with that result, alloys those of five shots or more, so",
             "that no edge is chosen by an outcome. p: exact test of Fisher; corrected: times the number of groups (Bonferroni).", "",
-            *table(["right or wrong", "group", "in it", "out of it", "p", "corrected"], rows)]
+            *table(["right or wrong", "group", "in it", "out of it", "p", "corrected"], rows),
+            f"**The spacing decides**: of {len(near)} shots with at most {CLOSE} diameters between the sheets {called} are called failed ({failed[0]} failed), of",
+            f"{len(scored) - len(near)} with more {other} ({failed[1]} failed). This edge was read off the outcomes, in a gap of the spacings.", ""]
 
 
 def control_section(rows):

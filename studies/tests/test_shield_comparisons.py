@@ -119,7 +119,7 @@ class Curve(unittest.TestCase):
         self.assertIsNone(curve.reached([(5.0, 0.0), (6.0, 0.05)], 0.1))
 
     def test_shots_on_the_shield_of_ryan(self):
-        found = curve.shots_on(page.HERE / "ryan.toml")
+        found = curve.shots_on(page.HERE / "ryan" / "shield.toml")
         self.assertIn((6.0, 4.064, False, None), found)  # calibrating: no section of its own
         self.assertTrue(any(speed == 6.6 and failed and outcome == "bulge" for speed, _, failed, outcome in found))
         self.assertEqual(curve.length("2 cm"), 20.0)
