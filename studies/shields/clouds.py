@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What do debris clouds look like whose radiographs are published, and from which speed on do they melt?
 
-Usage: python3 -m studies.shields.clouds [piekutowski|melting] [--work FOLDER] [--whipple PROGRAM]
+Usage: python3 -m studies.shields.clouds [piekutowski|melting] [--draw FILE.png] [--work FOLDER] [--whipple PROGRAM]
 
 piekutowski  Spheres of 9.53 mm at 6.7 km/s on bumpers of 0.049, 0.084 and 0.163 of the diameter (cases/piekutowski_clouds): sections in cells of 0.4
              and 0.2 mm (t/D = 0.163: also 0.1 mm), on the grid and half a cell off it.
@@ -11,13 +11,17 @@ melting      The sphere and the bumper of Ryan's shield (3.175 and 0.787 mm) at 
 Sphere and bumper have phases (GRAY: 2024-T4 for 2017-T4, 6061-T6), and points that fail keep the size of the fragments that they become part of
 (docs/theory/cracks.md, eq. 8). Adds a row for each run to clouds.csv, after the time in which the speed covers seven diameters: front, rear and
 radial speed over that of the impact, length over width, intact and melted mass, quantiles of the sizes by mass over the diameter. Runs with a row
-are not computed again.
+are not computed again. --draw FILE.png draws radiographs of the clouds of the first study at the end of their runs, each in the finest cells.
 """
 import argparse
 import itertools
 import json
 import pathlib
 
+from matplotlib.figure import Figure
+
+from report import style
+from report.files import open_hdf5
 from report.particles import particles_of
 from studies import commands
 from studies.shields import page, run_shots, tile
@@ -93,12 +97,37 @@ def measured(whipple, plan, work):
     return row
 
 
+def draw(file, work):
+    """Draws the clouds of the series: areal density along a diameter, of the last snapshot, flight to the right."""
+    style.apply()
+    finest = {}
+    for plan in plans("piekutowski"):
+        if plan[4] == 0 and plan[3] <= finest.get(plan[1], plan)[3]:
+            finest[plan[1]] = plan
+    figure = Figure(figsize=(style.WIDTH, 0.42 * style.WIDTH), layout="constrained")
+    for axes, plan in zip(figure.subplots(1, len(finest)), finest.values()):
+        with open_hdf5(work / "_".join(f"{value:g}" for value in plan) / "report" / "analysis.h5") as data:
+            own = data["radiographs"][max(data["radiographs"])]
+            density = own["areal_density.sphere"][()] + own["areal_density.bumper"][()]
+            pixel, x, y = 1e3 * data["radiographs"].attrs["pixel"], 1e3 * own.attrs["lower_axial"], 1e3 * own.attrs["lower_up"]
+            extent = (x, x + pixel * density.shape[1], y, y + pixel * density.shape[0])
+        image = axes.imshow(0.1 * density, origin="lower", extent=extent, cmap="gray_r", norm="log", vmin=1e-3, vmax=1)
+        axes.set_title(f"t/D = {plan[1] / plan[0]:.3f}, cells {plan[3]:g} mm")
+        axes.set_xlabel("mm")
+    figure.colorbar(image, ax=figure.axes, label="areal density (g/cm$^2$)", shrink=0.6)
+    figure.savefig(file, dpi=130)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("study", nargs="?", choices=("piekutowski", "melting"))
+    parser.add_argument("--draw", type=pathlib.Path)
     parser.add_argument("--work", type=pathlib.Path, default=commands.ROOT / "run" / "shields" / "clouds")
     parser.add_argument("--whipple", default=commands.ROOT / "build" / "release" / "bin" / "whipple")
     arguments = parser.parse_args()
+    if arguments.draw:
+        draw(arguments.draw, arguments.work)
+        return
     keys = ("diameter [mm]", "bumper [mm]", "velocity [km/s]", "cell size [mm]", "shift")
     for study in [arguments.study] if arguments.study else ["piekutowski", "melting"]:
         for plan in plans(study):

@@ -106,6 +106,18 @@ class Parts(unittest.TestCase):
         self.assertIn("dust: 0.75 (0.75 to 0.75, 1 shots)", "\n".join(comparisons.control_section(rows)))
         self.assertEqual(comparisons.control_section([]), [])
 
+    def test_clouds_have_bands(self):
+        def row(cell, shift, front, diameter="9.53", **more):
+            names = ("rear", "radial", "length over width", "sphere intact", "debris melted", "sphere melted", "size at 50 %", "size at 84 %", "size at 97.5 %")
+            return {"diameter [mm]": diameter, "bumper [mm]": "0.8", "velocity [km/s]": "6.7", "cell size [mm]": cell, "shift": shift, "front": front} | dict.fromkeys(
+                names, "0.1") | more
+
+        rows = [row("0.4", "0", "0.95"), row("0.2", "0.5", "0.99"), row("0.2", "0", "0.97"), row("0.2", "0", "0.9", "3.175", **{"debris melted": "0.25"})]
+        text = "\n".join(comparisons.cloud_section(rows))
+        self.assertIn("| 0.084 | 0.2, 0.4 | 0.97 ± 0.02 |", text)
+        self.assertIn("| 6.7 | 0.25 | 0.1 | 0.1 |", text)
+        self.assertEqual(comparisons.cloud_section([]), [])
+
     def test_misses_are_failed_walls_that_hold(self):
         rows = [{"shot": name, "model": model, "outcome": outcome} for name, model, outcome in
                 (("a", "section", "bulge"), ("b", "section", "perforated"), ("c", "section", "whole"), ("d", "section", "bulge"), ("a", "tile", "bulge"))]
