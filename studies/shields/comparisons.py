@@ -90,8 +90,8 @@ def common_section(scored):
                 if sum(getattr(shot, kind) == alloy for shot in own) >= 5:
                     tests.append((f"{'wall' if kind == 'alloy' else 'sphere'} of {alloy}", lambda shot, kind=kind, alloy=alloy: getattr(shot, kind) == alloy))
         for title, within in tests:
-            numbers = [sum(within(shot) == inside and (shot.defeated() == shot.failed) == good for shot in own)
-                       for inside in (True, False) for good in (True, False)]
+            numbers = [sum(within(shot) == inside and (shot.defeated() == shot.failed) == alike for shot in own)
+                       for inside in (True, False) for alike in (True, False)]
             p = scores.fisher(*numbers)
             rows.append([f"{right} or {wrong}", title, f"{numbers[0]}, {numbers[1]}", f"{numbers[2]}, {numbers[3]}", f"{p:.2g}", f"{min(1.0, p * len(tests)):.2g}"])
     near = [shot for shot in scored if shot.spacing <= CLOSE]

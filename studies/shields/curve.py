@@ -7,7 +7,7 @@ Usage: python3 -m studies.shields.curve SHIELD.toml STUDY [--whipple PROGRAM] [-
 Reads limits.csv of a study that `whipple shield --limit` wrote and `whipple sweep` computed (it may be under way), and
 writes PREFIX.csv and PREFIX.png (default: STUDY/curve): interval of each speed, which contains those of both cell sizes and the three
 positions of the grid, and the equations from 1 to 12 km/s. Beside them the measured normal shots on this shield (shots.csv), and the melted
-share of the debris of its sphere and bumper, where clouds.csv has it; on the right the shots with the same sphere and bumper on walls of all
+fraction of the debris of its sphere and bumper, where clouds.csv has it; on the right the shots with the same sphere and bumper on walls of all
 thicknesses, with the outcomes of their sections, and the thinnest wall that holds by the equations.
 """
 import argparse
@@ -29,7 +29,7 @@ EQUATIONS = ("nno_1993", "nno_2001", "jsc_2011", "srl_2008")
 SPEEDS = [1 + 0.25 * k for k in range(45)]  # km/s
 WALLS = [0.2 * k for k in range(4, 41)]  # mm
 CLOSE = 0.02  # by which a measured shield may differ
-ONSET, MELTED = 0.1, 0.5  # melted share of the debris that is marked
+ONSET, MELTED = 0.1, 0.5  # melted fraction of the debris that is marked
 
 
 def at_speeds(text, speeds):
@@ -108,7 +108,7 @@ def shots_on(shield):
 
 
 def melted(shield):
-    """Melted share of the debris of the sphere and bumper of a shield by cell size: lists of (speed, share)."""
+    """Melted fraction of the debris of the sphere and bumper of a shield by cell size: lists of (speed, share)."""
     own = tomllib.loads(shield.read_text(encoding="utf-8"))
     diameter, thickness = length(own["projectile"]["diameter"]), length(own["shield"]["bumper"][0]["thickness"])
     found = {}
@@ -127,7 +127,7 @@ def reached(points, share):
 
 
 def write_table(file, found, by_equation, shares):
-    """Writes one row per speed and kind of limit, and those of the melted share of the debris."""
+    """Writes one row per speed and kind of limit, and those of the melted fraction of the debris."""
     with open(file, "w", newline="", encoding="utf-8") as table:
         writer = csv.writer(table, lineterminator="\n")
         writer.writerow(["velocity [km/s]", "limit", "lower diameter [mm]", "upper diameter [mm]", "verdict"])
@@ -138,7 +138,7 @@ def write_table(file, found, by_equation, shares):
                 writer.writerow([f"{speed:g}", name, f"{diameter:.4g}", f"{diameter:.4g}", ""])
         for cell, points in shares.items():
             for speed, share in points:
-                writer.writerow([f"{speed:g}", f"melted share of the debris, {cell:g} mm", "", "", f"{share:.4g}"])
+                writer.writerow([f"{speed:g}", f"melted fraction of the debris, {cell:g} mm", "", "", f"{share:.4g}"])
 
 
 def draw(file, found, by_equation, shares, shots, thinnest, shield):
@@ -199,7 +199,7 @@ def main():
         print(f"{speed:g} km/s: {verdict}" if lower is None else f"{speed:g} km/s: {lower:.3g} to {upper:.3g} mm")
     for cell, points in shares.items():
         told = ", ".join(f"{100 * share:.0f} % from {speed:.2f} km/s" for share in (ONSET, MELTED) if (speed := reached(points, share)))
-        print(f"melted share of the debris in cells of {cell:g} mm: {told}")
+        print(f"melted fraction of the debris in cells of {cell:g} mm: {told}")
 
 
 if __name__ == "__main__":
