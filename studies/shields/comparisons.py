@@ -97,12 +97,16 @@ def common_section(scored):
     near = [shot for shot in scored if shot.spacing <= CLOSE]
     called, other = sum(shot.defeated() for shot in near), sum(shot.defeated() for shot in scored) - sum(shot.defeated() for shot in near)
     failed = sum(shot.failed for shot in near), sum(shot.failed for shot in scored) - sum(shot.failed for shot in near)
+    sorted_by = [[title, *(f"{scores.separation([-getattr(shot, name) for shot in scored], [answer(shot) for shot in scored]):.2f}"
+                           for answer in (lambda shot: shot.defeated(), lambda shot: shot.failed))] for name, title in SIZES.items()]
     return ["### What misses have in common", "",
             "Right and wrong shots in the group and out of it; edges are medians of the shots with that result, alloys those of five shots or more, so",
             "that no edge is chosen by an outcome. p: exact test of Fisher; corrected: times the number of groups (Bonferroni).", "",
             *table(["right or wrong", "group", "in it", "out of it", "p", "corrected"], rows),
             f"**The spacing decides**: of {len(near)} shots with at most {CLOSE} diameters between the sheets {called} are called failed ({failed[0]} failed), of",
-            f"{len(scored) - len(near)} with more {other} ({failed[1]} failed). This edge was read off the outcomes, in a gap of the spacings.", ""]
+            f"{len(scored) - len(near)} with more {other} ({failed[1]} failed). This edge was read off the outcomes, in a gap of the spacings.", "",
+            "How well one number alone sorts the shots: probability that a shot that fails has less of it than one that holds (0.5: nothing).", "",
+            *table(["less", "fails in the run", "failed"], sorted_by)]
 
 
 def control_section(rows):

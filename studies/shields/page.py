@@ -31,7 +31,8 @@ REFERENCE = "nno_1993"  # whose critical diameter says how far a shot is from th
 DEFEATS = {"perforated", "detached spall"}
 REPEATS = {"other places of the grains": "tile_seed_2.csv", "cells 1.23 times as large": "tile_coarser.csv",
            "cells 0.8 times as large": "tile_finer.csv"}  # of the model of tiles
-NOTES = {"tile": """**The score of a model that was amended while it was scored** ([decision 25](../decisions/0025_grains_before_a_wall.md)), after 3 and
+NOTES = {"space": """Quarters with 8 cells across the sphere, two and a little more through the bumper, of twenty shots that no outcome chose (below): a
+comparison with sections, not a score of shots near the limit.""", "tile": """**The score of a model that was amended while it was scored** ([decision 25](../decisions/0025_grains_before_a_wall.md)), after 3 and
 after 18 outcomes; its own rule makes those void, they were kept. 26 verdicts are of tiles, that of CR-915/E-44 is of a section.
 All verdicts of tiles come from the speed of the rear half of the wall and a rule for its rim; a fit of that speed to the load, without
 a tile, gives 27 of the 29 verdicts. That the grains decide is not shown: the control, the same load as dust, was not done.

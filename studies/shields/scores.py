@@ -38,6 +38,13 @@ def fisher(a, b, c, d):
     return sum(ways(k) for k in range(max(0, column - second), min(first, column) + 1) if ways(k) <= own) / total
 
 
+def separation(values, answers):
+    """Probability that a value of a shot with the answer True is larger than that of one with False, ties half (area under the curve of
+    Hanley and McNeil, Radiology 143 (1982) 29): 0.5 says nothing, 0 or 1 all; nan without one of them."""
+    yes, no = ([value for value, answer in zip(values, answers) if answer == wanted] for wanted in (True, False))
+    return sum((a > b) + 0.5 * (a == b) for a in yes for b in no) / (len(yes) * len(no)) if yes and no else math.nan
+
+
 @dataclasses.dataclass
 class Confusion:
     """Numbers of shots by what was measured (P: failed, NP: held) and what was predicted."""

@@ -80,11 +80,16 @@ class Parts(unittest.TestCase):
         self.assertAlmostEqual(scores.fisher(1, 9, 11, 3), 0.0027594561852200836)
         self.assertEqual(scores.fisher(2, 2, 2, 2), 1.0)
 
+    def test_separation_is_a_probability(self):
+        self.assertEqual(scores.separation([1, 2, 3, 4], [False, False, True, True]), 1.0)
+        self.assertEqual(scores.separation([1, 2, 2, 4], [False, True, False, True]), 0.875)
+
     def test_common_is_counted_at_the_medians(self):
         shots = [shot(f"a{k}", True, "perforated" if k < 4 else "bulge", spacing=10.0 + k) for k in range(8)]
         text = "\n".join(comparisons.common_section(shots))
         self.assertIn("| found or unsafe | spacing over sphere above 13.5 | 0, 4 | 4, 0 | 0.029 |", text)
         self.assertNotIn("held or called failed", text)
+        self.assertIn("| spacing over sphere | 1.00 | nan |", text)
 
     def test_space_beside_sections(self):
         def row(name, model, outcome, **more):
