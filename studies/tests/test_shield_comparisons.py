@@ -101,7 +101,7 @@ class Parts(unittest.TestCase):
         text = "\n".join(comparisons.space_section(rows, {"A": "bulge", "B": "undecided"}, {"A": True, "B": False, "C": True}))
         self.assertIn("| section, same cells | 2 | 50.0 % (9.5 to 90.5) | 0 | 2 | 1 | 1 |", text)
         self.assertIn("| section of the rule | 1 | 0.0 % (0.0 to 79.3) | 0 | 1 | 0 | 1 |", text)
-        self.assertIn("left 2.00 (2.00 to 2.00, 1 shots); hole 1.50 (1.50 to 1.50, 1 shots)", text)
+        self.assertIn("left 2.00 (2.00 to 2.00, 1 shots), of walls that keep a tenth in both; hole 1.50 (1.50 to 1.50, 1 shots)", text)
         self.assertIn("15 times as much per shot", text)
         self.assertEqual(comparisons.space_section([], {}, {}), [])
 
