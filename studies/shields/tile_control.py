@@ -18,6 +18,7 @@ row are not computed again.
 """
 import argparse
 import pathlib
+import re
 
 import numpy as np
 
@@ -69,8 +70,13 @@ def in_disc(random, radius):
 
 
 def dust_case(text, corners, edge):
-    """The case of a tile with dust for its grains. @throws ValueError where it has no grains"""
+    """The case of a tile with dust for its grains, in a domain that has room for it; edge: of a particle, half a cell, mm. @throws ValueError where
+    it has no grains"""
     lines = text.splitlines(keepends=True)
+    for k, line in enumerate(lines):
+        if found := re.match(r'lower = \["(-[0-9.]+) mm", (.*)', line):
+            room = 2 * edge * np.ceil(-corners[:, 0].min() / (2 * edge) + 4)
+            lines[k] = f'lower = ["{min(float(found.group(1)), -room):.9g} mm", {found.group(2)}\n'
     own = [k for k, line in enumerate(lines) if line.startswith("shape = { union")]
     if len(own) != 1:
         raise ValueError("the case has no single union of grains")

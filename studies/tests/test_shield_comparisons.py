@@ -70,6 +70,9 @@ class Dust(unittest.TestCase):
         made = tomllib.loads(tile_control.dust_case(text, np.array([[-0.1, 0.0, 0.2]]), 0.05))
         self.assertEqual(made["body"][0]["shape"], {"union": [{"box": {"lower": ["-0.1 mm", "0 mm", "0.2 mm"], "upper": ["-0.05 mm", "0.05 mm", "0.25 mm"]}}]})
         self.assertEqual(made["body"][1], tomllib.loads(text)["body"][1])
+        self.assertEqual(made["domain"], tomllib.loads(text)["domain"])
+        deep = tomllib.loads(tile_control.dust_case(text, np.array([[-9.02, 0.0, 0.2]]), 0.05))["domain"]["lower"]
+        self.assertEqual(deep, ["-9.5 mm", "0 mm", "0 mm"])  # room of four cells
         with self.assertRaises(ValueError):
             tile_control.dust_case("title = 'no grains'\n", np.zeros((1, 3)), 0.05)
 
