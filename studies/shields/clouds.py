@@ -104,7 +104,7 @@ def draw(file, work):
     for plan in plans("piekutowski"):
         if plan[4] == 0 and plan[3] <= finest.get(plan[1], plan)[3]:
             finest[plan[1]] = plan
-    figure = Figure(figsize=(style.WIDTH, 0.42 * style.WIDTH), layout="constrained")
+    figure = Figure(figsize=(style.WIDTH, 0.28 * style.WIDTH), layout="constrained")
     for axes, plan in zip(figure.subplots(1, len(finest)), finest.values()):
         with open_hdf5(work / "_".join(f"{value:g}" for value in plan) / "report" / "analysis.h5") as data:
             own = data["radiographs"][max(data["radiographs"])]
@@ -114,7 +114,8 @@ def draw(file, work):
         image = axes.imshow(0.1 * density, origin="lower", extent=extent, cmap="gray_r", norm="log", vmin=1e-3, vmax=1)
         axes.set_title(f"t/D = {plan[1] / plan[0]:.3f}, cells {plan[3]:g} mm")
         axes.set_xlabel("mm")
-    figure.colorbar(image, ax=figure.axes, label="areal density (g/cm$^2$)", shrink=0.6)
+        axes.set_ylim(-35, 35)
+    figure.colorbar(image, ax=figure.axes, label="areal density (g/cm$^2$)")
     figure.savefig(file, dpi=130)
 
 

@@ -54,12 +54,15 @@ def space_section(rows, of_rule, measured):
         right = sum(defeated(a) == failed for a, _, failed in pairs), sum(defeated(b) == failed for _, b, failed in pairs)
         alone = sum(defeated(a) == failed != defeated(b) for a, b, failed in pairs), sum(defeated(b) == failed != defeated(a) for a, b, failed in pairs)
         counts.append([title, len(pairs), scores.percent(alike, len(pairs)), sum(a == b for a, b, _ in pairs), *right, f"{scores.mcnemar(*alone):.2g}"])
+    coarse = [(sections[name]["outcome"], of_rule[name]) for name in both if name in of_rule]
+    moved = sum(defeated(a) != defeated(b) for a, b in coarse)
     left = [number(quarters[name]["left"]) / number(sections[name]["left"]) for name in both
             if number(quarters[name]["left"]) > KEPT and number(sections[name]["left"]) > KEPT]
     hole = [number(quarters[name]["hole [mm]"]) / number(sections[name]["hole [mm]"]) for name in both]
     seconds = [(number(quarters[name]["seconds"]), number(sections[name]["seconds"])) for name in both]
     lines = ["## Three dimensions beside sections", "", SPACE, "",
              *table(["beside", "decided by both", "same verdict", "same word", "quarter right", "section right", "p"], counts),
+             f"Sections in these cells and in those of the rule: {moved} of {len(coarse)} verdicts differ.",
              f"Quarter over section in the same cells: left {ratio_text(left)}, of walls that keep a tenth in both; hole {ratio_text(hole)}. Cost: "
              f"{sum(a for a, _ in seconds) / 3600:.2g} and {sum(b for _, b in seconds) / 3600:.2g} core hours in all, "
              f"{statistics.median(a / b for a, b in seconds):.0f} times as much per shot (median).", ""]
