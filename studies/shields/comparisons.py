@@ -54,7 +54,7 @@ def space_section(rows, of_rule, measured):
         right = sum(defeated(a) == failed for a, _, failed in pairs), sum(defeated(b) == failed for _, b, failed in pairs)
         alone = sum(defeated(a) == failed != defeated(b) for a, b, failed in pairs), sum(defeated(b) == failed != defeated(a) for a, b, failed in pairs)
         counts.append([title, len(pairs), scores.percent(alike, len(pairs)), sum(a == b for a, b, _ in pairs), *right, f"{scores.mcnemar(*alone):.2g}"])
-    coarse = [(sections[name]["outcome"], of_rule[name]) for name in both if name in of_rule]
+    coarse = [(sections[name]["outcome"], of_rule[name]) for name in both if None not in (defeated(sections[name]["outcome"]), defeated(of_rule[name]))]
     moved = sum(defeated(a) != defeated(b) for a, b in coarse)
     left = [number(quarters[name]["left"]) / number(sections[name]["left"]) for name in both
             if number(quarters[name]["left"]) > KEPT and number(sections[name]["left"]) > KEPT]

@@ -106,7 +106,7 @@ class Parts(unittest.TestCase):
         self.assertIn("| section of the rule | 1 | 0.0 % (0.0 to 79.3) | 0 | 1 | 0 | 1 |", text)
         self.assertIn("left 2.00 (2.00 to 2.00, 1 shots), of walls that keep a tenth in both; hole 1.50 (1.50 to 1.50, 1 shots)", text)
         self.assertIn("15 times as much per shot", text)
-        self.assertIn("in those of the rule: 2 of 2 verdicts differ", text)
+        self.assertIn("in those of the rule: 1 of 1 verdicts differ", text)
         self.assertEqual(comparisons.space_section([], {}, {}), [])
 
     def test_dust_beside_grains(self):
