@@ -35,7 +35,7 @@ NOTES = {"space": """Quarters with 8 cells across the sphere, two and a little m
 comparison with sections, not a score of shots near the limit.""", "tile": """**The score of a model that was amended while it was scored** ([decision 25](../decisions/0025_grains_before_a_wall.md)), after 3 and
 after 18 outcomes; its own rule makes those void, they were kept. 26 verdicts are of tiles, that of CR-915/E-44 is of a section.
 All verdicts of tiles come from the speed of the rear half of the wall and a rule for its rim; a fit of that speed to the load, without
-a tile, gives 27 of the 29 verdicts. That the grains decide is not shown: the control, the same load as dust, was not done.
+a tile, gives 27 of the 29 verdicts. The control, the same load as dust, is below: the grains decide the speed, but not as measured.
 The speed follows the cells, and its error may be a factor of 2."""}  # what has to be known of the score of a model
 SCORED = """Shots were chosen within a third of the limit of NNO (1993), which is a handicap for that equation above all."""
 PICTURES = {"section": ["Pictures, in the order of the names (`python3 -m studies.shields.pictures`): half section of the wall at the outcome, mm, intact by",
