@@ -14,11 +14,13 @@ import csv
 import dataclasses
 import itertools
 import json
+import math
 import pathlib
 import sys
 
 from studies import commands
-from studies.shields import scores
+from studies.shields import comparisons, scores
+from studies.shields.scores import table
 
 HERE = pathlib.Path(__file__).resolve().parent
 EQUATIONS = {"nno_1993": "NNO (1993)", "nno_2001": "modified NNO (2001)", "jsc_2011": "thin bumpers (2011)"}
@@ -29,12 +31,16 @@ REFERENCE = "nno_1993"  # whose critical diameter says how far a shot is from th
 DEFEATS = {"perforated", "detached spall"}
 REPEATS = {"other places of the grains": "tile_seed_2.csv", "cells 1.23 times as large": "tile_coarser.csv",
            "cells 0.8 times as large": "tile_finer.csv"}  # of the model of tiles
-NOTES = {"tile": """**The score of a model that was amended while it was scored** ([decision 25](../decisions/0025_grains_before_a_wall.md)), after 3 and
+NOTES = {"space": """Quarters with 8 cells across the sphere, two and a little more through the bumper, of twenty shots that no outcome chose (below): a
+comparison with sections, not a score of shots near the limit.""", "tile": """**The score of a model that was amended while it was scored** ([decision 25](../decisions/0025_grains_before_a_wall.md)), after 3 and
 after 18 outcomes; its own rule makes those void, they were kept. 26 verdicts are of tiles, that of CR-915/E-44 is of a section.
 All verdicts of tiles come from the speed of the rear half of the wall and a rule for its rim; a fit of that speed to the load, without
-a tile, gives 27 of the 29 verdicts. That the grains decide is not shown: the control, the same load as dust, was not done.
+a tile, gives 27 of the 29 verdicts. The control, the same load as dust, is below: the grains decide the speed, but not as measured.
 The speed follows the cells, and its error may be a factor of 2."""}  # what has to be known of the score of a model
 SCORED = """Shots were chosen within a third of the limit of NNO (1993), which is a handicap for that equation above all."""
+PICTURES = {"section": ["Pictures, in the order of the names (`python3 -m studies.shields.pictures`): half section of the wall at the outcome, mm, intact by",
+                        "plastic strain from 0 to 0.5, failed (red), debris of other bodies (grey).", "",
+                        *(f"![Unsafe misses, sheet {k}](../images/shield_misses_{k}.png)" for k in (1, 2, 3)), ""]}
 REPEATED = """Chosen when the outcomes of all shots were known, by no rule written before; the two shots nearest to the line between held and
 failed (Morrison_1972/SR-246, AFML-TR-70-135/U) have no repetition with other cells, and that of AFML-TR-68-257/2372 with cells 0.8 times
 as large was started and stopped. All shots draw the places of their grains from the same seed: what another seed changes is an
@@ -65,6 +71,9 @@ class Shot:
     runnable: bool
     resolved: bool     # of the case that would be made
     run: Run | None = None
+    wall: float = math.nan     # its thickness over the diameter
+    spacing: float = math.nan  # over the diameter
+    sphere: str = ""           # its alloy
 
     def equation(self, name):
         return None if self.sizes[name] is None else self.sizes[name] > 1
@@ -93,7 +102,8 @@ def shot_of(entry):
                 speed=entry["sphere"]["velocity"] / 1e3, angle=entry["sphere"]["angle"],
                 thickness=entry["bumpers"][0]["thickness"] / diameter, alloy=entry["wall"]["alloy"],
                 sizes={name: diameter / limit if limit else None for name, limit in limits.items()},
-                runnable="refused" not in entry["case"], resolved=entry["case"].get("resolved", False))
+                runnable="refused" not in entry["case"], resolved=entry["case"].get("resolved", False),
+                wall=entry["wall"]["thickness"] / diameter, spacing=entry["bumpers"][0]["spacing"] / diameter, sphere=entry["sphere"]["alloy"])
 
 
 def read_shots(whipple, table):
@@ -113,11 +123,6 @@ def by_model(shots, rows):
                                              hours=float(row["core hours"]), revision=row["revision"], reason=row["reason"])
             for row in rows}
     return {model: [dataclasses.replace(shot, run=runs.get((model, shot.name))) for shot in shots] for model in models}
-
-
-def table(head, rows):
-    return ["| " + " | ".join(head) + " |", "|" + " --- |" * len(head),
-            *("| " + " | ".join(map(str, row)) + " |" for row in rows), ""]
 
 
 def equation_section(shots):
@@ -187,7 +192,9 @@ def run_section(model, shots, calibrating):
               *table(["shots", "equation", "both right", "run alone", "equation alone", "neither", "p"], paired_rows(scored))]
     unsafe = [s for s in scored if s.failed and not s.defeated()]
     lines += ["### Unsafe misses", ""]
-    lines += table(["shot", "model", "outcome", "reason"], [[s.name, s.run.model, s.run.outcome, s.run.reason] for s in unsafe]) if unsafe else ["None.", ""]
+    lines += table(["shot", "outcome", "reason", "core hours"], [[s.name, s.run.outcome, s.run.reason, f"{s.run.hours:.3g}"] for s in unsafe]) if unsafe else ["None.", ""]
+    lines += PICTURES.get(model, []) if unsafe else []
+    lines += comparisons.common_section(scored) if model == "section" else []
     undecided = [s for s in runs if s.defeated() is None]
     if undecided:
         lines += ["### Undecided", "", *table(["shot", "reason"], [[s.name, s.run.reason] for s in undecided])]
@@ -249,15 +256,19 @@ def section_repeats(rows):
             *(table(["shot", "repeated with", "outcome", "repeated"], changed) if changed else ["No outcome has another word.", ""])]
 
 
-def page(models, calibrating, repeats=None, of_sections=()):
-    """Text of the page, of shots by model; repeats: rows of outcomes of tiles, by what is different; of_sections: rows of repeats.csv."""
+def page(models, calibrating, repeats=None, of_sections=(), in_space=(), of_dust=(), of_clouds=()):
+    """Text of the page, of shots by model; repeats: rows of outcomes of tiles, by what is different; of_sections: rows of repeats.csv;
+    in_space: of three_dimensions.csv; of_dust: of tile_control.csv; of_clouds: of clouds.csv."""
     shots = next(iter(models.values()))
     named = [f"- {name}: {why}" for name, why in calibrating.items()]
     return "\n".join(["# Shields: predictions and shots", "",
                       "Written by `python3 -m studies.shields.page`. Shots and their sources: `studies/shields/shots.csv`; equations:",
                       "[theory](../theory/ballistic_limits.md); outcome of a run: [shields](../manual/shields.md).", "",
                       *equation_section(shots), *(line for model, members in models.items() for line in run_section(model, members, calibrating)),
-                      *model_section(models, calibrating), *repeat_section(models.get("tile", []), repeats or {}), *section_repeats(of_sections),
+                      *model_section(models, calibrating),
+                      *comparisons.space_section(in_space, {s.name: s.run.outcome for s in models.get("section", []) if s.run}, {s.name: s.failed for s in shots}),
+                      *comparisons.control_section(of_dust), *repeat_section(models.get("tile", []), repeats or {}), *section_repeats(of_sections),
+                      *comparisons.cloud_section(of_clouds),
                       "## Calibrating shots", "", "In no score of runs:", "", *named, ""])
 
 
@@ -271,7 +282,7 @@ def main():
     models = by_model(shots, read_csv(arguments.outcomes))
     calibrating = {row["shot"]: row["why"] for row in read_csv(HERE / "calibrating.csv")}
     text = page(models, calibrating, {title: read_csv(HERE / file) for title, file in REPEATS.items()},
-                read_csv(HERE / "repeats.csv"))
+                read_csv(HERE / "repeats.csv"), read_csv(HERE / "three_dimensions.csv"), read_csv(HERE / "tile_control.csv"), read_csv(HERE / "clouds.csv"))
     arguments.output.write_text(text, encoding="utf-8")
     print(text)
 

@@ -25,6 +25,26 @@ def mcnemar(first_alone, second_alone):
     return min(1.0, 2 * tail)
 
 
+def fisher(a, b, c, d):
+    """Two-sided exact probability of a table ((a, b), (c, d)) where rows and columns are independent: the sum over the tables with the same
+    margins that are no more probable (Fisher, J. R. Stat. Soc. 85 (1922) 87)."""
+    first, second, column = a + b, c + d, a + c
+    total = math.comb(first + second, column)
+
+    def ways(k):
+        return math.comb(first, k) * math.comb(second, column - k)
+
+    own = ways(a)
+    return sum(ways(k) for k in range(max(0, column - second), min(first, column) + 1) if ways(k) <= own) / total
+
+
+def separation(values, answers):
+    """Probability that a value of a shot with the answer True is larger than that of one with False, ties half (area under the curve of
+    Hanley and McNeil, Radiology 143 (1982) 29): 0.5 says nothing, 0 or 1 all; nan without one of them."""
+    yes, no = ([value for value, answer in zip(values, answers) if answer == wanted] for wanted in (True, False))
+    return sum((a > b) + 0.5 * (a == b) for a in yes for b in no) / (len(yes) * len(no)) if yes and no else math.nan
+
+
 @dataclasses.dataclass
 class Confusion:
     """Numbers of shots by what was measured (P: failed, NP: held) and what was predicted."""
@@ -77,3 +97,8 @@ def percent(right, count):
         return "-"
     low, high = wilson(right, count)
     return f"{100 * right / count:.1f} % ({100 * max(low, 0.0):.1f} to {100 * high:.1f})"
+
+
+def table(head, rows):
+    return ["| " + " | ".join(head) + " |", "|" + " --- |" * len(head),
+            *("| " + " | ".join(map(str, row)) + " |" for row in rows), ""]

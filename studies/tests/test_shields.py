@@ -65,7 +65,7 @@ class Page(unittest.TestCase):
         text = page.page({"space": shots}, {"c": "looked at"})
         self.assertIn("1 calibrating, 0 not resolved, 1 undecided; scored: 2", text)
         self.assertIn("| all | 0 | 1 | 0 | 1 | 50.0 %", text)
-        self.assertIn("| a | space | whole | because |", text)
+        self.assertIn("| a | whole | because | 0.5 |", text)
         self.assertNotIn("| c | perforated", text)
 
     def test_many_runs_are_grouped_and_compared(self):
@@ -90,7 +90,7 @@ class Page(unittest.TestCase):
         self.assertEqual({model: shots[0].defeated() for model, shots in models.items()}, {"section": False, "space": True})
         text = page.page(models, {})
         self.assertEqual(text.count("scored: 1"), 2)
-        self.assertIn("| a | section | whole | because |", text)
+        self.assertIn("| a | whole | because | 1 |", text)
         self.assertIn("| all | 1 | 0 | 0 | 0 | 100.0 %", text.split("## Runs: space")[1])
 
 
