@@ -255,7 +255,9 @@ TEST_F(EditorTest, AnswersTenThousandDamagedQuestions) {
                                            .body = damaged(bodies[random(bodies.size())])});
     EXPECT_TRUE(response.status == 200 || (response.status >= 400 && response.status < 500))
         << response.status;
-    if (!has_key) EXPECT_THAT(response.body, ::testing::Not(HasSubstr("disk")));
+    if (!has_key) {
+      EXPECT_THAT(response.body, ::testing::Not(HasSubstr("disk")));
+    }
   }
   EXPECT_EQ(read_text(file()), edited_text);
 }

@@ -253,7 +253,7 @@ TEST(TextRemoval, KeysOfOtherCasesAreSetAndRemovedAgain) {
       if (!key.text.empty() && !key.kind.ends_with('*')) known[key.kind] = key.text;
     }
   }
-  std::size_t count = 0;
+  std::size_t count = 0, turn = 0;
   for (const auto& [name, text] : cases) {
     SCOPED_TRACE(name);
     const json before = content_of(text);
@@ -263,7 +263,8 @@ TEST(TextRemoval, KeysOfOtherCasesAreSetAndRemovedAgain) {
         kind[star] = '0';
       SCOPED_TRACE(kind);
       const json::json_pointer at = pointer_of(kind);
-      if (before.contains(at)) continue;
+      constexpr std::size_t share = 8;  // of the keys, others in the next case
+      if (before.contains(at) || ++turn % share != 0) continue;
       std::string with_key;
       try {
         with_key = set_in_text(text, name, kind, value).text;
