@@ -37,11 +37,7 @@ export class Form {
     const focused = this.body.contains(document.activeElement) ? document.activeElement : null;
     const kept = focused && { mark: focused.dataset.focus, value: focused.value, typed: focused.value !== focused.dataset.shown && focused.tagName === 'INPUT' };
     const { scrollTop } = this.root;
-    const { properties } = this.schema, plain = {}, tables = {};
-    for (const [key, schema] of Object.entries(properties)) {
-      if (!HIDDEN.has(key)) (this.isTable(schema) ? tables : plain)[key] = schema;
-    }
-    this.body.replaceChildren(this.body.firstChild, ...this.rows('', { ...this.schema, properties: plain }, this.tree), ...this.rows('', { ...this.schema, properties: tables }, this.tree));
+    this.body.replaceChildren(this.body.firstChild, ...this.rows('', this.schema, this.tree));
     this.root.scrollTop = scrollTop;
     if (kept?.mark === undefined) return;
     const again = [...this.body.querySelectorAll('[data-focus]')].find((each) => each.dataset.focus === kept.mark);
@@ -49,12 +45,16 @@ export class Form {
     if (again && kept.typed) again.value = kept.value;
   }
 
-  isTable(schema) {
-    return ['table', 'tables'].includes(kindOf(this.schema, schema));
-  }
-
+  /** The keys of a table: what is required, what it is (the shape of a body), values, then what opens and closes. */
   rows(path, schema, node) {
-    return Object.entries(schema.properties ?? {}).flatMap(([key, each]) => this.row(below(path, key), key, each, node?.keys?.[key], (schema.required ?? []).includes(key)));
+    const required = new Set(schema.required ?? []);
+    const rank = ([key, each]) => {
+      const kind = kindOf(this.schema, each);
+      if (['table', 'tables', 'variants'].includes(kind)) return 3;
+      return required.has(key) ? 0 : kind === 'variant' ? 1 : 2;
+    };
+    const keys = Object.entries(schema.properties ?? {}).filter(([key]) => !HIDDEN.has(key)).sort((a, b) => rank(a) - rank(b));
+    return keys.flatMap(([key, each]) => this.row(below(path, key), key, each, node?.keys?.[key], required.has(key)));
   }
 
   row(path, key, given, node, required) {
