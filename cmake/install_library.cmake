@@ -1,7 +1,7 @@
 # The libraries for other programs: find_package(whipple), target whipple::whipple, headers <whipple/...>
 # (docs/manual/library.md). The programs and what only they need are not part of it.
 set(exported base input parallel hdf5 eos eos_curves eos_experiments eos_files particles grid material transfer device_material device fem
-    contact afemp io solids case solver run analysis view)
+    contact afemp quasi_static io solids case solver run analysis view)
 list(TRANSFORM exported PREPEND whipple_)
 foreach(library IN LISTS exported)
   string(REPLACE whipple_ "" name ${library})

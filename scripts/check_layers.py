@@ -43,13 +43,15 @@ MAY_USE = {
     "src/fem": ["src/core/base", "src/core/parallel", "src/particles", "src/material"],
     "src/contact": ["src/core/base", "src/core/parallel", "src/particles", "src/grid", "src/transfer", "src/fem"],
     "src/afemp": ["src/core/base", "src/core/parallel", "src/particles", "src/grid", "src/material", "src/transfer", "src/fem"],
+    # Implicit load steps without inertia: equilibrium on the grid.
+    "src/quasi_static": ["src/core/base", "src/core/parallel", "src/particles", "src/grid", "src/material", "src/transfer"],
     "src/io": ["src/core/base", "src/core/parallel", "src/core/hdf5", "src/particles", "src/material", "src/fem"],
     # Solids from files of other programs, and generated ones.
     "src/solids": ["src/core/base", "src/core/parallel"],
     "src/case": ["src/core/base", "src/core/input", "src/core/parallel", "src/solids", "eos", "eos/files", "src/particles", "src/grid", "src/material",
                   "src/transfer", "src/fem", "src/contact", "src/io"],
     "src/solver": ["src/core/base", "src/core/parallel", "eos", "src/particles", "src/grid", "src/material", "src/transfer",
-                   "src/device", "src/device/material", "src/fem", "src/contact", "src/afemp", "src/io", "src/case"],
+                   "src/device", "src/device/material", "src/fem", "src/contact", "src/afemp", "src/quasi_static", "src/io", "src/case"],
     # Reads what runs wrote, with the keys of a case; knows no solver.
     "src/analysis": ["src/core/base", "src/core/parallel", "src/core/hdf5", "src/grid", "src/material", "src/case"],
     # The loop around the solver: what a run writes, and what may be asked of it.

@@ -52,6 +52,7 @@ struct Arguments {
   std::string case_file;
   std::string output;
   std::string restart;
+  std::string start_from;
   std::vector<std::string> set;
   std::string wall_time;
   std::string replay;
@@ -66,6 +67,7 @@ run::RunOptions run_options(const Arguments& arguments) {
   run::RunOptions options{
       .case_file = arguments.case_file,
       .output_directory = arguments.output,
+      .start_from = arguments.start_from,
       .restart = !arguments.restart.empty(),
       .force = arguments.force,
       .threads = arguments.threads,
@@ -78,6 +80,8 @@ run::RunOptions run_options(const Arguments& arguments) {
   if (options.restart) {
     if (!arguments.replay.empty())
       throw InputError("--replay repeats a run from its start: it cannot join --restart");
+    if (!arguments.start_from.empty())
+      throw InputError("--start-from begins another run with its state: it cannot join --restart");
     if (!arguments.output.empty())
       throw InputError("--restart DIR resumes in DIR: -o cannot name another one");
     if (!arguments.case_file.empty()) {
@@ -114,6 +118,7 @@ int run_on_ranks(const Arguments& arguments) {
   };
   pass("--output", arguments.output);
   pass("--restart", arguments.restart);
+  pass("--start-from", arguments.start_from);
   pass("--wall-time", arguments.wall_time);
   pass("--replay", arguments.replay);
   for (const std::string& entry : arguments.set) pass("--set", entry);
@@ -265,6 +270,12 @@ void add_run_command(CLI::App& app) {
   command->add_option("-o,--output", arguments->output,
                       "Run directory (default: run/NAME); must be new or empty");
   command->add_option("--restart", arguments->restart, "Go on from the latest checkpoint of a run directory")
+      ->type_name("DIR");
+  command
+      ->add_option("--start-from", arguments->start_from,
+                   "Begin at time 0 with the latest checkpoint of another run with the same grid and bodies, "
+                   "such as a state of rest under gravity (time.scheme = \"quasi_static\"); velocities of "
+                   "the case are added")
       ->type_name("DIR");
   command->add_flag(
       "--force", arguments->force,

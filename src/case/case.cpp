@@ -29,6 +29,8 @@ std::span<const Section<Case>> Case::sections() {
   static const std::vector<Section<Case>> all = {
       section<&Case::domain>("domain"),
       section<&Case::time>("time"),
+      section<&Case::quasi_static>("quasi_static", ", of time.scheme = \"quasi_static\"",
+                                   [](const Case& setup) { return !has_inertia(setup.time.scheme); }),
       section<&Case::transfer>("transfer"),
       section<&Case::splitting>("splitting"),
       section<&Case::viscosity>("artificial_viscosity"),
@@ -236,6 +238,7 @@ std::vector<InputFault> settle(Case& setup) {
   if (setup.domain.is_planar()) check_planar(setup, faults);
   check_speeds(setup, faults);
   check_explosives(setup, faults);
+  check_load_steps(setup, faults);
   // Bodies can only be placed if all values are valid.
   if (list.size() > of_files || !can_be_placed(setup)) return list;
   setup.contact_fields = find_contact_fields(setup);
@@ -246,6 +249,7 @@ std::vector<InputFault> settle(Case& setup) {
   check_bodies_of_force_gauges(setup, faults);
   check_places_of_loads(setup, faults);
   check_lithostatic(setup, faults);
+  check_load_step_fields(setup, faults);
   return list;
 }
 

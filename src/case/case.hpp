@@ -22,6 +22,7 @@
 #include "src/case/heat.hpp"
 #include "src/case/load.hpp"
 #include "src/case/output_control.hpp"
+#include "src/case/quasi_static.hpp"
 #include "src/case/splitting.hpp"
 #include "src/case/stop.hpp"
 #include "src/case/time_control.hpp"
@@ -36,6 +37,7 @@ struct Case {
   std::string title;
   Domain domain;
   TimeControl time;
+  QuasiStatic quasi_static;
   TransferControl transfer;
   Splitting splitting;
   ArtificialViscosity viscosity;  ///< default for the bodies

@@ -88,6 +88,17 @@ void check_bodies_of_force_gauges(const Case& setup, const Faults& faults) {
     const ForceGauge& gauge = setup.force_gauges[i];
     if (gauge.body.empty()) continue;
     const std::size_t own = gauge.body_number(setup);
+    if (!has_inertia(setup.time.scheme)) {  // the force that holds the nodes of a driven body
+      if (!setup.bodies[own].driven) {
+        faults.in("force_gauge")
+            .in(i)
+            .add("body",
+                 fmt::format("body \"{}\" is not driven: load steps without inertia know the forces on "
+                             "driven bodies and on faces",
+                             gauge.body));
+      }
+      continue;
+    }
     for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
       if (b == own || setup.contact_fields.of_body[b] != setup.contact_fields.of_body[own]) continue;
       faults.in("force_gauge")

@@ -28,7 +28,7 @@ ParameterTable<TimeControl> TimeControl::parameters() {
           .optional(),
       choice("scheme", &TimeControl::scheme,
              "exact energy (default) | for comparison with other codes: modified update stress last | update "
-             "stress last | update stress first")
+             "stress last | update stress first | implicit load steps without inertia (`[quasi_static]`)")
           .optional(),
       choice("stress_rotation", &TimeControl::stress_rotation,
              "rotation of the stress in a step: midpoint rule | exact rotation")

@@ -11,17 +11,21 @@ namespace whipple::cases {
 
 /// Selects the time integration (docs/theory/mpm.md, section 5).
 enum class Scheme : std::uint8_t {
-  symplectic,  ///< exact energy balance
-  musl,        ///< modified update stress last
-  usl,         ///< update stress last
-  usf,         ///< update stress first
+  symplectic,    ///< exact energy balance
+  musl,          ///< modified update stress last
+  usl,           ///< update stress last
+  usf,           ///< update stress first
+  quasi_static,  ///< implicit load steps without inertia
 };
-constexpr std::array<Word<Scheme>, 4> words(Scheme) {
+constexpr std::array<Word<Scheme>, 5> words(Scheme) {
   return {{{Scheme::symplectic, "symplectic"},
            {Scheme::musl, "musl"},
            {Scheme::usl, "usl"},
-           {Scheme::usf, "usf"}}};
+           {Scheme::usf, "usf"},
+           {Scheme::quasi_static, "quasi_static"}}};
 }
+/// Returns whether a scheme integrates the motion over time; otherwise its states are at rest.
+constexpr bool has_inertia(Scheme scheme) { return scheme != Scheme::quasi_static; }
 /// Returns the number of transfers from particles to nodes per step.
 constexpr int transfers_per_step(Scheme scheme) {
   return scheme == Scheme::musl || scheme == Scheme::usf ? 2 : 1;

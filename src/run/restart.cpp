@@ -179,6 +179,39 @@ void remember_input(const cases::Case& setup, io::CheckpointValues& values) {
   for (const auto& [name, digest] : digests(setup)) values.texts[name] = digest;
 }
 
+void require_same_bodies(const cases::Case& setup, const io::CheckpointValues& values) {
+  const auto of_material = [](const std::string& key) {
+    const std::string_view table = std::string_view(key).substr(0, key.find_first_of(".["));
+    const bool may_differ =
+        key.ends_with("velocity") || key.ends_with(".driven") || key.find(".path.") != std::string::npos;
+    return (table == "domain" || table == "body") && !may_differ;
+  };
+  const std::map<std::string, std::string> now = keys_of(text_of(setup)),
+                                           then = keys_of(values.text("input"));
+  std::vector<std::string> differences;
+  const auto compare = [&](const auto& one, const auto& other, bool of_case) {
+    for (const auto& [key, value] : one) {
+      if (!of_material(key)) continue;
+      const auto found = other.find(key);
+      if (found == other.end()) {
+        differences.push_back(fmt::format("{} = {} {}", key, value, of_case ? "here only" : "there only"));
+      } else if (of_case && found->second != value) {
+        differences.push_back(fmt::format("{} = {}, there {}", key, value, found->second));
+      }
+    }
+  };
+  compare(now, then, true);
+  compare(then, now, false);
+  for (const auto& [name, digest] : digests(setup)) {
+    const auto former = values.texts.find(name);
+    if (former == values.texts.end() || former->second != digest)
+      differences.push_back(fmt::format("the {} is another", name));
+  }
+  if (differences.empty()) return;
+  throw InputError(fmt::format("{}: --start-from: its grid and bodies are not those of the case:\n  {}",
+                               values.source, fmt::join(differences, "\n  ")));
+}
+
 std::string require_same_input(const cases::Case& setup, const io::CheckpointValues& values) {
   const std::map<std::string, std::string> now = keys_of(text_of(setup)),
                                            then = keys_of(values.text("input"));
@@ -275,6 +308,19 @@ solver::Simulation resume(const cases::Case& setup, io::Checkpoint& checkpoint, 
     throw InputError(fmt::format("{}: {}; changed since then: {}", checkpoint.path.string(), error.what(),
                                  changed.empty() ? "nothing" : changed));
   }
+}
+
+solver::Simulation start_from(const cases::Case& setup, io::Checkpoint& checkpoint, MPI_Comm communicator) {
+  require_same_bodies(setup, checkpoint.values);
+  require_admissible(setup, checkpoint, communicator);
+  Particles& particles = checkpoint.particles;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const cases::Body& body = setup.bodies[particles.body[p]];
+    const cases::Shape::Bounds bounds = body.shape->bounds();
+    particles.velocity[p] += body.velocity_at(particles.position[p], 0.5 * (bounds.lower + bounds.upper));
+  }
+  return {setup,        std::move(particles),         solver::RunState{},
+          communicator, std::move(checkpoint.meshes), std::move(checkpoint.bars)};
 }
 
 }  // namespace whipple::run

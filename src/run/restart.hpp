@@ -25,6 +25,11 @@ void remember_input(const cases::Case& setup, io::CheckpointValues& values);
 /// @throws InputError naming the differences and the remedy
 std::string require_same_input(const cases::Case& setup, const io::CheckpointValues& values);
 
+/// Compares the bodies and the grid of a case with those of the run that wrote a checkpoint, whose state becomes the
+/// start of another run. Velocities, paths and gauges may differ.
+/// @throws InputError naming the differences
+void require_same_bodies(const cases::Case& setup, const io::CheckpointValues& values);
+
 /// Checks that all numbers of this rank are admissible: finite, masses positive, fractions at most one, indices of
 /// bodies and nodes in range. Collective.
 /// @throws InputError naming file, field, row, value and admissible range
@@ -34,5 +39,10 @@ void require_admissible(const cases::Case& setup, const io::Checkpoint& checkpoi
 /// meshes and trusses out of the checkpoint. Collective.
 /// @throws InputError naming these keys if the case needs data that the checkpoint does not contain
 solver::Simulation resume(const cases::Case& setup, io::Checkpoint& checkpoint, MPI_Comm communicator);
+
+/// Builds a simulation that begins at time 0 with the material of a checkpoint, and with the velocities that the case
+/// gives to its bodies in addition. Moves particles, meshes and trusses out of the checkpoint. Collective.
+/// @throws InputError if the bodies are not those of the case
+solver::Simulation start_from(const cases::Case& setup, io::Checkpoint& checkpoint, MPI_Comm communicator);
 
 }  // namespace whipple::run

@@ -152,12 +152,19 @@ int begin(const RunOptions& options, MPI_Comm communicator) {
   require_known_columns(setup, options.overrides);
   require_memory(setup, communicator);
   prepare_materials(setup, ranks);
+  std::optional<io::Checkpoint> start;
+  if (!options.start_from.empty()) {
+    start.emplace(io::read_latest_checkpoint(options.start_from / "checkpoint", communicator));
+    require_same_bodies(setup, start->values);
+  }
   const io::RunDirectory directory =
       new_directory(setup, output_directory(options, options.case_file), options, ranks);
   if (ranks.is_root()) log::set_file(directory.log_file());
   log::info("{}: {}", setup.title.empty() ? directory.name() : setup.title, directory.path().string());
   for (const std::string& remark : cases::remarks(setup)) log::warning("{}", remark);
-  solver::Simulation simulation(setup, communicator);
+  solver::Simulation simulation =
+      start ? start_from(setup, *start, communicator) : solver::Simulation(setup, communicator);
+  if (start) log::info("begins with the state of {}", start->path.string());
   require_disk(simulation, directory, 3, ranks);
   Runner runner(simulation, observers_of(simulation, directory, options, ranks), options.wall_time);
   runner.begin();

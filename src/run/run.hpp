@@ -16,6 +16,7 @@ namespace whipple::run {
 struct RunOptions {
   std::filesystem::path case_file;         ///< empty on restart: run.toml of the directory
   std::filesystem::path output_directory;  ///< empty: ./run/ with the name of the folder or file of the case
+  std::filesystem::path start_from = {};   ///< run directory whose latest state is the start; empty: the case's
   bool restart = false;                    ///< continue from the latest checkpoint in output_directory
   bool force = false;                      ///< remove the outputs of an earlier run in output_directory; on
                                            ///< restart: continue although rows of its tables are missing

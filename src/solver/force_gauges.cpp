@@ -10,6 +10,8 @@
 namespace whipple::solver {
 namespace {
 
+constexpr unsigned no_field = grid::maximum_fields + 1;
+
 /// Holds the faces that act on one component of the impulse at a node, with equal parts: none, one, or two equally near.
 struct Acting {
   std::array<int, 2> face = {-1, -1};
@@ -65,6 +67,7 @@ ForceGauges::ForceGauges(const cases::Case& setup)
     if (gauge.face == cases::Face::none) {
       own.body = gauge.body_number(setup);
       own.field = setup.contact_fields.several() ? setup.contact_fields.of_body[own.body] : 0U;
+      if (!cases::has_inertia(setup.time.scheme)) own.field = no_field;  // known of driven bodies alone
       continue;
     }
     own.face = static_cast<int>(gauge.face);
@@ -121,6 +124,10 @@ void ForceGauges::book_node(const grid::BlockGrid& grid, std::uint32_t node, con
     }
     add(g, position, part);
   }
+}
+
+void ForceGauges::book_held(std::size_t body, const Vector3& position, const Vector3& impulse) {
+  book_point(body, static_cast<std::size_t>(cases::Face::none), position, impulse);
 }
 
 void ForceGauges::book_point(std::size_t body, std::size_t face, const Vector3& position,

@@ -39,6 +39,9 @@ class ForceGauges {
   /// Books the impulse (N s) of a face of the domain on a point of a body, which is at the face.
   void book_point(std::size_t body, std::size_t face, const Vector3& position, const Vector3& impulse);
 
+  /// Books the impulse (N s) of other material on a driven body whose nodes a load step holds.
+  void book_held(std::size_t body, const Vector3& position, const Vector3& impulse);
+
   /// Returns the impulses of the current step on this rank, one of each gauge.
   [[nodiscard]] std::span<GaugedImpulse> booked() { return booked_; }
 

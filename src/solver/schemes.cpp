@@ -264,6 +264,12 @@ void step_musl(Stages& s, double until) {
   end_step(s);
 }
 
+/// Performs a load step without inertia (docs/theory/quasi_static.md).
+void step_quasi_static(Stages& s, double until) {
+  s.load_step.perform(until);
+  end_step(s);
+}
+
 }  // namespace
 
 void bin_particles(Stages& s) {
@@ -289,6 +295,8 @@ void advance(Stages& s, double until) {
       return step_usl(s, until);
     case cases::Scheme::usf:
       return step_usf(s, until);
+    case cases::Scheme::quasi_static:
+      return step_quasi_static(s, until);
   }
 }
 

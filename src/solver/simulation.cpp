@@ -43,17 +43,14 @@ Simulation::Simulation(const cases::Case& of_case, MPI_Comm communicator) {
   state_->bodies = std::move(seeding.bodies);
   for (Carrier* carrier : stages_->carriers) carrier->keep_share();
   stages_->particles.complete_seeded(domains::are_needed(*state_, stages_->contact.may_meet_images()));
+  stages_->load_step.begin_run();
   use(default_device());
   stages_->balance.sum();
+  begin_accounts();
   Ledger& ledger = state_->run.ledger;
-  ledger.initial = state_->totals;
   // Planes have stopped the nodes on them: the initial momentum includes the momentum that these lost.
   ledger.initial.momentum -= seeding.wall_impulse;
   ledger.wall_impulse += seeding.wall_impulse;
-  // The chemical energy of explosives counts as exchanged from the first step.
-  std::array<double, 1> chemical_energy = {Explosives(*state_).chemical_energy()};
-  parallel::sum(communicator, chemical_energy);
-  ledger.largest_heating = chemical_energy[0];
   stages_->applied_loads.weigh();
   stages_->plausibility.begin();
 }
@@ -64,11 +61,15 @@ Simulation::Simulation(const cases::Case& of_case, Particles particles, const Ru
                                        std::move(meshes), std::move(bars))),
       state_(&stages_->state) {
   state_->particles = std::move(particles);
+  const bool begins = state.step == 0 && !(state.ledger.initial.mass > 0.0);
+  if (begins) stages_->particles.add_fields_of_motion();
   for (Carrier* carrier : stages_->carriers) carrier->gather();
   stages_->particles.complete_read(domains::are_needed(*state_, stages_->contact.may_meet_images()));
+  stages_->load_step.begin_run();
   use(default_device());
   stages_->balance.sum();
   if (state.step == 0) {
+    if (begins) begin_accounts();
     stages_->applied_loads.weigh();
     stages_->plausibility.begin();
   }
@@ -77,6 +78,16 @@ Simulation::Simulation(const cases::Case& of_case, Particles particles, const Ru
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
+
+/// Begins the accounts of a run with the present material.
+void Simulation::begin_accounts() {
+  Ledger& ledger = state_->run.ledger;
+  ledger.initial = state_->totals;
+  // The chemical energy of explosives counts as exchanged from the first step.
+  std::array<double, 1> chemical_energy = {Explosives(*state_).chemical_energy()};
+  parallel::sum(state_->communicator, chemical_energy);
+  ledger.largest_heating = chemical_energy[0];
+}
 
 void Simulation::use(Device device) {
   if (!is_device(device)) return;

@@ -27,7 +27,7 @@ class Simulation {
   /// Creates the bodies of the case, on default_device().
   /// @throws InputError naming what the case asks for that a device does not compute, StateError without a device
   explicit Simulation(const cases::Case& setup, MPI_Comm communicator);
-  /// Resumes from a checkpoint.
+  /// Resumes from a checkpoint, or begins with its material if no step has been made.
   /// @param particles this rank's part, in any distribution
   /// @param meshes bodies of elements: on each rank any part of the nodes and elements, with corners as numbers of the
   /// nodes of all ranks
@@ -55,6 +55,8 @@ class Simulation {
   [[nodiscard]] const Totals& totals() const { return state_->totals; }
   /// Returns the bound that determined the last time step.
   [[nodiscard]] TimeStepBound time_step_bound() const { return state_->time_step_bound; }
+  /// Returns what the load steps of a run without inertia needed.
+  [[nodiscard]] const State::Equilibrium& equilibrium() const { return state_->equilibrium; }
   [[nodiscard]] const grid::BlockGrid& grid() const { return state_->grid; }
   [[nodiscard]] Profile& profile() { return state_->profile; }
   /// Returns the bodies as created; `first` and `count` are the present ones of this rank.
@@ -99,6 +101,7 @@ class Simulation {
   [[nodiscard]] device::Problem device_problem() const;
 
  private:
+  void begin_accounts();
   /// Keeps the particles on a device from now on.
   void use(Device device);
   /// Fetches the particles from a device.

@@ -21,6 +21,7 @@ Stages::Stages(const cases::Case& setup, MPI_Comm communicator, const RunState& 
       partition(state, carriers, particles, activity),
       elements(state, carriers, particles, hexahedra, partition),
       fill(state),
+      load_step(state, loads, applied_loads, partition),
       balance(state, carriers),
       plausibility(state, carriers) {
   carriers.push_back(&particles);

@@ -14,6 +14,7 @@
 #include "src/solver/stages/contact.hpp"
 #include "src/solver/stages/elements.hpp"
 #include "src/solver/stages/fill.hpp"
+#include "src/solver/stages/load_step.hpp"
 #include "src/solver/stages/material.hpp"
 #include "src/solver/stages/partition.hpp"
 #include "src/solver/stages/plausibility.hpp"
@@ -45,6 +46,7 @@ struct Stages {
   Partition partition;
   ElementStage elements;
   FillWatch fill;
+  LoadStep load_step;
   Balance balance;
   Plausibility plausibility;
   std::unique_ptr<DeviceStage> device;  ///< null: the stages step the particles

@@ -35,9 +35,11 @@ enum class TimeStepBound : std::uint8_t {
   first_step,
   growth,
   first_touch,
-  output_time
+  output_time,
+  load_step,
+  cut_back
 };
-constexpr std::array<Word<TimeStepBound>, 10> words(TimeStepBound) {
+constexpr std::array<Word<TimeStepBound>, 12> words(TimeStepBound) {
   using enum TimeStepBound;
   return {{{none, "none yet"},
            {sound_speed, "sound speed and velocity in a cell"},
@@ -48,7 +50,9 @@ constexpr std::array<Word<TimeStepBound>, 10> words(TimeStepBound) {
            {first_step, "first step"},
            {growth, "growth since the last step"},
            {first_touch, "first touch of bodies"},
-           {output_time, "time of output or end"}}};
+           {output_time, "time of output or end"},
+           {load_step, "load step"},
+           {cut_back, "load step cut back"}}};
 }
 
 /// Holds the data of the last step from which the force on a driven body is computed (equation 3.5a).
@@ -114,6 +118,11 @@ struct State {
     double compression = 0.0;          ///< of particles under pressure, 1/s
     double element_compression = 0.0;  ///< of elements under pressure, 1/s
   } rates;
+  /// Holds what load steps without inertia needed.
+  struct Equilibrium {
+    double iterations = 0.0;  ///< of Newton's method since the start of this program
+    double residual = 0.0;    ///< of the last step, relative
+  } equilibrium;
   Profile profile;
   DeviceStage* device = nullptr;  ///< that steps the particles; null: the stages do
 

@@ -134,6 +134,13 @@ const auto of_cold_work = std::to_array<Column>({
      [](const Source& s) { return s.figures.stored_cold_work; }},
 });
 
+const auto of_load_steps = std::to_array<Column>({
+    {"newton_iterations", "1", "iterations of Newton's method in load steps without inertia, since the start of the program",
+     [](const Source& s) { return s.equilibrium.iterations; }},
+    {"imbalance", "1", "imbalance of the nodes after the load step, over the forces on them",
+     [](const Source& s) { return s.equilibrium.residual; }},
+});
+
 const auto of_explosives = std::to_array<Column>({
     {"chemical_energy", "J", "part of the internal energy that unburnt explosive will set free",
      [](const Source& s) { return s.figures.chemical_energy; }},
@@ -189,7 +196,7 @@ constexpr std::string_view limits_are =
 /// Holds the components of a run that determine the columns of its file.
 struct Parts {
   bool elements = false, cold_work = false, explosives = false, retired = false, bars = false,
-       damping = false;
+       damping = false, load_steps = false;
   std::vector<std::string> bodies;
 };
 
@@ -227,6 +234,7 @@ std::vector<HistoryColumn> columns_of(const Parts& parts) {
     add(of_elements);
     add_accounts(solver::Shown::of_elements);
   }
+  if (parts.load_steps) add(of_load_steps);
   if (parts.cold_work) add(of_cold_work);
   if (parts.explosives) add(of_explosives);
   if (parts.retired) add(of_retired);
@@ -248,6 +256,7 @@ HistorySource::HistorySource(const solver::Simulation& simulation)
       ledger(state.ledger),
       totals(simulation.totals()),
       time_step_bound(simulation.time_step_bound()),
+      equilibrium(simulation.equilibrium()),
       by_body(simulation.setup().bodies.size()),
       particles(static_cast<double>(simulation.particle_count())),
       elements(static_cast<double>(simulation.element_count())) {
@@ -273,6 +282,7 @@ std::vector<HistoryColumn> history_columns(const cases::Case& setup) {
               .retired = setup.burn.retire_below > 0.0,
               .bars = setup.has_bars(),
               .damping = setup.damping.coefficient > 0.0,
+              .load_steps = !cases::has_inertia(setup.time.scheme),
               .bodies = {}};
   for (const cases::Body& body : setup.bodies) parts.bodies.push_back(body.name);
   return columns_of(parts);
@@ -280,7 +290,7 @@ std::vector<HistoryColumn> history_columns(const cases::Case& setup) {
 
 std::string history_columns_as_markdown() {
   std::string text;
-  for (const HistoryColumn& column : columns_of({true, true, true, true, true, true, {"BODY"}})) {
+  for (const HistoryColumn& column : columns_of({true, true, true, true, true, true, true, {"BODY"}})) {
     text += fmt::format("| `{}` | {} | {} |\n", column.name, column.unit, column.meaning);
   }
   return text;

@@ -20,6 +20,7 @@ struct HistorySource {
   const solver::Ledger& ledger;
   const solver::Totals& totals;
   solver::TimeStepBound time_step_bound;
+  solver::State::Equilibrium equilibrium;
   std::vector<solver::PhaseMasses> by_body;
   solver::PhaseMasses all_bodies;
   solver::Figures figures;

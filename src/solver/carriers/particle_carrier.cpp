@@ -26,6 +26,13 @@ void ParticleCarrier::complete_seeded(bool extent) {
   if (!extent) std::vector<SymmetricTensor>().swap(particles.extent);
 }
 
+void ParticleCarrier::add_fields_of_motion() {
+  Particles& particles = state_.particles;
+  if (state_.affine_inertia() > 0.0 && particles.affine_velocity.empty())
+    particles.affine_velocity.resize(particles.size(), Matrix3::Zero());
+  if (state_.keeps_losses() && particles.unresolved_energy.empty()) use_stores(particles);
+}
+
 void ParticleCarrier::complete_read(bool extent) {
   require_fields(extent);
   sort_by_body(state_.particles);  // checkpoints hold the particles rank by rank

@@ -21,6 +21,10 @@ class ParticleCarrier : public Carrier {
   /// @throws InputError if a field that the case requires is missing
   void complete_read(bool extent);
 
+  /// Adds to the particles of another run the fields of motion that its scheme had not: at rest, without stores. Call
+  /// before `complete_read`.
+  void add_fields_of_motion();
+
   /// Returns the maximum sum of sound speed and velocity component on this rank, m/s.
   double fastest();
   /// Sorts by body (so that a body is a contiguous range), then by block, then by stencil.

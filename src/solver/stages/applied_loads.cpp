@@ -72,9 +72,20 @@ void AppliedLoads::weigh() {
 
 void AppliedLoads::begin() {
   const double time = state_.run.time, dt = state_.run.time_step;
+  set([=](const cases::TimeTable& table) { return table.mean(time, dt); }, dt);
+}
+
+void AppliedLoads::hold(double time) {
+  set([=](const cases::TimeTable& table) { return table.at(time); }, state_.run.time_step);
+}
+
+/// Computes the accelerations of a step of the length dt (s).
+/// @param factor_of  factor_of(table): in this step
+template <class Factor>
+void AppliedLoads::set(const Factor& factor_of, double dt) {
   bool pushes = false;
   for (Applied& load : applied_) {
-    const double factor = load.of.table.mean(time, dt);
+    const double factor = factor_of(load.of.table);
     load.acceleration = factor * load.of.acceleration;
     // The exact decay over the step: no step is too long for it.
     load.damping = load.of.is_damping() ? -std::expm1(-factor * load.of.damping * dt) / dt : 0.0;
@@ -86,8 +97,7 @@ void AppliedLoads::begin() {
     Applied& load = applied_[i];
     if (!load.of.is_force()) continue;
     // What leaves the region takes its part of the force away; what enters it shares the force.
-    load.acceleration =
-        load.of.table.mean(time, dt) / std::max(now[i], state_.run.loaded_mass[i]) * load.force;
+    load.acceleration = factor_of(load.of.table) / std::max(now[i], state_.run.loaded_mass[i]) * load.force;
   }
 }
 

@@ -25,6 +25,8 @@ class AppliedLoads {
   void weigh();
   /// Computes the accelerations of the step that begins. Collective if a force acts in it.
   void begin();
+  /// Computes the accelerations at a time (s) instead, for states without inertia. Collective if a force acts then.
+  void hold(double time);
 
  private:
   struct Applied {
@@ -36,6 +38,8 @@ class AppliedLoads {
     bool everywhere = false;                 // gravity
   };
   [[nodiscard]] std::vector<double> masses() const;
+  template <class Factor>
+  void set(const Factor& factor, double dt);
 
   State& state_;
   const Carriers& carriers_;

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/quasi_static/response.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "src/core/parallel/threads.hpp"
+
+namespace whipple::quasi_static {
+
+Response::Response(const Particles& before, std::vector<Group> groups, int strains)
+    : before_(before),
+      groups_(std::move(groups)),
+      strains_(strains),
+      reports_(groups_.size()),
+      gradient_(before.size()),
+      moved_(before.size()) {}
+
+/// Updates the trial state from that of the beginning.
+void Response::update(std::span<const Matrix3> f) {
+  trial_ = static_cast<const MaterialPoints&>(before_);
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const Group& group = groups_[g];
+    const double dt = group.settings.time_step;
+    std::vector<MaterialReport> of_chunk(parallel::chunk_count(group.count));
+    parallel::for_each_chunk(group.count, [&](std::size_t begin, std::size_t end) {
+      const std::size_t first = group.first + begin, last = group.first + end;
+      for (std::size_t p = first; p < last; ++p) gradient_[p] = (f[p] - Matrix3::Identity()) / dt;
+      of_chunk[begin / parallel::chunk_size] =
+          update_material_and_energy(*group.material, trial_, first, last,
+                                     std::span(gradient_).subspan(first, end - begin), group.settings);
+    });
+    reports_[g] = {};
+    for (const MaterialReport& report : of_chunk) reports_[g].merge(report);
+  }
+}
+
+void Response::collect(const MaterialPoints& points, std::span<const Matrix3> f,
+                       std::span<double> forces) const {
+  const auto m = static_cast<std::size_t>(strains_);
+  parallel::for_each(before_.size(), [&](std::size_t p) {
+    Matrix3 stress = points.deviatoric_stress[p].matrix();
+    stress.diagonal().array() -= points.pressure[p];
+    const Matrix3 force = points.volume[p] * stress * f[p].inverse().transpose();
+    for (std::size_t k = 0; k < m; ++k) {
+      const auto [row, column] = component(strains_, static_cast<int>(k));
+      forces[m * p + k] = force(row, column);
+    }
+  });
+}
+
+void Response::at_beginning(std::span<double> forces) const {
+  collect(before_, std::vector<Matrix3>(before_.size(), Matrix3::Identity()), forces);
+}
+
+bool Response::evaluate(std::span<const Matrix3> f, std::span<double> forces) {
+  update(f);
+  collect(trial_, f, forces);
+  if (!std::ranges::all_of(forces, [](double x) { return std::isfinite(x); })) return false;
+  return std::ranges::all_of(reports_, [](const MaterialReport& report) {
+    return report.valid() && report.limited_volume_changes == 0 && report.limited_densities == 0;
+  });
+}
+
+void Response::differentiate(std::span<const Matrix3> f, std::span<const double> forces,
+                             std::span<double> tangents) {
+  constexpr double step = 1e-7;  // the root of the precision, within a factor of 10
+  const auto m = static_cast<std::size_t>(strains_);
+  std::vector<double> beside(forces.size());
+  for (std::size_t k = 0; k < m; ++k) {
+    std::ranges::copy(f, moved_.begin());
+    const auto [row, column] = component(strains_, static_cast<int>(k));
+    for (Matrix3& moved : moved_) moved(row, column) += step;
+    update(moved_);
+    collect(trial_, moved_, beside);
+    parallel::for_each(before_.size(), [&](std::size_t p) {
+      for (std::size_t i = 0; i < m; ++i)
+        tangents[(m * p + i) * m + k] = (beside[m * p + i] - forces[m * p + i]) / step;
+    });
+  }
+}
+
+}  // namespace whipple::quasi_static
