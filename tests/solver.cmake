@@ -47,6 +47,7 @@ target_compile_definitions(sph_beside_mpm PRIVATE WHIPPLE_SOURCE_DIR="${PROJECT_
 whipple_test(test_case SOURCES unit/case_bodies_test.cpp unit/case_grains_test.cpp unit/case_lattice_test.cpp unit/case_case_test.cpp unit/case_check_test.cpp unit/case_loads_test.cpp unit/case_shape_test.cpp unit/case_remarks_test.cpp
              DEPENDS whipple_case LABELS fast)
 # Bodies from files and generated ones.
+whipple_test(test_paraview_points SOURCES unit/case_paraview_test.cpp DEPENDS whipple_case GTest::gmock LABELS fast)
 whipple_test(test_solids SOURCES unit/case_surface_test.cpp unit/case_solids_test.cpp unit/case_image_test.cpp unit/case_points_test.cpp DEPENDS whipple_case GTest::gmock LABELS fast)
 
 # Distributed: against one rank, restart on another number of ranks, errors and killed ranks.
