@@ -40,7 +40,7 @@ def user_seconds(command):
 
 
 def run_of(arguments, way, cell):
-    folder = arguments.folder / f"{list(WAYS).index(way)}_{cell * 1e3:g}"
+    folder = arguments.folder / f"{list(WAYS).index(way)}_{round(cell * 1e6)}_um"
     record = folder.with_suffix(".json")
     program = str(arguments.whipple.stat().st_mtime_ns) if not arguments.table else None
     if record.exists():
