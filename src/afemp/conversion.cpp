@@ -260,7 +260,12 @@ std::vector<RangeFault> range_faults(const fem::Mesh& mesh, const ElementRange& 
       }
     }
     const auto is_too_fast = [&](std::uint32_t a) { return mesh.nodes.velocity[a].norm() > range.speed; };
-    return std::ranges::any_of(mesh.elements.corners[e], is_too_fast) ? RangeFault::speed : RangeFault::none;
+    if (std::ranges::any_of(mesh.elements.corners[e], is_too_fast)) return RangeFault::speed;
+    for (std::size_t row = e * rows; row < (e + 1) * rows; ++row) {
+      if (mesh.points.plastic_strain[row] > range.plastic_strain) return RangeFault::plastic_strain;
+      if (range.failed && mesh.points.failed[row] != 0) return RangeFault::failed;
+    }
+    return RangeFault::none;
   };
   std::vector<RangeFault> faults(mesh.elements.size());
   parallel::for_each(faults.size(), [&](std::size_t e) { faults[e] = fault_of(e); });

@@ -38,17 +38,25 @@ struct ElementRange {
   double time_step_ratio = 0.0;
   double hourglass_share = std::numeric_limits<double>::infinity();  ///< of its internal energy
   double speed = std::numeric_limits<double>::infinity();            ///< m/s, of its nodes
+  double plastic_strain = std::numeric_limits<double>::infinity();   ///< maximum at its points
+  bool failed = false;                                               ///< whether failed material is beyond it
 };
 
 /// Classifies how an element has left its range.
-enum class RangeFault : std::uint8_t { none, jacobian, time_step, hourglass, speed };
-constexpr std::array<Word<RangeFault>, 5> words(RangeFault) {
+enum class RangeFault : std::uint8_t { none, jacobian, time_step, hourglass, speed, plastic_strain, failed };
+constexpr std::array<Word<RangeFault>, 7> words(RangeFault) {
   return {{{RangeFault::none, "is in its valid range"},
            {RangeFault::jacobian, "is distorted: the Jacobian at a corner is below its fraction of the mean"},
            {RangeFault::time_step,
             "has become so thin that its stable time step is below its fraction of the grid's"},
            {RangeFault::hourglass, "has more hourglass energy than its fraction of the internal energy"},
-           {RangeFault::speed, "has a node faster than its largest valid speed"}}};
+           {RangeFault::speed, "has a node faster than its largest valid speed"},
+           {RangeFault::plastic_strain, "has more plastic strain than its largest valid one"},
+           {RangeFault::failed, "has failed"}}};
+}
+/// Returns whether a fault is one of the material, which many elements of a body that is perforated have.
+constexpr bool is_of_material(RangeFault fault) {
+  return fault == RangeFault::plastic_strain || fault == RangeFault::failed;
 }
 
 /// Returns for every element how it has left its range.

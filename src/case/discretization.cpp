@@ -96,7 +96,11 @@ ParameterTable<ElementRange> ElementRange::parameters() {
            "largest valid ratio of its hourglass energy to its internal energy (an element in bending stores "
            "hourglass energy only)")
           .optional("any"),
-      real("speed", &R::speed, "m/s", range::positive(), "largest valid speed of its nodes").optional("any")};
+      real("speed", &R::speed, "m/s", range::positive(), "largest valid speed of its nodes").optional("any"),
+      real("plastic_strain", &R::plastic_strain, "", range::positive(),
+           "largest valid equivalent plastic strain; with beyond = \"remove\" elements are eroded")
+          .optional("any"),
+      boolean("failed", &R::failed, "an element whose material has failed is beyond its range").optional()};
 }
 
 ParameterTable<BarRow> BarRow::parameters() {

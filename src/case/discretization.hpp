@@ -91,6 +91,8 @@ struct ElementRange {
   double time_step_ratio = 0.02;
   double hourglass_share = std::numeric_limits<double>::infinity();
   double speed = std::numeric_limits<double>::infinity();  ///< m/s
+  double plastic_strain = std::numeric_limits<double>::infinity();
+  bool failed = false;
   static ParameterTable<ElementRange> parameters();
 };
 

@@ -67,14 +67,13 @@ void check_body(const Case& setup, std::size_t b, const Faults& faults) {
 
 }  // namespace
 
-void QuasiStatic::check(const Case& setup, const Faults& faults) const {
-  if (has_inertia(setup.time.scheme) && *this != QuasiStatic{}) {
-    faults.add("", "[quasi_static] belongs to time.scheme = \"quasi_static\"");
-  }
-}
-
 void check_load_steps(const Case& setup, const Faults& faults) {
-  if (has_inertia(setup.time.scheme)) return;
+  if (has_inertia(setup.time.scheme)) {
+    if (setup.quasi_static != QuasiStatic{}) {
+      faults.add("quasi_static", "[quasi_static] belongs to time.scheme = \"quasi_static\"");
+    }
+    return;
+  }
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) check_body(setup, b, faults.in("body").in(b));
   if (std::ranges::any_of(setup.domain.boundary.in_order(), grid::lets_part)) {
     faults.in("domain").add("boundary", fmt::format("{} has no walls from which material parts: expected "

@@ -27,11 +27,10 @@ struct QuasiStatic {
   double border_stiffness = 1e-3;
 
   static ParameterTable<QuasiStatic> parameters();
-  void check(const Case& setup, const Faults& faults) const;
   bool operator==(const QuasiStatic&) const = default;
 };
 
-/// Adds faults for what load steps do not compute, before and after the fields of the bodies are known.
+/// Adds faults for load steps in a run with inertia, and for what load steps do not compute, before and after the fields of the bodies are known.
 void check_load_steps(const Case& setup, const Faults& faults);
 void check_load_step_fields(const Case& setup, const Faults& faults);
 

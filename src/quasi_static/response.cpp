@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "src/core/parallel/threads.hpp"
+#include "src/quasi_static/loops.hpp"
 
 namespace whipple::quasi_static {
 
@@ -22,14 +22,21 @@ void Response::update(std::span<const Matrix3> f) {
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const Group& group = groups_[g];
     const double dt = group.settings.time_step;
-    std::vector<MaterialReport> of_chunk(parallel::chunk_count(group.count));
-    parallel::for_each_chunk(group.count, [&](std::size_t begin, std::size_t end) {
-      const std::size_t first = group.first + begin, last = group.first + end;
+    constexpr std::size_t points = 1024;
+    std::vector<MaterialReport> of_chunk((group.count + points - 1) / points);
+    const auto update_chunk = [&](std::size_t chunk) {
+      const std::size_t first = group.first + chunk * points,
+                        last = std::min(first + points, group.first + group.count);
       for (std::size_t p = first; p < last; ++p) gradient_[p] = (f[p] - Matrix3::Identity()) / dt;
-      of_chunk[begin / parallel::chunk_size] =
+      of_chunk[chunk] =
           update_material_and_energy(*group.material, trial_, first, last,
-                                     std::span(gradient_).subspan(first, end - begin), group.settings);
-    });
+                                     std::span(gradient_).subspan(first, last - first), group.settings);
+    };
+    if (of_chunk.size() < 4) {
+      for (std::size_t chunk = 0; chunk < of_chunk.size(); ++chunk) update_chunk(chunk);
+    } else {
+      parallel::for_each_uneven(of_chunk.size(), update_chunk);
+    }
     reports_[g] = {};
     for (const MaterialReport& report : of_chunk) reports_[g].merge(report);
   }
@@ -38,7 +45,7 @@ void Response::update(std::span<const Matrix3> f) {
 void Response::collect(const MaterialPoints& points, std::span<const Matrix3> f,
                        std::span<double> forces) const {
   const auto m = static_cast<std::size_t>(strains_);
-  parallel::for_each(before_.size(), [&](std::size_t p) {
+  for_each(before_.size(), [&](std::size_t p) {
     Matrix3 stress = points.deviatoric_stress[p].matrix();
     stress.diagonal().array() -= points.pressure[p];
     const Matrix3 force = points.volume[p] * stress * f[p].inverse().transpose();
@@ -73,7 +80,7 @@ void Response::differentiate(std::span<const Matrix3> f, std::span<const double>
     for (Matrix3& moved : moved_) moved(row, column) += step;
     update(moved_);
     collect(trial_, moved_, beside);
-    parallel::for_each(before_.size(), [&](std::size_t p) {
+    for_each(before_.size(), [&](std::size_t p) {
       for (std::size_t i = 0; i < m; ++i)
         tangents[(m * p + i) * m + k] = (beside[m * p + i] - forces[m * p + i]) / step;
     });

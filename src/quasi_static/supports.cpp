@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <optional>
 
@@ -144,8 +145,7 @@ class Border {
         shift[a] = fuller[i] - cell[i];
       }
       std::map<std::uint32_t, Vector3> slopes;
-      add_slopes(x, 1.0, slopes);
-      add_slopes(x + shift, -1.0, slopes);
+      if (!add_slopes(x, 1.0, slopes) || !add_slopes(x + shift, -1.0, slopes)) continue;
       for (const auto& [node, slope] : slopes) supports_.border.reached.push_back({node, 0.0, slope});
       supports_.border.begin.push_back(supports_.border.reached.size());
       const Vector3 position = geometry_.lower + dx * x;
@@ -154,8 +154,9 @@ class Border {
       supports_.border_particle.push_back(particle);
     }
   }
-  /// Adds the slopes of the nodes at a place, times a factor.
-  void add_slopes(const Vector3& x, double factor, std::map<std::uint32_t, Vector3>& slopes) const {
+  /// Adds the slopes of the nodes at a place, times a factor. @returns whether all their displacements are known
+  [[nodiscard]] bool add_slopes(const Vector3& x, double factor,
+                                std::map<std::uint32_t, Vector3>& slopes) const {
     constexpr double quarter = 0.25;  // half-size of the domain of a point with GIMP, in cells
     std::array<transfer::AxisWeights<plain::most_nodes>, 3> along;
     Place first{};
@@ -172,18 +173,46 @@ class Border {
     for (std::size_t i = 0; i < functions_.count; ++i) {
       for (std::size_t j = 0; j < functions_.count; ++j) {
         for (std::size_t k = 0; k < functions_.count_z; ++k) {
-          const auto found =
-              node_at_.find({first[0] + static_cast<std::int32_t>(i), first[1] + static_cast<std::int32_t>(j),
-                             first[2] + static_cast<std::int32_t>(k)});
-          if (found == node_at_.end()) continue;
-          Vector3& slope =
-              slopes.try_emplace(static_cast<std::uint32_t>(found->second), Vector3::Zero()).first->second;
-          slope += factor * Vector3(u.derivative[i] * v.weight[j] * w.weight[k],
-                                    u.weight[i] * v.derivative[j] * w.weight[k],
-                                    u.weight[i] * v.weight[j] * w.derivative[k]);
+          const Place place = {first[0] + static_cast<std::int32_t>(i),
+                               first[1] + static_cast<std::int32_t>(j),
+                               first[2] + static_cast<std::int32_t>(k)};
+          const Vector3 slope = factor * Vector3(u.derivative[i] * v.weight[j] * w.weight[k],
+                                                 u.weight[i] * v.derivative[j] * w.weight[k],
+                                                 u.weight[i] * v.weight[j] * w.derivative[k]);
+          if (!add_slope(place, slope, slopes)) return false;
         }
       }
     }
+    return true;
+  }
+  /// Adds the slope of a node. One that no particle reaches moves as the line through two others, so that a uniform
+  /// deformation has no force and forces balance. @returns whether there are such two
+  [[nodiscard]] bool add_slope(const Place& place, const Vector3& slope,
+                               std::map<std::uint32_t, Vector3>& slopes) const {
+    const auto add = [&](std::size_t node, double times) {
+      slopes.try_emplace(static_cast<std::uint32_t>(node), Vector3::Zero()).first->second += times * slope;
+    };
+    if (const auto own = node_at_.find(place); own != node_at_.end()) {
+      add(own->second, 1.0);
+      return true;
+    }
+    const int first_z = directions_ == 3 ? -1 : 0;
+    for (int axes = 1; axes <= directions_; ++axes) {  // along one axis if possible, then along diagonals
+      for (int i = -1; i <= 1; ++i) {
+        for (int j = -1; j <= 1; ++j) {
+          for (int k = first_z; k <= -first_z; ++k) {
+            if (std::abs(i) + std::abs(j) + std::abs(k) != axes) continue;
+            const auto near = node_at_.find({place[0] + i, place[1] + j, place[2] + k});
+            const auto far = node_at_.find({place[0] + 2 * i, place[1] + 2 * j, place[2] + 2 * k});
+            if (near == node_at_.end() || far == node_at_.end()) continue;
+            add(near->second, 2.0);
+            add(far->second, -1.0);
+            return true;
+          }
+        }
+      }
+    }
+    return false;
   }
 
   Supports& supports_;
@@ -211,7 +240,7 @@ Supports find_supports(const transfer::ShapeFunctions& functions, const Particle
       for (const Vector3& x : particles.position) supports.per_radius.push_back(1.0 / x[1]);
     }
     if (with_border) {
-      ++supports.most_along;  // with the neighbour of a cell
+      supports.most_along += 3;  // with the neighbour of a cell, and two nodes more on a line
       Border(supports, as_numbers, smoothing, particles, grid).add();
     }
     return supports;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "src/core/parallel/threads.hpp"
+#include "src/quasi_static/loops.hpp"
 #include "src/quasi_static/response.hpp"
 
 namespace whipple::quasi_static {
@@ -71,7 +71,7 @@ System::System(const Supports& supports, const Unknowns& unknowns, std::vector<d
       solvers_(std::make_unique<Solvers>()) {
   invert(supports.particles, supports.nodes(), at_begin_, at_node_);
   invert(supports.border, supports.nodes(), border_begin_, border_at_node_);
-  parallel::for_each_uneven(supports.nodes(), [&](std::size_t node) {
+  for_each(supports.nodes(), [&](std::size_t node) {
     std::vector<std::uint32_t>& all = neighbours_[node];
     for (const AtNode& at : particles_at(node)) {
       for (const Reached& reached : supports_.particles.of(at.point)) all.push_back(reached.node);
@@ -88,7 +88,7 @@ System::~System() = default;
 
 std::vector<Matrix3> System::deformations(std::span<const Vector3> u) const {
   std::vector<Matrix3> f(supports_.particles.size());
-  parallel::for_each(f.size(), [&](std::size_t p) {
+  for_each(f.size(), [&](std::size_t p) {
     f[p].setIdentity();
     for (const Reached& reached : supports_.particles.of(p)) {
       f[p] += u[reached.node] * reached.gradient.transpose();
@@ -102,13 +102,13 @@ std::vector<Matrix3> System::deformations(std::span<const Vector3> u) const {
 std::vector<Vector3> System::internal(std::span<const double> forces, std::span<const Vector3> u) const {
   const auto m = static_cast<std::size_t>(supports_.strains());
   std::vector<Matrix3> border(supports_.border.size(), Matrix3::Zero());
-  parallel::for_each(border.size(), [&](std::size_t q) {
+  for_each(border.size(), [&](std::size_t q) {
     for (const Reached& reached : supports_.border.of(q)) {
       border[q] += border_modulus_[q] * u[reached.node] * reached.gradient.transpose();
     }
   });
   std::vector<Vector3> sum(supports_.nodes());
-  parallel::for_each_uneven(sum.size(), [&](std::size_t node) {
+  for_each(sum.size(), [&](std::size_t node) {
     sum[node].setZero();
     for (const AtNode& at : particles_at(node)) {
       const Slopes slopes = slopes_of(supports_, at.point, supports_.particles.of(at.point)[at.place]);
@@ -126,7 +126,7 @@ std::vector<Vector3> System::external(const Particles& particles,
                                       std::span<const Vector3> acceleration) const {
   std::vector<Vector3> sum(supports_.nodes(), Vector3::Zero());
   if (acceleration.empty()) return sum;
-  parallel::for_each_uneven(sum.size(), [&](std::size_t node) {
+  for_each(sum.size(), [&](std::size_t node) {
     for (const AtNode& at : particles_at(node)) {
       sum[node] +=
           supports_.particles.of(at.point)[at.place].n * particles.mass[at.point] * acceleration[at.point];
@@ -191,7 +191,7 @@ bool System::solve(std::span<const double> tangents, const Eigen::VectorXd& resi
       static_cast<std::size_t>(d == 3 ? around_ * around_ * around_ : around_ * around_);
   std::vector<std::vector<Eigen::Triplet<double>>> rows(supports_.nodes());
   std::vector<Vector3> by_given(supports_.nodes(), Vector3::Zero());
-  parallel::for_each_uneven(supports_.nodes(), [&](std::size_t node) {
+  for_each(supports_.nodes(), [&](std::size_t node) {
     std::vector<Matrix3> blocks(blocks_around, Matrix3::Zero());
     add_rows(node, tangents, blocks);
     for (const std::uint32_t other : neighbours_[node]) {

@@ -120,8 +120,10 @@ struct State {
   } rates;
   /// Holds what load steps without inertia needed.
   struct Equilibrium {
-    double iterations = 0.0;  ///< of Newton's method since the start of this program
-    double residual = 0.0;    ///< of the last step, relative
+    double iterations = 0.0;        ///< of Newton's method since the start of this program
+    std::vector<double> residuals;  ///< of the last step, relative: before each iteration and after the last
+
+    [[nodiscard]] double residual() const { return residuals.empty() ? 0.0 : residuals.back(); }
   } equilibrium;
   Profile profile;
   DeviceStage* device = nullptr;  ///< that steps the particles; null: the stages do

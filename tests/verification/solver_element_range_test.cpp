@@ -68,6 +68,36 @@ TEST(ElementsThatFail, KeepTheirEnergiesPossible) {
   EXPECT_LT(ledger.hourglass_overdrawn, 1e-3 * ledger.hourglass_work);
 }
 
+// Pure finite elements with deletion: what yields beyond a strain, or has failed, is eroded and counted as outflow with
+// its momentum and energy; what is left obeys the limit, and the accounts stay exact.
+TEST(ElementsBeyondTheirRange, AreErodedByStrainAndFailure) {
+  for (const char* criterion : {"plastic_strain = 0.2", "failed = true"}) {
+    const bool by_strain = std::string(criterion).starts_with("plastic");
+    Simulation simulation(
+        rod_on_plate(fmt::format("element_range = {{ beyond = \"remove\", {} }}", criterion)),
+        parallel::world());
+    const std::size_t elements = simulation.element_count();
+    const double mass = simulation.totals().mass;
+    double worst = 0.0;  // right after a step that looks for them, before the material yields further
+    run_to(simulation, 6e-6, [&](const Simulation& s) {
+      if (s.state().step % 4 != 1) return;
+      for (const fem::Mesh& mesh : s.meshes()) {
+        for (std::size_t q = 0; q < mesh.points.size(); ++q)
+          worst = std::max(worst, by_strain ? mesh.points.plastic_strain[q] : 0.0);
+      }
+    });
+    const solver::Ledger& ledger = simulation.state().ledger;
+    EXPECT_EQ(simulation.particle_count(), 0U);
+    EXPECT_EQ(static_cast<double>(elements - simulation.element_count()), ledger.elements_beyond_range);
+    EXPECT_GT(ledger.elements_beyond_range, 3.0) << criterion;
+    EXPECT_NEAR(ledger.removed_mass, mass - simulation.totals().mass, 1e-12 * mass);
+    EXPECT_NEAR(ledger.outflow.mass, ledger.removed_mass, 1e-12 * mass);
+    EXPECT_LT(worst, 0.25);  // a step strains by some per cent
+    EXPECT_LT(std::abs(ledger.energy_error(simulation.totals())), 1e-12);
+    EXPECT_LT(std::abs(ledger.momentum_error(simulation.totals())), 1e-11);
+  }
+}
+
 TEST(ElementsBeyondTheirRange, BecomeParticlesAreDeletedOrStopTheRun) {
   const auto beyond = [](const std::string& word) {  // (a bound that many elements of the rod exceed)
     return fmt::format("element_range = {{ beyond = \"{}\", jacobian = 0.7 }}", word);

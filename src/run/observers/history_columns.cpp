@@ -138,7 +138,7 @@ const auto of_load_steps = std::to_array<Column>({
     {"newton_iterations", "1", "iterations of Newton's method in load steps without inertia, since the start of the program",
      [](const Source& s) { return s.equilibrium.iterations; }},
     {"imbalance", "1", "imbalance of the nodes after the load step, over the forces on them",
-     [](const Source& s) { return s.equilibrium.residual; }},
+     [](const Source& s) { return s.equilibrium.residual(); }},
 });
 
 const auto of_explosives = std::to_array<Column>({

@@ -25,7 +25,9 @@ afemp::ElementRange range(const cases::ElementRange& control) {
   return {.jacobian = control.jacobian,
           .time_step_ratio = control.time_step_ratio,
           .hourglass_share = control.hourglass_share,
-          .speed = control.speed};
+          .speed = control.speed,
+          .plastic_strain = control.plastic_strain,
+          .failed = control.failed};
 }
 
 }  // namespace
@@ -50,9 +52,11 @@ void Hexahedra::convert(ParticleCarrier& particles, double grid_step) {
     const auto count = static_cast<double>(std::ranges::count(beyond, 1));
     if (count == 0.0) continue;
     state_.booked.elements_beyond_range += count;
+    const bool stops = body.element_range.beyond == cases::BeyondRange::stop;
     std::vector<std::string> told;
     for (std::size_t e = 0; e < faults.size(); ++e) {
-      if (beyond[e] == 0) continue;
+      // Erosion is the rule where it is asked for: counted, not told one by one.
+      if (beyond[e] == 0 || (afemp::is_of_material(faults[e]) && !stops)) continue;
       told.push_back(
           describe(mesh, e * fem::points_per_element(mesh.quadrature), std::string(word_of(faults[e]))));
     }

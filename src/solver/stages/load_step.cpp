@@ -222,7 +222,7 @@ void LoadStep::perform(double until) {
 }
 
 void LoadStep::commit(const Attempt& attempt) {
-  state_.equilibrium.residual = attempt.result.residuals.back();
+  state_.equilibrium.residuals = attempt.result.residuals;
   static_cast<MaterialPoints&>(state_.particles) = attempt.response.trial();
   for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
     const std::string error =

@@ -1,0 +1,99 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Particles, elements with deletion, and elements that become particles, at equal spacing.
+
+usage: three_ways.py [--cells M]... [--end S] [--table] [--folder run/studies/three_ways] [--whipple EXE]
+
+Case: cases/long_rod_oblique_plate (75 mm x 5 mm tungsten alloy, 9 mm of steel at 60 degrees, 2.5 km/s). Elements are as large as the
+cells (m), which hold 2 x 2 x 2 particles along their edges. Elements are deleted beyond the plastic strain at which the case converts
+them (0.6), and beyond 2. All ways of a spacing are run one after the other on one thread by one program: user seconds of the process.
+Columns: steps, least and largest step (without those shortened to meet an output), user time, mass deleted of rod and plate,
+length of the rod over that at the start, its speed over that of the impact, at the end of the case. Runs of the same program are kept.
+"""
+import argparse
+import csv
+import json
+import os
+import pathlib
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path[0] = str(ROOT)
+from report.measured import Measures  # noqa: E402
+
+CASE = ROOT / "cases/long_rod_oblique_plate/case.toml"
+WAYS = {"particles": ["body.0.discretization.method=particles", "body.1.discretization.method=particles"],
+        "elements that become particles": [],
+        "elements, deleted beyond 0.6": [f"body.{b}.{key}" for b in (0, 1) for key in
+                                         ("discretization.method=finite_elements", "element_range.beyond=remove", "element_range.plastic_strain=0.6")],
+        "elements, deleted beyond 2": [f"body.{b}.{key}" for b in (0, 1) for key in
+                                       ("discretization.method=finite_elements", "element_range.beyond=remove", "element_range.plastic_strain=2")]}
+
+
+def user_seconds(command):
+    """Runs a command. @returns its exit code and the user time of its process (s)"""
+    process = subprocess.Popen(command, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+    _, status, usage = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    return process.returncode, usage.ru_utime
+
+
+def run_of(arguments, way, cell):
+    folder = arguments.folder / f"{list(WAYS).index(way)}_{cell * 1e3:g}"
+    record = folder.with_suffix(".json")
+    program = str(arguments.whipple.stat().st_mtime_ns) if not arguments.table else None
+    if record.exists():
+        kept = json.loads(record.read_text(encoding="utf-8"))
+        if arguments.table or kept["program"] == program:
+            return folder, kept
+    if arguments.table:
+        return folder, None
+    settings = [f"domain.cell_size={cell * 1e3:.12g} mm", *WAYS[way], *([f"time.end={arguments.end} s"] if arguments.end else [])]
+    command = [str(arguments.whipple), "run", str(CASE), "-o", str(folder), "--force", "--quiet", "--threads", "1",
+               *[word for setting in settings for word in ("--set", setting)]]
+    arguments.folder.mkdir(parents=True, exist_ok=True)
+    code, seconds = user_seconds(command)
+    if code == 0:
+        code = subprocess.run([str(arguments.whipple), "analyse", str(folder), "--quiet"], check=False, stdout=subprocess.DEVNULL).returncode
+    kept = {"program": program, "code": code, "seconds": seconds}
+    record.write_text(json.dumps(kept), encoding="utf-8")
+    return folder, kept
+
+
+def row_of(folder, kept, way, cell):
+    with open(folder / "history.csv", encoding="utf-8") as file:
+        rows = list(csv.reader(file))
+    names = [name.split(" ")[0] for name in rows[0]]
+    column = {name: [float(row[names.index(name)]) for row in rows[2:]] for name in ("dt", "dt_bound", "step", "time")}
+    last = dict(zip(names, rows[-1]))
+    free = [dt for dt, bound in zip(column["dt"], column["dt_bound"]) if bound not in (6.0, 9.0)]  # not first, not output time
+    removed = float(last.get("removed_mass", 0.0)) * 1e3
+    values = ["–", "–"]
+    if kept["code"] == 0:
+        single = Measures(folder).single
+        values = [f"{single[name]:.3f}" if name in single else "–" for name in ("residual_length_ratio.rod", "residual_speed_ratio.rod")]
+    end = "" if kept["code"] == 0 else f" (ended with {kept['code']} at {column['time'][-1] * 1e6:.1f} us)"
+    return (f"| {cell * 1e3:g} | {way}{end} | {int(column['step'][-1])} | {min(free) * 1e9:.2f} | {max(free) * 1e9:.2f} | {kept['seconds']:.0f} | "
+            f"{removed:.2f} | {' | '.join(values)} | {float(last['energy_error']):.0e} |")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    parser.add_argument("--cells", type=float, action="append")
+    parser.add_argument("--end", type=float)
+    parser.add_argument("--table", action="store_true")
+    parser.add_argument("--folder", type=pathlib.Path, default=ROOT / "run/studies/three_ways")
+    parser.add_argument("--whipple", type=pathlib.Path, default=ROOT / "build/release/bin/whipple")
+    arguments = parser.parse_args()
+    print("| cells, mm | way | steps | least step, ns | largest, ns | user s | deleted, g | length | speed | energy error |\n" + "| --- " * 10 + "|")
+    for cell in arguments.cells or [1e-3, 0.7e-3, 0.5e-3]:
+        for way in WAYS:
+            folder, kept = run_of(arguments, way, cell)
+            if kept is not None:
+                print(row_of(folder, kept, way, cell), flush=True)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
