@@ -139,6 +139,11 @@ class Curve(unittest.TestCase):
         self.assertAlmostEqual(curve.reached([(5.0, 0.0), (6.0, 0.2), (7.0, 0.6)], 0.1), 5.5)
         self.assertIsNone(curve.reached([(5.0, 0.0), (6.0, 0.05)], 0.1))
 
+    def test_interval_contains_those_of_all_studies(self):
+        one, other = [(3.0, 3.0, 4.0, "found"), (6.0, 3.0, 4.0, "found")], [(3.0, 2.5, 3.5, "found"), (6.0, None, None, "undecided")]
+        self.assertEqual(curve.hull([one]), one)
+        self.assertEqual(curve.hull([one, other]), [(3.0, 2.5, 4.0, "found"), (6.0, None, None, "found; undecided")])
+
     def test_shots_on_the_shield_of_ryan(self):
         found = curve.shots_on(page.HERE / "ryan" / "shield.toml")
         self.assertIn((6.0, 4.064, False, None), found)  # calibrating: no section of its own
