@@ -67,6 +67,8 @@ MAY_USE = {
     "src/view": ["src/core/base", "src/grid", "src/io", "src/analysis"],
     # The page of running simulations and its server.
     "src/monitor": ["src/core/base", "src/core/process", "src/io", "src/analysis", "src/view", "src/run"],
+    # The page that edits a case; checks are other processes.
+    "src/editor": ["src/core/base", "src/core/input", "src/core/process", "src/monitor"],
     # Writes cases from the decks of other codes, as text, and cards for these codes; looks heat capacities up in the material
     # library.
     "src/decks": ["src/core/base", "src/core/input", "eos", "src/material"],
@@ -84,7 +86,7 @@ MAY_USE = {
     # whipple-md for states.
     "src/app": ["src/core/base", "src/core/input", "src/core/parallel", "src/core/process", "eos", "eos/curves", "eos/experiments", "eos/files",
                 "src/particles", "src/grid", "src/material",
-                "src/transfer", "src/io", "src/analysis", "src/view", "src/monitor", "src/decks", "src/shields", "src/case", "src/solver", "src/run", "src/sweep", "src/bench", "src/solids",
+                "src/transfer", "src/io", "src/analysis", "src/view", "src/monitor", "src/editor", "src/decks", "src/shields", "src/case", "src/solver", "src/run", "src/sweep", "src/bench", "src/solids",
                 "md_fitting/elements", "md_fitting/plan",
                 "md_fitting/simulated_crystal"],
     # The Python module whipple.eos: no MPI, no grid.
@@ -142,7 +144,7 @@ WORDS_ALLOWED = {
     "src/fem/vtk_xml.cpp": "grammar of VTK",
     "src/io/snapshot_table.cpp": "the unit 1",
     "src/material/material_file.cpp": "endings of file names",
-    "src/monitor/handler.cpp": "header fields of HTTP",
+    "src/monitor/site.cpp": "header fields of HTTP",
     "src/monitor/folder.cpp": "endings of file names",
     "src/run/directory_control.cpp": "endings of file names",
     "src/solids": "grammars of surfaces, images and tables",

@@ -5,6 +5,7 @@ whipple_test(shields_test SOURCES unit/shields_equations_test.cpp unit/shields_c
 whipple_test(bench_test SOURCES unit/bench_reference_kernel_test.cpp DEPENDS whipple_bench LABELS fast)
 whipple_test(app_command_line_test SOURCES unit/app_command_line.cpp DEPENDS GTest::gmock nlohmann_json::nlohmann_json LABELS fast)
 whipple_test(app_planar_impact_test SOURCES unit/app_planar_impact_test.cpp unit/monitor_table_test.cpp DEPENDS whipple_app nlohmann_json::nlohmann_json LABELS fast)
+whipple_test(editor_test SOURCES unit/editor_test.cpp DEPENDS whipple_editor GTest::gmock nlohmann_json::nlohmann_json LABELS fast)
 whipple_test(step_test SOURCES unit/app_step_test.cpp ../src/app/step_mesher.cpp DEPENDS whipple_case whipple_process GTest::gmock LABELS fast)
 whipple_test(foreign_files_test SOURCES fuzz/foreign_files.cpp DEPENDS whipple_app GTest::gmock LABELS fast)
 whipple_test(decks_import_test SOURCES unit/decks_import_test.cpp unit/decks_dyna_test.cpp unit/decks_eos_card_test.cpp unit/decks_soil_test.cpp unit/decks_points_test.cpp DEPENDS whipple_decks whipple_case GTest::gmock LABELS fast)
@@ -48,6 +49,10 @@ if(WHIPPLE_PYTHON)
            ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml ${CMAKE_CURRENT_BINARY_DIR}/app_monitor)
   add_test(NAME app_monitor_browser COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/app_monitor_browser.py
            $<TARGET_FILE:whipple> ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml ${CMAKE_CURRENT_BINARY_DIR}/app_monitor_browser)
+  add_test(NAME app_edit_page COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/app_edit_page.py $<TARGET_FILE:whipple>
+           ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml ${CMAKE_CURRENT_BINARY_DIR}/app_edit_page)
+  add_test(NAME app_edit_browser COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/app_edit_browser.py
+           $<TARGET_FILE:whipple> ${CMAKE_CURRENT_BINARY_DIR}/app_edit_browser)
   add_test(NAME app_sweep COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/app_sweep.py $<TARGET_FILE:whipple>
            ${CMAKE_CURRENT_SOURCE_DIR}/data/thrown_block.toml ${CMAKE_CURRENT_BINARY_DIR}/app_sweep)
   add_test(NAME app_shield COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/app_shield.py $<TARGET_FILE:whipple>
@@ -55,6 +60,8 @@ if(WHIPPLE_PYTHON)
   set_tests_properties(app_shield PROPERTIES LABELS fast TIMEOUT 300)
   set_tests_properties(app_sweep PROPERTIES LABELS fast TIMEOUT 300 COST 30)
   set_tests_properties(app_monitor PROPERTIES LABELS fast TIMEOUT 300)
+  set_tests_properties(app_edit_page PROPERTIES LABELS fast TIMEOUT 300)
+  set_tests_properties(app_edit_browser PROPERTIES LABELS "browser;long" TIMEOUT 900 COST 80 SKIP_RETURN_CODE 77)
   set_tests_properties(app_monitor_browser PROPERTIES LABELS "browser;long" TIMEOUT 300 COST 80 SKIP_RETURN_CODE 77)
 endif()
 

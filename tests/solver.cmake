@@ -19,7 +19,7 @@ whipple_test(test_damping STARTS_MPI SOURCES verification/solver_damping_test.cp
 whipple_test(test_contact STARTS_MPI SOURCES property/contact_pressing_test.cpp verification/solver_gap_test.cpp verification/solver_first_touch_test.cpp verification/solver_conduction_test.cpp property/device_of_tests.cpp
              DEPENDS whipple_run LABELS fast)
 whipple_test(test_cracks STARTS_MPI SOURCES verification/solver_cracks_test.cpp verification/solver_fragment_size_test.cpp DEPENDS whipple_run LABELS fast)
-whipple_test(test_quasi_static STARTS_MPI SOURCES verification/solver_quasi_static_test.cpp DEPENDS whipple_solver GTest::gmock LABELS fast)
+whipple_test(test_quasi_static STARTS_MPI SOURCES verification/solver_quasi_static_test.cpp verification/solver_load_step_laws_test.cpp DEPENDS whipple_solver GTest::gmock LABELS fast)
 # The steady flow of grains: half a minute.
 whipple_test(test_granular_flow STARTS_MPI SOURCES verification/solver_granular_flow_test.cpp DEPENDS whipple_solver LABELS long)
 whipple_test(test_driven STARTS_MPI SOURCES verification/solver_driven_test.cpp verification/solver_tool_test.cpp verification/solver_friction_wall_test.cpp verification/solver_averages_test.cpp verification/solver_loads_test.cpp verification/solver_water_test.cpp verification/solver_many_bodies_test.cpp verification/solver_tank_test.cpp verification/solver_cavitation_test.cpp property/device_of_tests.cpp DEPENDS whipple_solver LABELS fast)
@@ -37,9 +37,17 @@ whipple_test(test_rotation STARTS_MPI SOURCES verification/solver_rotation_test.
 # Writes docs/generated/orders_of_convergence.md; a program of its own, as it takes minutes.
 add_executable(orders_of_convergence EXCLUDE_FROM_ALL verification/solver_orders.cpp)
 target_link_libraries(orders_of_convergence PRIVATE whipple_flags whipple_solver)
+# Smoothed particles, and the program that measures them beside the step.
+add_library(whipple_sph STATIC EXCLUDE_FROM_ALL benchmark/sph.cpp)
+target_link_libraries(whipple_sph PUBLIC whipple_flags whipple_solver)
+whipple_test_flags(whipple_sph OPTIMIZED)
+add_executable(sph_beside_mpm EXCLUDE_FROM_ALL benchmark/sph_beside_mpm.cpp)
+target_link_libraries(sph_beside_mpm PRIVATE whipple_sph)
+target_compile_definitions(sph_beside_mpm PRIVATE WHIPPLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 whipple_test(test_case SOURCES unit/case_bodies_test.cpp unit/case_grains_test.cpp unit/case_lattice_test.cpp unit/case_case_test.cpp unit/case_check_test.cpp unit/case_loads_test.cpp unit/case_shape_test.cpp unit/case_remarks_test.cpp
              DEPENDS whipple_case LABELS fast)
 # Bodies from files and generated ones.
+whipple_test(test_paraview_points SOURCES unit/case_paraview_test.cpp DEPENDS whipple_case GTest::gmock LABELS fast)
 whipple_test(test_solids SOURCES unit/case_surface_test.cpp unit/case_solids_test.cpp unit/case_image_test.cpp unit/case_points_test.cpp DEPENDS whipple_case GTest::gmock LABELS fast)
 
 # Distributed: against one rank, restart on another number of ranks, errors and killed ranks.
@@ -130,7 +138,7 @@ whipple_test(test_exact STARTS_MPI
           verification/exact_solid_test.cpp property/device_of_tests.cpp
   DEPENDS whipple_exact LABELS fast)
 # Finer resolutions are long.
-whipple_test(test_expansion STARTS_MPI SOURCES verification/solver_expansion_test.cpp property/device_of_tests.cpp DEPENDS whipple_solver LABELS fast)
+whipple_test(test_expansion STARTS_MPI SOURCES verification/solver_expansion_test.cpp property/device_of_tests.cpp verification/solver_foam_test.cpp verification/sph_test.cpp DEPENDS whipple_solver whipple_sph LABELS fast)
 set(expansion_labels ${CMAKE_CURRENT_BINARY_DIR}/test_expansion_labels.cmake)
 file(WRITE ${expansion_labels} [=[
 foreach(test IN LISTS test_expansion_TESTS)

@@ -16,6 +16,7 @@
 #include "src/core/base/files.hpp"
 #include "src/core/process/paths.hpp"
 #include "src/core/process/process.hpp"
+#include "src/monitor/handler.hpp"
 #include "src/monitor/server.hpp"
 #include "src/run/status.hpp"
 

@@ -13,12 +13,15 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
 #include "src/analysis/run.hpp"
 #include "src/app/build_info.hpp"
 #include "src/app/command_line.hpp"
+#include "src/case/build/placement.hpp"
+#include "src/case/case.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
 #include "src/core/base/json.hpp"
@@ -28,6 +31,7 @@
 #include "src/core/base/simd.hpp"
 #include "src/core/base/temporary_folder.hpp"
 #include "src/core/base/words.hpp"
+#include "src/core/input/overlay.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/process/mpirun.hpp"
 #include "src/core/process/paths.hpp"
@@ -36,6 +40,7 @@
 #include "src/run/restart.hpp"
 #include "src/run/run.hpp"
 #include "src/run/signal_control.hpp"
+#include "src/view/cloud.hpp"
 #include "src/view/page.hpp"
 
 namespace whipple::app {
@@ -152,6 +157,36 @@ run::CaseCheck examine(const Arguments& arguments, bool with_forecast) {
   return run::examine_case(run_options(arguments), with_forecast, parallel::world(), device);
 }
 
+nlohmann::json faults_json(const InputError& error) {
+  nlohmann::json faults = nlohmann::json::array();
+  for (const InputFault& fault : error.faults()) {
+    faults.push_back({{"file", fault.file},
+                      {"line", fault.line},
+                      {"column", fault.column},
+                      {"key", fault.key},
+                      {"text", fault.text}});
+  }
+  return faults;
+}
+
+/// Prints that a case is right if its particles would take more memory than a limit, bytes.
+/// @throws InputError if it is wrong, after its faults were printed
+bool takes_more_memory(const Arguments& arguments, double limit, bool as_json) {
+  try {
+    const run::RunOptions options = run_options(arguments);
+    const double memory = cases::expected_memory(cases::read_case(options.case_file, options.overrides));
+    if (memory <= limit) return false;
+    const std::string text = fmt::format("the particles take up to {}, more than {}: they were not built",
+                                         format_bytes(memory), format_bytes(limit));
+    const nlohmann::json found = {{"faults", nlohmann::json::array()}, {"unbuilt", text}};
+    fmt::print("{}\n", as_json ? json_text(found, 1) : text);
+    return true;
+  } catch (const InputError& error) {
+    if (as_json) fmt::print("{}\n", json_text(nlohmann::json{{"faults", faults_json(error)}}, 1));
+    throw;
+  }
+}
+
 /// Prints what a case would run, or its faults as data.
 /// @throws the error of a wrong case, after its faults were printed
 void print_check_as_json(const Arguments& arguments, bool with_forecast) {
@@ -160,20 +195,16 @@ void print_check_as_json(const Arguments& arguments, bool with_forecast) {
   try {
     print(run::check_json(examine(arguments, with_forecast)));
   } catch (const InputError& error) {
-    json faults = json::array();
-    for (const InputFault& fault : error.faults()) {
-      faults.push_back({{"file", fault.file},
-                        {"line", fault.line},
-                        {"column", fault.column},
-                        {"key", fault.key},
-                        {"text", fault.text}});
-    }
-    print({{"faults", faults}});
+    print({{"faults", faults_json(error)}});
     throw;
   }
 }
 
+constexpr std::string_view cloud_ending = ".wpv";
+constexpr std::size_t most_particles_of_cloud = 200000;  // that a browser draws with ease
+
 /// Writes a page that shows the initial bodies of a case: the first snapshot of a run of one very small step.
+/// `FILE.wpv`: that snapshot alone, for a page that draws it.
 void write_preview(const Arguments& arguments, const std::string& page_file) {
   const TemporaryFolder folder;
   run::RunOptions options = run_options(arguments);
@@ -187,6 +218,13 @@ void write_preview(const Arguments& arguments, const std::string& page_file) {
   log::set_level(level);
   analysis::Run start = analysis::read_run(options.output_directory);
   start.snapshots.resize(1);
+  if (page_file.ends_with(cloud_ending)) {
+    const analysis::Snapshot snapshot = analysis::read_snapshot(start.snapshots.front());
+    const view::CloudOptions detail = {.fields = {},
+                                       .one_of = 1 + (snapshot.size() - 1) / most_particles_of_cloud};
+    write_text_atomically(page_file, view::pack_cloud(start, snapshot, detail));
+    return;
+  }
   const view::Page page = view::make_page(start, {}, process::find_data("web/viewer"));
   write_text_atomically(page_file, page.html);
   fmt::print("wrote {}: {}\n", page_file,
@@ -303,17 +341,35 @@ void add_check_command(CLI::App& app) {
       ->type_name("BYTES")
       ->transform(CLI::AsNumberWithUnit(std::map<std::string, double>{{"GB", 1e9}, {"TB", 1e12}}))
       ->check(CLI::PositiveNumber);
+  auto text = std::make_shared<std::string>();
+  command
+      ->add_option("--text", *text,
+                   "Check this text as the content of CASE.toml, which an editor has not written yet")
+      ->type_name("FILE");
+  auto most = std::make_shared<double>(0.0);
+  command
+      ->add_option(
+          "--most-memory", *most,
+          "Check the keys only if the particles would take more memory, e.g. 2GB (default: no limit)")
+      ->type_name("BYTES")
+      ->transform(CLI::AsNumberWithUnit(std::map<std::string, double>{{"MB", 1e6}, {"GB", 1e9}}))
+      ->check(CLI::PositiveNumber);
   auto json = std::make_shared<bool>(false);
   auto brief = std::make_shared<bool>(false);
   command->add_flag("--json", *json, "The same for programs (SI), with the faults of a wrong case as data");
   command->add_flag("--brief", *brief, "Without steps and time, which take a second to measure");
-  command->callback([arguments, preview, json, brief] {
+  command->callback([arguments, preview, json, brief, text, most] {
     if (arguments->case_file.empty()) throw InputError("expected a case file (CASE.toml)");
     require_case_file(arguments->case_file);
-    if (!preview->empty() && !preview->ends_with(".html"))
-      throw InputError(
-          fmt::format("--preview {}: a page for the browser: its name ends with .html", *preview));
+    if (!preview->empty() && !preview->ends_with(".html") && !preview->ends_with(cloud_ending)) {
+      throw InputError(fmt::format(
+          "--preview {}: a page for the browser: its name ends with .html (or .wpv: its particles alone)",
+          *preview));
+    }
     require_new_file(*preview, arguments->force);
+    std::optional<input::Overlay> edited;
+    if (!text->empty()) edited.emplace(arguments->case_file, read_text(*text));
+    if (*most > 0.0 && takes_more_memory(*arguments, *most, *json)) return;
     if (*json) {
       print_check_as_json(*arguments, !*brief);
     } else {

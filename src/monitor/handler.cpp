@@ -4,16 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cstdlib>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
 #include "src/core/base/error.hpp"
-#include "src/core/base/files.hpp"
-#include "src/core/base/json.hpp"
 #include "src/io/run_directory.hpp"
 #include "src/run/directory_control.hpp"
 #include "src/run/status.hpp"
@@ -23,31 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-enum Status {
-  ok = 200,
-  accepted = 202,
-  bad_request = 400,
-  unauthorized = 401,
-  forbidden = 403,
-  not_found = 404,
-  unsupported = 415
-};
-
-Response text(int status, std::string body) {
-  return {status, "text/plain; charset=utf-8", std::move(body) + "\n"};
-}
-Response data(const json& body, int status = ok) { return {status, "application/json", json_text(body, -1)}; }
-
-/// Compares two texts in constant time, independent of the position of a difference.
-bool equal_texts(std::string_view a, std::string_view b) {
-  unsigned char different = a.size() == b.size() ? 0 : 1;
-  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
-    different |=
-        static_cast<unsigned char>(static_cast<unsigned char>(a[i]) ^ static_cast<unsigned char>(b[i]));
-  }
-  return different == 0;
-}
 
 /// Decodes %20 and + in a query.
 std::string decoded(std::string_view coded) {
@@ -102,46 +75,18 @@ class Query {
   std::map<std::string, std::vector<std::string>> values_;
 };
 
-std::string text_of(const json& body, const char* key) { return body.at(key).get<std::string>(); }
+constexpr std::size_t most_body_of_request = 64 * 1024;
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 3> types = {
-    {{".html", "text/html; charset=utf-8"}, {".js", "text/javascript"}, {".css", "text/css"}}};
+std::string text_of(const json& body, const char* key) { return body.at(key).get<std::string>(); }
 
 }  // namespace
 
-Handler::Handler(Folder folder, Access access, fs::path page, fs::path view, fs::path cases, Start start)
-    : folder_(std::move(folder)),
-      access_(std::move(access)),
-      page_(std::move(page)),
-      view_(std::move(view)),
+Handler::Handler(Folder folder, Access access, const fs::path& page, const fs::path& view, fs::path cases,
+                 Start start)
+    : Site(std::move(access), {{"/viewer/", view}, {"/", page}}, most_body_of_request),
+      folder_(std::move(folder)),
       cases_(std::move(cases)),
       start_(std::move(start)) {}
-
-/// Checks the origin of a request. Other pages in the same browser can reach this address, also under another host
-/// name; browsers send the origin of the page.
-bool Handler::is_from_here(const Request& request) const {
-  if (request.host != access_.host) return false;
-  if (!request.origin.empty() && request.origin != "http://" + access_.host) return false;
-  return request.site.empty() || request.site == "same-origin" || request.site == "none";
-}
-
-std::string Handler::file_of(const std::string& path, std::string& type) const {
-  if (!path.starts_with('/')) return {};
-  const std::string name = path.size() == 1 ? "/index.html" : path;
-  const bool of_view = name.starts_with("/viewer/");
-  const std::string own = name.substr(of_view ? 8 : 1);
-  const auto is_plain = [](char letter) {
-    return std::islower(static_cast<unsigned char>(letter)) != 0 || letter == '_';
-  };
-  const std::size_t dot = own.find('.');
-  if (dot == std::string::npos || dot == 0 || !std::ranges::all_of(own.substr(0, dot), is_plain)) return {};
-  const std::string_view ending = std::string_view(own).substr(dot);
-  const auto found = std::ranges::find(types, ending, [](const auto& entry) { return entry.first; });
-  const fs::path file = (of_view ? view_ : page_) / own;
-  if (found == types.end() || !fs::is_regular_file(file)) return {};
-  type = found->second;
-  return read_text(file);
-}
 
 std::vector<std::string> Handler::cases() const {
   std::vector<std::string> names;
@@ -154,50 +99,24 @@ std::vector<std::string> Handler::cases() const {
   return names;
 }
 
-bool Handler::has_key(const Request& request) const { return equal_texts(request.token, access_.token); }
-
-Response Handler::handle(const Request& request) {
-  if (!is_from_here(request)) return text(forbidden, "only the page of this address may ask");
-  const std::size_t mark = request.target.find('?');
-  const std::string path = request.target.substr(0, mark);
-  const std::string query = mark == std::string::npos ? "" : request.target.substr(mark + 1);
-  if (!request.changes) {
-    std::string type;
-    if (std::string file = file_of(path, type); !type.empty()) return {ok, type, std::move(file)};
-  }
-  if (!has_key(request)) {
-    return text(unauthorized, "open the address that whipple monitor printed: it holds the key");
-  }
-  try {
-    if (!request.changes) return read(path, query);
-    if (access_.read_only) return text(forbidden, "this monitor only shows (--read-only)");
-    if (request.content_type != "application/json") return text(unsupported, "expected application/json");
-    return change(path, parse_json(request.body));
-  } catch (const json::exception& error) {
-    return text(bad_request, error.what());
-  } catch (const InputError& error) {
-    return text(bad_request, error.what());
-  }
-}
-
 Response Handler::read(const std::string& path, const std::string& query) {
   const Query keys(query);
   using Routes = std::map<std::string_view, std::function<Response()>>;
   const Routes routes = {
       {"/runs",
        [&] {
-         return data({{"folder", fs::absolute(folder_.path()).string()},
-                      {"runs", folder_.runs()},
-                      {"cases", access_.read_only ? std::vector<std::string>() : cases()},
-                      {"read_only", access_.read_only},
-                      {"started", folder_.started()}});
+         return data_response({{"folder", fs::absolute(folder_.path()).string()},
+                               {"runs", folder_.runs()},
+                               {"cases", access().read_only ? std::vector<std::string>() : cases()},
+                               {"read_only", access().read_only},
+                               {"started", folder_.started()}});
        }},
-      {"/run", [&] { return data(folder_.describe(keys.one("run"))); }},
+      {"/run", [&] { return data_response(folder_.describe(keys.one("run"))); }},
       {"/curves",
        [&] {
          const std::optional<Table> table = value_of<Table>(keys.one("table"));
          if (!table) throw InputError("\"table\" of the query is history or gauges");
-         return data(
+         return data_response(
              folder_.curves(keys.one("run"), *table, keys.one("x"), keys.all("y"), keys.number("points")));
        }},
       {"/cloud", [&] {
@@ -205,20 +124,20 @@ Response Handler::read(const std::string& path, const std::string& query) {
                          folder_.cloud(keys.one("run"), keys.number("index"), keys.number("particles"))};
        }}};
   const auto found = routes.find(path);
-  return found == routes.end() ? text(not_found, "there is nothing at " + path) : found->second();
+  return found == routes.end() ? text_response(not_found, "there is nothing at " + path) : found->second();
 }
 
 /// Passes a request to a run. The outcome is written to steering.csv at the end of the current step.
 Response Handler::steer(const json& body) {
   (void)run::steer(folder_.run(text_of(body, "run")), text_of(body, "request"), text_of(body, "value"));
-  return data(json::object(), accepted);
+  return data_response(json::object(), accepted);
 }
 
 Response Handler::resume(const json& body) {
   const fs::path run = folder_.run(text_of(body, "run"));
   if (io::is_running(run)) throw InputError("the run goes on already");
   start_({"--restart", run.string()});
-  return data(json::object(), accepted);
+  return data_response(json::object(), accepted);
 }
 
 Response Handler::begin(const json& body) {
@@ -249,7 +168,7 @@ Response Handler::begin(const json& body) {
     arguments.insert(arguments.end(), {"--set", set});
   }
   start_(arguments);
-  return data(json::object(), accepted);
+  return data_response(json::object(), accepted);
 }
 
 Response Handler::change(const std::string& path, const json& body) {
@@ -257,7 +176,8 @@ Response Handler::change(const std::string& path, const json& body) {
   static const std::map<std::string_view, Act> acts = {
       {"/steer", &Handler::steer}, {"/resume", &Handler::resume}, {"/start", &Handler::begin}};
   const auto found = acts.find(path);
-  return found == acts.end() ? text(not_found, "there is nothing at " + path) : (this->*found->second)(body);
+  return found == acts.end() ? text_response(not_found, "there is nothing at " + path)
+                             : (this->*found->second)(body);
 }
 
 }  // namespace whipple::monitor

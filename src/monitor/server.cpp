@@ -26,7 +26,7 @@ using Clock = std::chrono::steady_clock;
 
 namespace {
 
-constexpr std::size_t most_connections = 64, most_body = 64 * 1024, most_head = 16 * 1024;
+constexpr std::size_t most_connections = 64, most_head = 16 * 1024;
 constexpr std::chrono::seconds silence(30), first_request(5), look(1);
 
 using HttpRequest = http::request<http::string_body>;
@@ -55,7 +55,7 @@ struct Server::Connections {
   asio::steady_timer timer{io};
   asio::signal_set signals{io};
   Clock::time_point last_request = Clock::now();
-  Handler* handler = nullptr;
+  Site* site = nullptr;
 
   void accept();
   void make_room();
@@ -81,7 +81,7 @@ class Server::Connections::Session : public std::enable_shared_from_this<Session
 
   void read() {
     parser_.emplace();
-    parser_->body_limit(most_body);
+    parser_->body_limit(all_.site->most_body());
     parser_->header_limit(most_head);
     stream_.expires_after(list_ == &all_.known ? silence : first_request);
     http::async_read(stream_, buffer_, *parser_,
@@ -110,11 +110,11 @@ class Server::Connections::Session : public std::enable_shared_from_this<Session
                           .body = received.body()};
     Response made;
     try {
-      made = all_.handler->handle(request);
+      made = all_.site->handle(request);
     } catch (const std::exception& error) {  // for example an unreadable file: the server continues
       made = {500, "text/plain; charset=utf-8", std::string(error.what()) + "\n"};
     }
-    if (all_.handler->has_key(request)) move_to(all_.known);
+    if (all_.site->has_key(request)) move_to(all_.known);
     write(made, received.keep_alive());
   }
 
@@ -201,8 +201,8 @@ std::string Server::host() const {
   return fmt::format("127.0.0.1:{}", connections_->acceptor.local_endpoint().port());
 }
 
-void Server::serve(Handler& handler, std::chrono::seconds patience, const std::function<bool()>& may_end) {
-  connections_->handler = &handler;
+void Server::serve(Site& site, std::chrono::seconds patience, const std::function<bool()>& may_end) {
+  connections_->site = &site;
   for (const int signal : {SIGINT, SIGTERM}) connections_->signals.add(signal);
   connections_->signals.async_wait([this](beast::error_code error, int) {
     if (!error) connections_->io.stop();

@@ -7,15 +7,15 @@
 #include <memory>
 #include <string>
 
-#include "src/monitor/handler.hpp"
+#include "src/monitor/site.hpp"
 
 namespace whipple::monitor {
 
 /// Returns 128 random bits from the operating system as text.
 std::string random_token();
 
-/// Serves HTTP on the loopback address 127.0.0.1 only, on one thread. Limits: 64 connections, 64 KiB of request body,
-/// 16 KiB of request header. At the limit, a new connection replaces the one with the oldest authenticated request. A
+/// Serves HTTP on the loopback address 127.0.0.1 only, on one thread. Limits: 64 connections, the request body that the
+/// site states, 16 KiB of request header. At the limit, a new connection replaces the one with the oldest authenticated request. A
 /// connection without any has 5 s for its request, others have 30 s.
 class Server {
  public:
@@ -29,7 +29,7 @@ class Server {
 
   /// Serves until SIGINT or SIGTERM, or until there was no request for `patience` and `may_end()` is true.
   /// @param patience  0: no limit
-  void serve(Handler& handler, std::chrono::seconds patience, const std::function<bool()>& may_end);
+  void serve(Site& site, std::chrono::seconds patience, const std::function<bool()>& may_end);
 
   struct Connections;  ///< network implementation, defined in server.cpp
 

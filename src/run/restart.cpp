@@ -31,6 +31,9 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 5> fixed_tables = {"domain", "body", "gauge", "tracers",
                                                           "force_gauge"};
 
+/// Lists those of them that a run which begins with the state of another one must share.
+constexpr std::array<std::string_view, 2> tables_of_material = {"domain", "body"};
+
 /// Computes digests of the material and mesh files of every body. The material files of a run are copies that include
 /// the values from their base files.
 std::map<std::string, std::string> digests(const cases::Case& setup) {
@@ -184,7 +187,7 @@ void require_same_bodies(const cases::Case& setup, const io::CheckpointValues& v
     const std::string_view table = std::string_view(key).substr(0, key.find_first_of(".["));
     const bool may_differ =
         key.ends_with("velocity") || key.ends_with(".driven") || key.find(".path.") != std::string::npos;
-    return (table == "domain" || table == "body") && !may_differ;
+    return std::ranges::find(tables_of_material, table) != tables_of_material.end() && !may_differ;
   };
   const std::map<std::string, std::string> now = keys_of(text_of(setup)),
                                            then = keys_of(values.text("input"));

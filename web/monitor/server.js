@@ -18,9 +18,9 @@ async function asked(path, options) {
   try {
     answer = await fetch(path, { ...options, headers: { ...options.headers, 'X-Whipple-Token': key } });
   } catch {
-    throw new Error('the monitor does not answer: it has ended, or the machine cannot be reached');
+    throw new Error('the program does not answer: it has ended, or the machine cannot be reached');
   }
-  if (!answer.ok) throw new Error((await answer.text()).trim() || `answer ${answer.status}`);
+  if (!answer.ok) throw Object.assign(new Error((await answer.text()).trim() || `answer ${answer.status}`), { status: answer.status });
   return answer;
 }
 
@@ -39,6 +39,19 @@ export async function askBytes(path, keys) {
   return new Uint8Array(await (await asked(address(path, keys), {})).arrayBuffer());
 }
 
+async function sent(path, wish) {
+  return asked(path, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(wish) });
+}
+
 export async function tell(path, wish) {
-  await asked(path, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(wish) });
+  await sent(path, wish);
+}
+
+/** The answer to a question that needs more than an address. */
+export async function askWith(path, wish) {
+  return (await sent(path, wish)).json();
+}
+
+export async function askBytesWith(path, wish) {
+  return new Uint8Array(await (await sent(path, wish)).arrayBuffer());
 }

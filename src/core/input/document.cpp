@@ -15,6 +15,7 @@
 #include "src/core/base/files.hpp"
 #include "src/core/base/text.hpp"
 #include "src/core/base/units.hpp"
+#include "src/core/input/overlay.hpp"
 #include "src/core/input/toml_text.hpp"
 
 namespace whipple::input {
@@ -278,7 +279,8 @@ Document::~Document() = default;
 
 Document Document::from_file(const std::filesystem::path& path) {
   constexpr std::uintmax_t most_bytes = 16'000'000;  // of text: minutes of reading; cases are shorter
-  std::unique_ptr<State> state = parse(read_text(path, most_bytes), path);
+  const std::string* text = Overlay::text_of(path);
+  std::unique_ptr<State> state = parse(text != nullptr ? *text : read_text(path, most_bytes), path);
   state->needs_units = true;
   return Document(std::move(state));
 }

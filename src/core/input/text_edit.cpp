@@ -2,70 +2,30 @@
 #include "src/core/input/text_edit.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "src/core/base/error.hpp"
-#include "src/core/base/text.hpp"
+#include "src/core/input/text_places.hpp"
 #include "src/core/input/toml_text.hpp"
 
 namespace whipple::input {
 namespace {
 
-/// Converts a toml++ position, counted in characters, to an offset in the text, counted in bytes.
-std::size_t offset_of(const std::string& text, toml::source_position position) {
-  std::size_t at = 0;
-  for (std::uint32_t line = 1; line < position.line; ++line) at = text.find('\n', at) + 1;
-  for (std::uint32_t column = 1; column < position.column && at < text.size(); ++column) {
-    ++at;
-    while (at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U) ++at;
-  }
-  return at;
-}
-
-std::size_t begin_of(const std::string& text, const toml::node& node) {
-  return offset_of(text, node.source().begin);
-}
-std::size_t end_of(const std::string& text, const toml::node& node) {
-  return offset_of(text, node.source().end);
-}
-
-bool is_value(const toml::node& node) {
-  if (const toml::table* table = node.as_table()) return table->is_inline();
-  const toml::array* array = node.as_array();
-  return array == nullptr || !array->is_array_of_tables() || array->get(0)->as_table()->is_inline();
-}
-
 /// Returns the end of the last value directly in a table; nothing if the table has none.
-std::optional<std::size_t> end_of_values(const std::string& text, const toml::table& table) {
+std::optional<std::size_t> end_of_values(const Places& places, const toml::table& table) {
   std::optional<std::size_t> last;
   for (const auto& [key, node] : table) {
     if (!is_value(node)) continue;
-    last = std::max(last.value_or(0), end_of(text, node));
+    last = std::max(last.value_or(0), places.of(node).end);
   }
   return last;
 }
 
-std::string as_bare_key(const std::string& part) {
-  const bool bare =
-      std::ranges::all_of(part, [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; });
-  return bare ? part : toml_string(part);
-}
-
-std::string dotted(std::span<const std::string> parts) {
-  std::vector<std::string> keys;
-  for (const std::string& part : parts) keys.push_back(as_bare_key(part));
-  return fmt::format("{}", fmt::join(keys, "."));
-}
-
-std::string line_break_of(const std::string& text) {
-  return text.find("\r\n") == std::string::npos ? "\n" : "\r\n";
-}
+std::string dotted(std::span<const std::string> parts) { return dotted_key({parts.begin(), parts.end()}); }
 
 /// Inserts a line below the one at a position, with the same indentation.
 std::string with_line_below(const std::string& text, std::size_t place, const std::string& line) {
@@ -88,17 +48,18 @@ std::string with_inline_key(const std::string& text, std::size_t end, bool empty
 }
 
 /// Adds the texts that set a missing key of a table by a separate line, or within `{ ... }`.
-void add_lines(std::vector<std::string>& texts, const std::string& text, const toml::table& table,
-               bool is_root, std::span<const std::string> missing, const std::string& value) {
+void add_lines(std::vector<std::string>& texts, const std::string& text, const Places& places,
+               const toml::table& table, bool is_root, std::span<const std::string> missing,
+               const std::string& value) {
   const std::string assignment = fmt::format("{} = {}", dotted(missing), value);
   if (table.is_inline()) {
-    texts.push_back(with_inline_key(text, end_of(text, table), table.empty(), assignment));
-  } else if (const auto last = end_of_values(text, table)) {
+    texts.push_back(with_inline_key(text, places.of(table).end, table.empty(), assignment));
+  } else if (const auto last = end_of_values(places, table)) {
     texts.push_back(with_line_below(text, *last, assignment));
   } else if (is_root) {
     texts.push_back(assignment + line_break_of(text) + text);
   } else {
-    texts.push_back(with_line_below(text, begin_of(text, table), assignment));
+    texts.push_back(with_line_below(text, places.of(table).begin, assignment));
   }
 }
 
@@ -109,7 +70,7 @@ void add_table(std::vector<std::string>& texts, const std::string& text, std::sp
   const std::string end = line_break_of(text);
   const std::string before = text.empty() ? "" : text + (text.ends_with('\n') ? "" : end) + end;
   texts.push_back(fmt::format("{}[{}]{}{} = {}{}", before, dotted(path.first(path.size() - 1)), end,
-                              as_bare_key(path.back()), value, end));
+                              dotted(path.last(1)), value, end));
 }
 
 /// Returns texts that may set a missing key, the more common forms first; not all of them are correct.
@@ -117,11 +78,12 @@ void add_table(std::vector<std::string>& texts, const std::string& text, std::sp
 std::vector<std::string> with_new_key(const std::string& text, std::span<toml::node* const> known,
                                       std::span<const std::string> path, const std::string& value) {
   std::vector<std::string> texts;
+  const Places places(text);
   const bool new_section = known.size() == 1 && path.size() > 1;
   if (new_section) add_table(texts, text, path, value);
   for (std::size_t depth = known.size(); depth-- > 0;) {
     const toml::table* table = known[depth]->as_table();
-    if (table != nullptr) add_lines(texts, text, *table, depth == 0, path.subspan(depth), value);
+    if (table != nullptr) add_lines(texts, text, places, *table, depth == 0, path.subspan(depth), value);
   }
   if (!new_section) add_table(texts, text, path, value);
   return texts;
@@ -149,7 +111,7 @@ TextEdit set_in_text(const std::string& text, const std::filesystem::path& file,
   if (known.size() <= path.size()) {
     texts = with_new_key(text, known, path, edit.after);
   } else if (is_value(node)) {
-    const std::size_t begin = begin_of(text, node), end = end_of(text, node);
+    const auto [begin, end] = Places(text).of(node);
     edit.before = text.substr(begin, end - begin);
     texts.push_back(text.substr(0, begin) + edit.after + text.substr(end));
   }
@@ -162,7 +124,7 @@ TextEdit set_in_text(const std::string& text, const std::filesystem::path& file,
     // Location of a replaced value, otherwise of the first difference of the texts.
     const auto [changed, unused] = std::ranges::mismatch(text, candidate);
     const std::size_t begin =
-        edit.before.empty() ? static_cast<std::size_t>(changed - text.begin()) : begin_of(text, node);
+        edit.before.empty() ? static_cast<std::size_t>(changed - text.begin()) : Places(text).of(node).begin;
     const std::size_t place = std::min(candidate.find_first_not_of("\r\n", begin), candidate.size());
     edit.line = 1 + static_cast<std::size_t>(std::ranges::count(candidate.substr(0, place), '\n'));
     edit.text = std::move(candidate);

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "src/material/strength/crushable_foam.hpp"
 #include "src/material/strength/deshpande_fleck.hpp"
 #include "src/material/strength/drucker_prager.hpp"
 #include "src/material/strength/elastic.hpp"
@@ -58,6 +59,7 @@ const Catalogue<ModelEntry>& catalogue() {
                                              entry<ModifiedCamClay, ModifiedCamClayModel>(),
                                              entry<GranularFlow, GranularFlowModel>(),
                                              entry<DeshpandeFleck, DeshpandeFleckModel>(),
+                                             entry<CrushableFoam, CrushableFoamModel>(),
                                          });
   return all;
 }

@@ -12,8 +12,7 @@
 namespace whipple::strength {
 namespace {
 
-constexpr double closed = 1.0 + 1e-12;  ///< distension below which no pores are left
-constexpr double last = 1.0 - 1e-6;     ///< greatest z of the hardening curve
+constexpr double last = 1.0 - 1e-6;  ///< greatest z of the hardening curve
 
 }  // namespace
 
@@ -70,24 +69,13 @@ std::string DeshpandeFleckModel::constants() const {
 }
 
 void DeshpandeFleckModel::crush(const FoamState& state) const {
-  for (std::size_t i = 0; i < state.trial.size(); ++i) crush_point(state, i);
-}
-
-void DeshpandeFleckModel::crush_point(const FoamState& state, std::size_t i) const {
-  state.equivalent[i] = state.trial[i];
-  state.plastic_increment[i] = 0.0;
-  state.dissipation[i] = 0.0;
-  if (state.distension[i] > closed) {
-    flow(state, i);
-    return;
+  for (std::size_t i = 0; i < state.trial.size(); ++i) {
+    if (has_pores(state, i)) {
+      flow(state, i);
+    } else {
+      flow_as_solid(state, i, law_.solid_yield_stress);
+    }
   }
-  const double excess = state.trial[i] - law_.solid_yield_stress;
-  if (!(excess > 0.0)) return;
-  const double increment = excess / (3.0 * state.modulus[i]);
-  state.equivalent[i] = law_.solid_yield_stress;
-  state.plastic_increment[i] = increment;
-  state.plastic_strain[i] += increment;
-  state.dissipation[i] = law_.solid_yield_stress * increment;
 }
 
 /// Returns the point to the ellipse in one unknown, the increment x of the equivalent plastic strain (foam.md, eq. 3),
@@ -97,6 +85,9 @@ void DeshpandeFleckModel::flow(const FoamState& state, std::size_t i) const {
   const double square = law_.shape(), a = 1.0 + square / 9.0, shear = 3.0 * state.modulus[i];
   const double bulk = square * state.bulk_modulus[i], trial = state.trial[i], pressure = state.pressure[i];
   const double before = state.plastic_strain[i];
+  state.equivalent[i] = trial;
+  state.plastic_increment[i] = 0.0;
+  state.dissipation[i] = 0.0;
   const auto returned = [&](double x, double y) {
     return std::pair(trial / (1.0 + shear * x / (a * y)), pressure / (1.0 + bulk * x / (a * y)));
   };

@@ -65,7 +65,6 @@ class DeshpandeFleckModel final : public Strength, public Foam {
   [[nodiscard]] std::string constants() const override;
 
  private:
-  void crush_point(const FoamState& state, std::size_t i) const;
   void flow(const FoamState& state, std::size_t i) const;
 
   DeshpandeFleck law_;
