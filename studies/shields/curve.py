@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How does the critical diameter of a shield depend on the speed, by runs and by equations?
 
-Usage: python3 -m studies.shields.curve SHIELD.toml STUDY [--whipple PROGRAM] [--output PREFIX]
+Usage: python3 -m studies.shields.curve SHIELD.toml STUDY... [--whipple PROGRAM] [--output PREFIX]
 
-Reads limits.csv of a study that `whipple shield --limit` wrote and `whipple sweep` computed (it may be under way), and
-writes PREFIX.csv and PREFIX.png (default: STUDY/curve): interval of each speed, which contains those of both cell sizes and the three
-positions of the grid, and the equations from 1 to 12 km/s. Beside them the measured normal shots on this shield (shots.csv), and the melted
+Reads limits.csv of studies that `whipple shield --limit` wrote and `whipple sweep` computed (they may be under way), and
+writes PREFIX.csv and PREFIX.png (default: curve in the folder of the first): interval of each speed, which contains those of both cell sizes
+and the positions of the grid in all of them, and the equations from 1 to 12 km/s. Beside them the measured normal shots on this shield (shots.csv), and the melted
 fraction of the debris of its sphere and bumper, where clouds.csv has it; on the right the shots with the same sphere and bumper on walls of all
 thicknesses, with the outcomes of their sections, and the thinnest wall that holds by the equations.
 """
@@ -126,6 +126,15 @@ def reached(points, share):
     return None
 
 
+def hull(studies):
+    """Rows of `limits` of several studies as one: of each speed the interval that contains all, with all verdicts; None where one has none."""
+    found = {}
+    for row in (row for study in studies for row in study):
+        found.setdefault(row[0], []).append(row)
+    return [(speed, *((min(row[1] for row in rows), max(row[2] for row in rows)) if all(row[1] is not None for row in rows) else (None, None)),
+             "; ".join(dict.fromkeys(row[3] for row in rows))) for speed, rows in sorted(found.items())]
+
+
 def write_table(file, found, by_equation, shares):
     """Writes one row per speed and kind of limit, and those of the melted fraction of the debris."""
     with open(file, "w", newline="", encoding="utf-8") as table:
@@ -185,12 +194,12 @@ def mark_shots(axes, points):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("shield", type=pathlib.Path)
-    parser.add_argument("study", type=pathlib.Path)
+    parser.add_argument("study", type=pathlib.Path, nargs="+")
     parser.add_argument("--whipple", default=commands.ROOT / "build" / "release" / "bin" / "whipple")
     parser.add_argument("--output", type=pathlib.Path)
     arguments = parser.parse_args()
-    output = arguments.output or arguments.study / "curve"
-    found = limits(arguments.study / "limits.csv")
+    output = arguments.output or arguments.study[0] / "curve"
+    found = hull([limits(study / "limits.csv") for study in arguments.study])
     by_equation = equations(arguments.whipple, arguments.shield, SPEEDS)
     shares = melted(arguments.shield)
     write_table(output.with_suffix(".csv"), found, by_equation, shares)

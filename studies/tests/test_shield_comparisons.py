@@ -139,6 +139,11 @@ class Curve(unittest.TestCase):
         self.assertAlmostEqual(curve.reached([(5.0, 0.0), (6.0, 0.2), (7.0, 0.6)], 0.1), 5.5)
         self.assertIsNone(curve.reached([(5.0, 0.0), (6.0, 0.05)], 0.1))
 
+    def test_interval_contains_those_of_all_studies(self):
+        one, other = [(3.0, 3.0, 4.0, "found"), (6.0, 3.0, 4.0, "found")], [(3.0, 2.5, 3.5, "found"), (6.0, None, None, "undecided")]
+        self.assertEqual(curve.hull([one]), one)
+        self.assertEqual(curve.hull([one, other]), [(3.0, 2.5, 4.0, "found"), (6.0, None, None, "found; undecided")])
+
     def test_shots_on_the_shield_of_ryan(self):
         found = curve.shots_on(page.HERE / "ryan" / "shield.toml")
         self.assertIn((6.0, 4.064, False, None), found)  # calibrating: no section of its own
@@ -150,7 +155,7 @@ class Curve(unittest.TestCase):
             cases = [tomllib.loads(clouds.case_of(9.53, 0.8, 6.7, 0.4, shift, pathlib.Path(folder)))["domain"] for shift in (0.0, 0.5)]
         lower = [float(case["lower"][0].split()[0]) for case in cases]
         self.assertAlmostEqual(lower[0] - lower[1], 0.2)
-        self.assertEqual(len(clouds.plans("piekutowski")), 13)
+        self.assertEqual(len(clouds.plans("piekutowski")), 15)
 
 
 if __name__ == "__main__":
