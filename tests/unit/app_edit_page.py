@@ -48,7 +48,8 @@ class Editor:
             heads = {"Content-Type": "application/json", "Content-Length": str(len(body.encode())), **heads}
         for name, value in heads.items():
             connection.putheader(name, value)
-        connection.endheaders(None if body is None else body.encode())
+        with contextlib.suppress(BrokenPipeError, ConnectionResetError):  # a question that is too long is answered before its end
+            connection.endheaders(None if body is None else body.encode())
         with contextlib.closing(connection):
             answer = connection.getresponse()
             self.heads = dict(answer.getheaders())
