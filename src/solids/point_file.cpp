@@ -181,7 +181,11 @@ PointTable read_point_csv(std::string_view bytes, const std::string& file) {
       for (const std::string& cell : cells) {
         const bool is_taken = is_known(heading_of(cell).name);
         column_of.push_back(is_taken ? std::optional(table.columns.size()) : std::nullopt);
-        if (is_taken) table.columns.push_back({cell, {}});
+        if (is_taken) {
+          table.columns.push_back({cell, {}});
+        } else {
+          table.unread.push_back(shown(cell));
+        }
       }
       if (table.columns.empty()) {
         fields.fail(

@@ -22,7 +22,8 @@ struct PointTable {
   };
   std::string file;  ///< for messages
   std::vector<Column> columns;
-  std::vector<std::size_t> lines;  ///< of the file, of each row; empty: rows are numbered from 0, as in VTK
+  std::vector<std::string> unread;  ///< headings of the other columns of a CSV file
+  std::vector<std::size_t> lines;   ///< of the file, of each row; empty: rows are numbered from 0, as in VTK
 };
 
 /// Holds the particles of a body.

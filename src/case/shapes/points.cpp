@@ -2,6 +2,7 @@
 #include "src/case/shapes/points.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,7 @@
 #include "src/case/shapes/primitive.hpp"
 #include "src/case/shapes/source_file.hpp"
 #include "src/core/base/files.hpp"
+#include "src/core/base/log.hpp"
 #include "src/core/base/text.hpp"
 #include "src/fem/vtk_arrays.hpp"
 #include "src/fem/vtk_mesh.hpp"
@@ -20,7 +22,8 @@ namespace {
 
 solids::PointTable table_of_vtu(const std::string& text, const std::string& file) {
   const fem::VtkPoints read = fem::read_vtu_points(text, file, solids::is_size_column);
-  solids::PointTable table{.file = file, .columns = {{"x", {}}, {"y", {}}, {"z", {}}}, .lines = {}};
+  solids::PointTable table{
+      .file = file, .columns = {{"x", {}}, {"y", {}}, {"z", {}}}, .unread = {}, .lines = {}};
   for (std::size_t i = 0; i < read.points.size(); ++i) table.columns[i % 3].values.push_back(read.points[i]);
   for (const fem::VtkPoints::Array& array : read.data) table.columns.push_back({array.name, array.values});
   return table;
@@ -35,7 +38,11 @@ solids::PointTable read_table(const std::filesystem::path& path) {
     throw InputError(fmt::format(
         "{}: an HDF5 file: 'whipple export' makes VTU or CSV files of the snapshots of a run", file));
   }
-  return fem::is_vtk(path) ? table_of_vtu(bytes, file) : solids::read_point_csv(bytes, file);
+  if (fem::is_vtk(path)) return table_of_vtu(bytes, file);
+  solids::PointTable table = solids::read_point_csv(bytes, file);
+  if (!table.unread.empty())
+    log::info("{}: columns that are not read: {}", file, fmt::join(table.unread, ", "));
+  return table;
 }
 
 }  // namespace
