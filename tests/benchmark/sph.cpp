@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/benchmark/sph.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -109,6 +111,9 @@ void Simulation::find_pairs() {
   std::vector<std::pair<std::uint32_t, std::uint8_t>> points;  // particles, then images
   std::vector<Vector3> at;
   for (std::uint32_t i = 0; i < x.size(); ++i) {
+    if (!x[i].allFinite()) {
+      throw StateError(fmt::format("sph: t = {} s: the position of particle {} is undefined", time_, i));
+    }
     for (std::uint8_t image = 0; image < 8; ++image) {
       bool near = true;
       for (int a = 0; a < 3 && near; ++a) {

@@ -138,7 +138,12 @@ std::string smoothed(const cases::Case& setup, const std::string& cell, const Pr
   Simulation simulation(setup, options);
   const double start = simulation.kinetic_energy() + simulation.internal_energy(), begin = processor_time();
   Row row;
-  for (; simulation.time() < setup.time.end; ++row.steps) simulation.advance(setup.time.end);
+  try {
+    for (; simulation.time() < setup.time.end; ++row.steps) simulation.advance(setup.time.end);
+  } catch (const StateError& error) {
+    return fmt::format("| {} | {} | {} | {} | ended: {} |\n", cell, name, simulation.particles().size(),
+                       row.steps, error.what());
+  }
   row.seconds = processor_time() - begin;
   row.energy_error = (simulation.kinetic_energy() + simulation.internal_energy() - start) / start;
   const Particles& q = simulation.particles();
