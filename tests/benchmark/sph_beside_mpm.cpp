@@ -88,7 +88,8 @@ double front(const Particles& q, double share) {
   const double all = std::accumulate(q.mass.begin(), q.mass.end(), 0.0);
   double sum = 0.0;
   for (const std::size_t i : order) {
-    if ((sum += q.mass[i]) > share * all) return q.position[i].x();
+    sum += q.mass[i];
+    if (sum > share * all) return q.position[i].x();
   }
   return 0.0;
 }

@@ -18,7 +18,6 @@ namespace whipple::editor {
 namespace {
 
 namespace fs = std::filesystem;
-using monitor::Request;
 using monitor::Response;
 using nlohmann::json;
 using ::testing::HasSubstr;

@@ -208,7 +208,9 @@ TEST(LoadSteps, OnAKeptGridAreThoseOfFiniteElements) {
   // Displacements of the corners of each element from those of its points.
   std::vector<std::vector<Vector3>> found((nx + 1) * (ny + 1));
   std::vector<Vector3> force(found.size(), Vector3::Zero());
-  const auto number_of = [](int i, int j) { return static_cast<std::size_t>(i * (ny + 1) + j); };
+  const auto number_of = [](int i, int j) {
+    return static_cast<std::size_t>(i) * (ny + 1) + static_cast<std::size_t>(j);
+  };
   std::vector<std::vector<std::size_t>> in_cell(nx * ny);
   for (std::size_t p = 0; p < q.size(); ++p) {
     const Vector3& x = began.at(q.id[p]);
@@ -220,7 +222,7 @@ TEST(LoadSteps, OnAKeptGridAreThoseOfFiniteElements) {
   };
   for (int i = 0; i < nx; ++i) {
     for (int j = 0; j < ny; ++j) {
-      const auto& members = in_cell[static_cast<std::size_t>(i * ny + j)];
+      const auto& members = in_cell[static_cast<std::size_t>(i) * ny + static_cast<std::size_t>(j)];
       ASSERT_EQ(members.size(), 4U);
       Eigen::Matrix4d n;
       Eigen::Matrix<double, 4, 3> u;
