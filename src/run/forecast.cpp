@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "src/core/parallel/mpi.hpp"
@@ -140,13 +141,27 @@ SplittingForecast forecast_splitting(const solver::Simulation& s) {
   return result;
 }
 
-Forecast forecast(solver::Simulation& s) {
+/// Returns the least and the greatest number of steps that the time step allows.
+static std::pair<double, double> steps_with_inertia(solver::Simulation& s) {
   const cases::TimeControl& control = s.setup().time;
   const double end = control.end, allowed = s.accurate_time_step();
   const double least = growing_steps(control, end, allowed / fewest_steps);
   double most = growing_steps(control, end, allowed / most_steps);
   // The step size restarts at a small value when bodies come into contact: at most once per further body.
   most += static_cast<double>(s.bodies().size() - 1) * (most - end / allowed * most_steps);
+  return {least, most};
+}
+
+/// Returns the number of load steps, and twice as many: how many are halved is not known.
+static std::pair<double, double> load_steps(const solver::Simulation& s) {
+  const auto steps = static_cast<double>(s.setup().quasi_static.steps);
+  return {steps, 2.0 * steps};
+}
+
+Forecast forecast(solver::Simulation& s) {
+  const cases::TimeControl& control = s.setup().time;
+  const double end = control.end;
+  const auto [least, most] = cases::has_inertia(control.scheme) ? steps_with_inertia(s) : load_steps(s);
   const double every = s.setup().output.snapshot_every;
   const double snapshots = every > 0.0 ? std::ceil(end / every * (1.0 - 1e-9)) : 1.0;
   Forecast result;

@@ -412,7 +412,7 @@ TEST(StrengthModels, CatalogueDescribesEveryModelWithItsConstants) {
     EXPECT_THAT(strength::catalogue().describe(entry.name), ::testing::HasSubstr(entry.describe()));
     EXPECT_FALSE(entry.summary.empty());
   }
-  EXPECT_EQ(strength::catalogue().size(), 19U);
+  EXPECT_EQ(strength::catalogue().size(), 20U);
 }
 
 }  // namespace
