@@ -16,14 +16,15 @@ namespace whipple::run {
 struct RunOptions {
   std::filesystem::path case_file;         ///< empty on restart: run.toml of the directory
   std::filesystem::path output_directory;  ///< empty: ./run/ with the name of the folder or file of the case
-  std::filesystem::path start_from = {};   ///< run directory whose latest state is the start; empty: the case's
-  bool restart = false;                    ///< continue from the latest checkpoint in output_directory
-  bool force = false;                      ///< remove the outputs of an earlier run in output_directory; on
-                                           ///< restart: continue although rows of its tables are missing
-  int threads = 0;                         ///< of each rank; 0: an equal part of the cores
-  double wall_time = 0.0;                  ///< s, after which the run ends with a checkpoint; 0: no limit
-  std::filesystem::path replay = {};       ///< steering.csv with the requests to repeat; empty: none
-  std::string program = "whipple";         ///< name and version, for provenance
+  std::filesystem::path start_from =
+      {};                             ///< run directory whose latest state is the start; empty: the case's
+  bool restart = false;               ///< continue from the latest checkpoint in output_directory
+  bool force = false;                 ///< remove the outputs of an earlier run in output_directory; on
+                                      ///< restart: continue although rows of its tables are missing
+  int threads = 0;                    ///< of each rank; 0: an equal part of the cores
+  double wall_time = 0.0;             ///< s, after which the run ends with a checkpoint; 0: no limit
+  std::filesystem::path replay = {};  ///< steering.csv with the requests to repeat; empty: none
+  std::string program = "whipple";    ///< name and version, for provenance
   std::vector<std::pair<std::string, std::string>> overrides;  ///< --set
 };
 

@@ -66,7 +66,8 @@ BENCHMARK_CAPTURE(update, lead_with_open_voids, "lead_mie_gruneisen", Matter::fa
 BENCHMARK_CAPTURE(update, gray_johnson_cook, "copper", Matter::intact, false);
 BENCHMARK_CAPTURE(update, gray_with_open_voids, "copper", Matter::failed, false);
 BENCHMARK_CAPTURE(update, foam, WHIPPLE_SOURCE_DIR "/cases/foam_block/foam.toml", Matter::intact, false);
-BENCHMARK_CAPTURE(update, crushable_foam, WHIPPLE_SOURCE_DIR "/tests/data/crushable_foam.toml", Matter::intact, false);
+BENCHMARK_CAPTURE(update, crushable_foam, WHIPPLE_SOURCE_DIR "/tests/data/crushable_foam.toml",
+                  Matter::intact, false);
 BENCHMARK_CAPTURE(update, neo_hookean, WHIPPLE_SOURCE_DIR "/cases/rubber_rings/rubber.toml", Matter::intact,
                   false);
 BENCHMARK_CAPTURE(update, neo_hookean_that_relaxes,
