@@ -192,8 +192,12 @@ void check_planar(const Case& setup, const Faults& faults) {
     if (!lies_in_plane(body.expansion_rate)) {
       of_body.add("expansion_rate", fmt::format("expansion is {}", expected));
     }
-    if (body.discretization.has_elements() || body.discretization.is_bars()) {
-      of_body.add("discretization", "finite elements and bars require three dimensions: use particles");
+    if (body.discretization.is_bars()) {
+      of_body.add("discretization", "bars require three dimensions");
+    }
+    if (body.discretization.has_elements() && body.discretization.element != fem::Quadrature::one_point) {
+      of_body.add("discretization",
+                  "the quadrilaterals of a section have one point: element = \"one_point\"");
     }
   }
   if (!lies_in_plane(setup.gravity.acceleration)) {
