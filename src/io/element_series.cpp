@@ -39,7 +39,9 @@ constexpr std::uint8_t failed_by_plastic_strain = 2;  // as in the description o
 void write_bar(const fem::Bars& bars, std::size_t b, Particles& points, std::size_t p) {
   const fem::BarElements& elements = bars.elements;
   const auto& [first, second] = elements.ends[b];
-  const Vector3 along = (bars.nodes.position[second] - bars.nodes.position[first]).normalized();
+  const Vector3 along =  // of a hoop across the section
+      first == second ? Vector3::UnitZ().eval()
+                      : (bars.nodes.position[second] - bars.nodes.position[first]).normalized();
   points.mass[p] = elements.mass[b];
   points.volume[p] = elements.mass[b] / bars.material.density;
   points.pressure[p] = -elements.stress[b] / 3.0;

@@ -273,6 +273,95 @@ shape = {{ box = {{ lower = ["0 mm", "0 mm"], upper = ["2 mm", "8 mm"] }} }}
 INSTANTIATE_TEST_SUITE_P(Sections, Converting, testing::Values("plane_strain", "axisymmetric"),
                          [](const auto& test) { return std::string(test.param); });
 
+// --- Bars --------------------------------------------------------------------------------------------------
+
+/// Returns a ring of aluminium under a sudden pressure on its outside, with hoops and bars along the axis.
+/// @param hoops  number of each of three hoops
+cases::Case reinforced(double hoops) {
+  const std::string steel = write_material("section_steel", R"toml(
+name = "steel"
+source = "test"
+[eos]
+model = "mie_gruneisen"
+source = "test"
+reference_density = "7.85 g/cm^3"
+hugoniot_intercept = "4.57 km/s"
+hugoniot_slope = 1.49
+gruneisen = 1.9
+heat_capacity = "450 J/(kg K)"
+reference_temperature = "300 K"
+[strength]
+model = "von_mises"
+source = "test"
+shear_modulus = "80 GPa"
+yield_stress = "0.6 GPa"
+)toml");
+  return cases::read_case_text(fmt::format(R"(
+[time]
+end = "40 us"
+[domain]
+dimension = "axisymmetric"
+lower = ["-3 mm", "0 mm"]
+upper = ["3 mm", "32 mm"]
+cell_size = "0.5 mm"
+boundary = {{ y_upper = "separating" }}
+[[body]]
+name = "ring"
+material = "{}"
+shape = {{ box = {{ lower = ["-2 mm", "28 mm"], upper = ["2 mm", "32 mm"] }} }}
+[[body]]
+name = "bars"
+material = "{}"
+discretization = {{ method = "bars", bar_diameter = "0.5 mm" }}
+[[body.bar]]
+from = ["-1 mm", "30 mm"]
+to = ["-1 mm", "30 mm"]
+count = 3
+step = ["1 mm", "0 mm"]
+number = {}
+[[body.bar]]
+from = ["-1.5 mm", "29 mm"]
+to = ["1.5 mm", "29 mm"]
+number = 20
+[[load]]
+face = "y_upper"
+pressure = "10 MPa"
+)",
+                                           aluminium("section_ring", "300 MPa"), steel, hoops),
+                               "reinforced.toml");
+}
+
+TEST(SectionBars, HoopsCarryTheirShareAndKeepEnergyAndAxialMomentum) {
+  // The pressure p on the width w makes the hoop force p R_o w; twice the strain of rest, p R_o w/sum(E A), is reached.
+  const double young_of_ring = 72.3e9, young_of_steel = 206e9, hoop = 0.25e-6 * 0.25 * std::numbers::pi;
+  for (const double hoops : {1e-3, 40.0}) {
+    solver::Simulation simulation(reinforced(hoops), parallel::world());
+    EnergyWatch watch;
+    const auto mean_radius = [&] {
+      double mass = 0.0, moment = 0.0;
+      for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
+        mass += simulation.particles().mass[p];
+        moment += simulation.particles().mass[p] * simulation.particles().position[p][1];
+      }
+      return moment / mass;
+    };
+    const double start = mean_radius();
+    double least = start;
+    run_to(simulation, 40e-6, [&](const solver::Simulation& s) {
+      watch(s);
+      least = std::min(least, mean_radius());
+    });
+    EXPECT_LT(watch.worst, 1e-12);
+    const solver::Totals totals = simulation.totals();
+    EXPECT_LT(std::abs(totals.momentum[0]), 1e-12 * totals.momentum_scale);
+    const double stiffness = young_of_ring * 16e-6 + 3.0 * hoops * young_of_steel * hoop;
+    const double expected = 2.0 * 10e6 * 32e-3 * 4e-3 / stiffness;
+    const double found = std::log(start / least);
+    std::printf("%g hoops: strain %.3e, expected %.3e\n", hoops, found, expected);
+    EXPECT_NEAR(found, expected, 0.15 * expected);
+  }
+}
+
 TEST(RingElements, BBarIsRefusedByName) {
   std::string text = bar("axisymmetric", "finite_elements");
   text.replace(text.find("\"finite_elements\""), 17, "\"finite_elements\", element = \"b_bar\"");

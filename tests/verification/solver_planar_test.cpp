@@ -445,7 +445,6 @@ TEST(TwoDimensions, WhatNeedsThreeIsRefusedWithTheReason) {
               HasSubstr("must be along x, the axis"));
   EXPECT_THAT(error_of(text + "discretization = { method = \"finite_elements\", element = \"b_bar\" }\n"),
               HasSubstr("one point"));
-  EXPECT_THAT(error_of(text + "discretization = { method = \"bars\" }\n"), HasSubstr("three dimensions"));
   EXPECT_THAT(error_of(text + "angular_velocity = [\"0 rad/s\", \"0 rad/s\", \"1 rad/s\"]\n"),
               HasSubstr("nothing rotates in axisymmetry"));
   EXPECT_THAT(error_of(ball_on_plate("[gravity]\nacceleration = [\"0 m/s^2\", \"9.81 m/s^2\"]\n")),
