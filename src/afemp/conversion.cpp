@@ -160,7 +160,8 @@ Conversion convert(const fem::Mesh& mesh, std::size_t element, double affine_ine
   }
   drift /= mass;
   offset /= mass;
-  double relative = 0.0;  // kinetic energy of the fragments
+  if (mesh.quadrature == fem::Quadrature::ring) offset[1] = 0.0;  // the mean radius is no invariant
+  double relative = 0.0;                                          // kinetic energy of the fragments
   for (Fragment& f : out.fragment) {
     f.velocity -= drift;
     f.position -= offset;

@@ -6,7 +6,7 @@
 #include "src/fem/hexahedron.hpp"
 #include "src/fem/mesh.hpp"
 
-/// The quadrilateral of a plane or axisymmetric section (docs/theory/fem.md, 8): a hexahedron without depth, whose
+/// The quadrilateral of a plane or axisymmetric section (docs/theory/fem.md, 11): a hexahedron without depth, whose
 /// corners 4 to 7 are the nodes of its corners 0 to 3. A slice of unit depth or a ring; its volume is D A, with the
 /// area A of the section and D = 1 m or 2 pi r, r the mean radius of the corners. T is a number or a register.
 namespace whipple::fem {

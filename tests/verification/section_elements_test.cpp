@@ -214,6 +214,32 @@ TEST(RingElements, TaylorBarEqualsThreeDimensions) {
   EXPECT_NEAR(rings.foot, space.foot, 0.02 * space.foot);
 }
 
+TEST(RingElements, ASphereHasItsMass) {
+  const double pi = std::numbers::pi;
+  const std::vector<std::pair<std::string, double>> shapes = {
+      {"sphere = { center = [\"0 mm\", \"0 mm\"], radius = \"3 mm\" }", 36e-9 * pi},
+      {"box = { lower = [\"-2 mm\", \"0 mm\"], upper = [\"2 mm\", \"3 mm\"] }", 36e-9 * pi}};
+  for (const auto& [shape, volume] : shapes) {
+    const std::string text = R"(
+[time]
+end = "1 us"
+[domain]
+dimension = "axisymmetric"
+lower = ["-4 mm", "0 mm"]
+upper = ["4 mm", "4 mm"]
+cell_size = "0.75 mm"
+[[body]]
+name = "body"
+material = "copper_taylor.toml"
+discretization = { method = "finite_elements" }
+shape = { )" + shape + " }\n";
+    const cases::Case setup = cases::read_case_text(text, "section.toml");
+    const solver::Simulation simulation(setup, parallel::world());
+    const double mass = setup.materials[0]->reference.density * volume;
+    EXPECT_NEAR(simulation.totals().mass, mass, 1e-9 * mass);
+  }
+}
+
 class Converting : public testing::TestWithParam<const char*> {};
 
 TEST_P(Converting, EnergyAndMomentumAreExactThroughContactAndConversion) {

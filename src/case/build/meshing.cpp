@@ -152,6 +152,33 @@ void fit(fem::Hexahedra& section, const Shape::Bounds& whole, const Shape::Bound
   }
 }
 
+/// Returns whether a body looks the same from all sides of the x axis.
+bool is_of_revolution(const Shape& shape) {
+  constexpr int samples = 40;
+  const Shape::Bounds bounds = shape.bounds();
+  const double radius = 1.5 * bounds.upper[1];
+  for (int i = 0; i < samples; ++i) {
+    const double x = bounds.lower[0] + (i + 0.5) / samples * (bounds.upper[0] - bounds.lower[0]);
+    for (int j = 0; j < samples; ++j) {
+      const double r = (j + 0.5) / samples * radius;
+      for (const double angle : {0.4, 0.8, 1.2}) {
+        const Vector3 around(x, r * std::cos(angle), r * std::sin(angle));
+        if (shape.contains(around) != shape.contains(Vector3(x, r, 0.0))) return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// Widens a section of a body of revolution until its rings have the volume of the body, four times that of the quarter
+/// in three dimensions.
+void give_volume(fem::Hexahedra& section, double volume) {
+  const fem::Mesh rings = fem::make_mesh(section, fem::Quadrature::ring);
+  double of_rings = 0.0;
+  for (const double v : rings.points.volume) of_rings += v;
+  for (Vector3& x : section.nodes) x[1] *= std::sqrt(volume / of_rings);
+}
+
 fem::Hexahedra cut_by_planes(const Case& setup, const Body& body, fem::Hexahedra mesh) {
   const double tolerance = plane_tolerance * setup.geometry.cell_size;
   for (const Plane& plane : planes_of(setup)) cut(mesh, plane, tolerance, body.name);
@@ -165,7 +192,11 @@ fem::Hexahedra cut_by_planes(const Case& setup, const Body& body, fem::Hexahedra
                     "that is simulated: move it so that a layer of elements begins there",
                     body.name));
   }
-  if (body.discretization.mesh.empty()) fit(section, body.shape->bounds(), before_planes(setup));
+  if (!body.discretization.mesh.empty()) return section;
+  fit(section, body.shape->bounds(), before_planes(setup));
+  if (setup.geometry.is_axisymmetric() && is_of_revolution(*body.shape)) {
+    give_volume(section, 4.0 * fem::volume(mesh));
+  }
   return section;
 }
 

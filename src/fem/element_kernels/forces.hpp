@@ -30,7 +30,7 @@ struct ForcesOfOnePoint {
     Columns<Vector> stress = deviator_at<Vector>(mesh.points, group);
     add_to_diagonal(stress,
                     -(group.load(mesh.points.pressure) + group.load(mesh.points.artificial_viscosity)));
-    if constexpr (quadrature == Quadrature::ring) {  // of the hoop, outwards (eq. 8.3)
+    if constexpr (quadrature == Quadrature::ring) {  // of the hoop, outwards (eq. 11.3)
       forces.add_constant(group, 1, -0.125 * (stress.z.z * beta.volume / radius));
     }
     const auto q = hourglass_forces_of(mesh.elements, group);

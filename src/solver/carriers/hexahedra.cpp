@@ -47,7 +47,7 @@ void Hexahedra::compute_forces() {
     fem::internal_forces(meshes_[m]);
     of_mesh_[m].hoop_force = 0.0;
     if (meshes_[m].quadrature ==
-        fem::Quadrature::ring) {  // what does not add up to zero (docs/theory/fem.md, 8)
+        fem::Quadrature::ring) {  // what does not add up to zero (docs/theory/fem.md, 11)
       for (const Vector3& force : meshes_[m].nodes.force) of_mesh_[m].hoop_force += force[1];
     }
     add_loads(loads_, state_.run.time, meshes_[m].body, meshes_[m].nodes, of_mesh_[m].acceleration);
