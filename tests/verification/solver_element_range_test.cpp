@@ -6,6 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
 #include <string>
 
 #include "src/core/base/error.hpp"
@@ -143,6 +147,87 @@ TEST(ElementsBeyondTheirRange, AreFoundBySpeedAndByHourglassEnergy) {
                           parallel::world());
     EXPECT_THROW(run_to(simulation, 4e-6), StateError) << bound;
   }
+}
+
+// A hard rod erodes its way into a plate of four layers. When the struck layer has gone, the faces that it has exposed
+// take part in contact: they brake the rod, they are eroded in turn, and no node of the plate lies within it.
+TEST(ElementsBeyondTheirRange, FacesThatDeletionExposesTakePartInContact) {
+  const std::string hard = aluminium("range_hard", "5 GPa"), soft = aluminium("range_soft", "0.3 GPa");
+  Simulation simulation(cases::read_case_text(fmt::format(R"(
+[domain]
+lower = ["-6 mm", "-6 mm", "-8 mm"]
+upper = ["6 mm", "6 mm", "12 mm"]
+cell_size = "1 mm"
+[time]
+end = "10 us"
+[contact]
+method = "multi_field"
+friction = 0
+[[body]]
+name = "rod"
+material = "{0}"
+velocity = ["0 m/s", "0 m/s", "2 km/s"]
+discretization = {{ method = "finite_elements" }}
+shape = {{ box = {{ lower = ["-1 mm", "-1 mm", "-7 mm"], upper = ["1 mm", "1 mm", "0 mm"] }} }}
+[[body]]
+name = "plate"
+material = "{1}"
+discretization = {{ method = "finite_elements" }}
+shape = {{ box = {{ lower = ["-5 mm", "-5 mm", "0 mm"], upper = ["5 mm", "5 mm", "4 mm"] }} }}
+element_range = {{ beyond = "remove", plastic_strain = 0.2 }}
+)",
+                                                          hard, soft),
+                                              "exposed.toml"),
+                        parallel::world());
+  // Elements of the plate within the path of the rod, by their layer (identifiers stay).
+  const auto centre = [](const fem::Mesh& mesh, std::size_t e) {
+    Vector3 sum = Vector3::Zero();
+    for (const std::uint32_t a : mesh.elements.corners[e]) sum += mesh.nodes.position[a] / 8.0;
+    return sum;
+  };
+  std::map<std::uint64_t, int> layer;
+  const auto mesh_of = [&](std::uint32_t body) -> const fem::Mesh& {
+    return *std::ranges::find(simulation.meshes(), body, &fem::Mesh::body);
+  };
+  for (std::size_t e = 0; e < mesh_of(1).elements.id.size(); ++e) {
+    const Vector3 c = centre(mesh_of(1), e);
+    if (std::max(std::abs(c[0]), std::abs(c[1])) < 1e-3)
+      layer[mesh_of(1).elements.id[e]] = static_cast<int>(c[2] / 1e-3);
+  }
+  const auto momentum = [&] {
+    double sum = 0.0;
+    for (std::size_t a = 0; a < mesh_of(0).nodes.size(); ++a)
+      sum += mesh_of(0).nodes.mass[a] * mesh_of(0).nodes.velocity[a][2];
+    return sum;
+  };
+  const double initial = momentum();
+  double exposed = 0.0, deepest = 0.0;  // momentum of the rod when the first layer has gone; overlap, m
+  std::array<int, 4> left{};
+  run_to(simulation, 4e-6, [&](const Simulation& s) {
+    left = {};
+    for (const std::uint64_t id : mesh_of(1).elements.id) {
+      if (const auto at = layer.find(id); at != layer.end()) ++left[static_cast<std::size_t>(at->second)];
+    }
+    if (left[0] == 0 && exposed == 0.0) exposed = momentum();
+    ASSERT_LT(std::abs(s.state().ledger.energy_error(s.totals())), 1e-12);
+    double front = -1.0, nearest = 1.0;
+    for (const Vector3& x : mesh_of(0).nodes.position) front = std::max(front, x[2]);
+    for (const Vector3& x : mesh_of(1).nodes.position) {
+      if (std::max(std::abs(x[0]), std::abs(x[1])) < 0.5e-3) nearest = std::min(nearest, x[2]);
+    }
+    if (nearest < 1.0) deepest = std::max(deepest, front - nearest);
+  });
+  const solver::Ledger& ledger = simulation.state().ledger;
+  std::printf(
+      "rod: %.4f of its momentum with the first layer gone, %.4f at the end; left %d %d %d %d; overlap %.2f "
+      "mm\n",
+      exposed / initial, momentum() / initial, left[0], left[1], left[2], left[3], deepest * 1e3);
+  EXPECT_GT(exposed, 0.0);
+  EXPECT_LT(momentum(), 0.97 * exposed);
+  EXPECT_EQ(left[1], 0);
+  EXPECT_LT(deepest, 0.5e-3);
+  EXPECT_LT(std::abs(ledger.momentum_error(simulation.totals())), 1e-11);
+  EXPECT_EQ(simulation.particle_count(), 0U);
 }
 
 }  // namespace
