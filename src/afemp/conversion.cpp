@@ -33,26 +33,28 @@ ShapeFunctions shape_functions(const Vector3& xi) {
   return n;
 }
 
-using AtParticles = std::array<ShapeFunctions, corner_count>;
+/// Holds the functions at the particles, in the order of the corners: eight, or four in the middle plane.
+using AtParticles = std::vector<ShapeFunctions>;
 
-AtParticles make_at_particles(Arrangement arrangement) {
+AtParticles make_at_particles(Arrangement arrangement, bool flat) {
   AtParticles functions;
-  for (std::size_t k = 0; k < corner_count; ++k) {
+  for (std::size_t k = 0; k < (flat ? corner_count / 2 : corner_count); ++k) {
     const std::array<double, 3>& c = fem::corner_coordinates[k];
-    Vector3 xi = place * Vector3(c[0], c[1], c[2]);
-    if (arrangement == Arrangement::layered) {  // an octant of an element has edge 1 in natural coordinates
-      xi += layer_offset((c[0] > 0 ? 1U : 0U) + (c[1] > 0 ? 2U : 0U) + (c[2] > 0 ? 4U : 0U));
+    Vector3 xi = place * Vector3(c[0], c[1], flat ? 0.0 : c[2]);
+    if (arrangement == Arrangement::layered) {  // a part of an element has edge 1 in natural coordinates
+      const std::size_t quadrant = (c[0] > 0 ? 1U : 0U) + (c[1] > 0 ? 2U : 0U);
+      xi += flat ? planar_layer_offset(quadrant) : layer_offset(quadrant + (c[2] > 0 ? 4U : 0U));
     }
-    functions[k] = shape_functions(xi);
+    functions.push_back(shape_functions(xi));
   }
   return functions;
 }
 
-/// Returns the shape functions at the eight particle positions, in the order of the corners.
-const AtParticles& at_particles(Arrangement arrangement) {
-  static const AtParticles regular = make_at_particles(Arrangement::regular);
-  static const AtParticles layered = make_at_particles(Arrangement::layered);
-  return arrangement == Arrangement::layered ? layered : regular;
+const AtParticles& at_particles(Arrangement arrangement, bool flat) {
+  static const std::array<std::array<AtParticles, 2>, 2> all = {
+      {{make_at_particles(Arrangement::regular, false), make_at_particles(Arrangement::regular, true)},
+       {make_at_particles(Arrangement::layered, false), make_at_particles(Arrangement::layered, true)}}};
+  return all[arrangement == Arrangement::layered ? 1 : 0][flat ? 1 : 0];
 }
 
 /// Holds the contribution of a corner: its part of the nodal mass with the motion of the node.
@@ -69,7 +71,7 @@ struct Fragment {
 };
 
 struct Conversion {
-  std::array<Fragment, corner_count> fragment;
+  std::vector<Fragment> fragment;
   Matrix3 affine_velocity = Matrix3::Zero();  // of all fragments
   double heat = 0.0;                          // J
 };
@@ -87,11 +89,13 @@ std::array<Corner, corner_count> corners_of(const fem::Mesh& mesh, std::size_t e
 /// Sets masses, positions and domains (3.1).
 void place_fragments(const fem::Mesh& mesh, std::size_t element,
                      const std::array<Corner, corner_count>& corners, const AtParticles& at,
-                     std::array<Fragment, corner_count>& fragments) {
+                     std::vector<Fragment>& fragments) {
   const std::size_t rows = fem::points_per_element(mesh.quadrature);
+  const bool flat = fem::is_flat(mesh.quadrature);
+  fragments.resize(at.size());
   std::array<double, corner_count> jacobian{};
   double sum = 0.0, least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < corner_count; ++k) {
+  for (std::size_t k = 0; k < at.size(); ++k) {
     const ShapeFunctions& n = at[k];
     Fragment& f = fragments[k];
     f.position.setZero();
@@ -101,26 +105,28 @@ void place_fragments(const fem::Mesh& mesh, std::size_t element,
       j += corners[a].position * n.derivative[a].transpose();
     }
     f.extent = SymmetricTensor::from(0.25 * j * j.transpose());
+    if (flat) j(2, 2) = mesh.quadrature == fem::Quadrature::ring ? f.position[1] : 1.0;
     jacobian[k] = j.determinant();
     sum += jacobian[k];
     least = std::min(least, jacobian[k]);
   }
-  for (std::size_t k = 0; k < corner_count; ++k) {
+  for (std::size_t k = 0; k < at.size(); ++k) {
     Fragment& f = fragments[k];
-    const double equal = 1.0 / corner_count;
+    const double equal = 1.0 / static_cast<double>(at.size());
     f.share = rows == corner_count ? 1.0 : least > 0.0 ? jacobian[k] / sum : equal;
     f.mass = f.share * mesh.points.mass[element * rows + (rows == corner_count ? k : 0)];
   }
 }
 
 /// Returns the velocity gradient at the centre of the element.
-Matrix3 mean_gradient(const std::array<Corner, corner_count>& corners) {
+Matrix3 mean_gradient(const std::array<Corner, corner_count>& corners, bool flat) {
   static const ShapeFunctions center = shape_functions(Vector3::Zero());
   Matrix3 x = Matrix3::Zero(), v = Matrix3::Zero();  // derivatives with respect to natural coordinates
   for (std::size_t a = 0; a < corner_count; ++a) {
     x += corners[a].position * center.derivative[a].transpose();
     v += corners[a].velocity * center.derivative[a].transpose();
   }
+  if (flat) x(2, 2) = 1.0;
   return v * x.inverse();
 }
 
@@ -143,7 +149,7 @@ Conversion convert(const fem::Mesh& mesh, std::size_t element, double affine_ine
         0.5 * c.mass * ((c.velocity - mean).squaredNorm() + affine_inertia * c.affine_velocity.squaredNorm());
   }
   Vector3 drift = Vector3::Zero(), offset = Vector3::Zero();
-  for (std::size_t k = 0; k < corner_count; ++k) {
+  for (std::size_t k = 0; k < at.size(); ++k) {
     Fragment& f = out.fragment[k];
     f.velocity.setZero();
     for (std::size_t a = 0; a < corner_count; ++a) {
@@ -175,7 +181,7 @@ Conversion convert(const fem::Mesh& mesh, std::size_t element, double affine_ine
   double affine_energy = 0.0;
   if (affine_inertia > 0.0) {
     out.affine_velocity = missing / (mass * affine_inertia);
-    const double limit = mean_gradient(corners).norm();
+    const double limit = mean_gradient(corners, fem::is_flat(mesh.quadrature)).norm();
     const double wanted = out.affine_velocity.norm();
     if (wanted > limit) out.affine_velocity *= limit / wanted;
     affine_energy = 0.5 * mass * affine_inertia * out.affine_velocity.squaredNorm();
@@ -194,7 +200,7 @@ void write_particles(const fem::Mesh& mesh, std::size_t element, const Conversio
   const std::size_t rows = fem::points_per_element(mesh.quadrature);
   const MaterialPoints& material_points = mesh.points;
   const double heat = (conversion.heat + mesh.elements.hourglass_energy[element]) / fem::mass(mesh, element);
-  for (std::size_t k = 0; k < corner_count; ++k) {
+  for (std::size_t k = 0; k < conversion.fragment.size(); ++k) {
     const std::size_t p = first + k, row = element * rows + (rows == corner_count ? k : 0);
     for_each_field(material_points, [&](const auto& field) {
       const auto& from = field.of(material_points);
@@ -282,7 +288,8 @@ ConversionBalance convert_elements(fem::Mesh& mesh, std::span<const std::uint8_t
   balance.elements = list.size();
   if (list.empty()) return balance;
   const std::size_t before = particles.size();
-  resize(particles, before + corner_count * list.size());
+  const std::size_t parts = fem::particles_per_element(mesh.quadrature);
+  resize(particles, before + parts * list.size());
   const MaterialPoints& material_points = mesh.points;
   for_each_field(material_points, [&](const auto& field) {  // optional fields not yet needed by any particle
     if (!field.of(material_points).empty()) field.resize(particles, particles.size());
@@ -291,8 +298,9 @@ ConversionBalance convert_elements(fem::Mesh& mesh, std::span<const std::uint8_t
   particles.extent.resize(particles.size());
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::size_t e = list[i];
-    const Conversion conversion = convert(mesh, e, affine_inertia, at_particles(arrangement));
-    write_particles(mesh, e, conversion, before + corner_count * i, particles);
+    const Conversion conversion =
+        convert(mesh, e, affine_inertia, at_particles(arrangement, fem::is_flat(mesh.quadrature)));
+    write_particles(mesh, e, conversion, before + parts * i, particles);
     balance.mass += fem::mass(mesh, e);
     balance.kinetic_heat += conversion.heat;
     balance.hourglass_energy += mesh.elements.hourglass_energy[e];

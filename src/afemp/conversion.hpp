@@ -72,8 +72,8 @@ struct ConversionBalance {
   double hourglass_energy = 0.0;  ///< J, released into internal energy
 };
 
-/// Removes the chosen elements from the mesh and appends eight particles for each: at the natural coordinates
-/// (+-0.5)^3, or offset from them in layers, with the state of the element (of the Gauss point in their octant), ids
+/// Removes the chosen elements from the mesh and appends eight particles for each, four for a quadrilateral: at the
+/// natural coordinates (+-0.5)^3 or (+-0.5)^2, or offset from them in layers, with the state of the element (of the Gauss point in their octant), ids
 /// from 8 times that of the element on, and velocities by (3.2) to (3.6). Mass, momentum and energy are conserved to
 /// round-off, as is angular momentum unless the affine field is capped; the heat is not negative. Nodes that lost an
 /// element are marked as on the surface; nodes without elements are removed.

@@ -206,6 +206,11 @@ void Body::check(const Case& setup, const Faults& faults) const {
     return;
   }
   if (bars.empty()) faults.add("", "a body of bars needs [[body.bar]]");
+  for (std::size_t i = 0; !setup.domain.is_planar() && i < bars.size(); ++i) {
+    if (bars[i].number != 1.0) {
+      faults.in("bar").in(i).add("number", "'number' is that of a section: in three dimensions use 'count'");
+    }
+  }
   if (setup.contact.method == ContactMethod::multi_field && contact_group.empty()) {
     faults.add("contact_group",
                "bars have no surface of their own: 'contact_group' must be that of the body that they "

@@ -192,8 +192,15 @@ void check_planar(const Case& setup, const Faults& faults) {
     if (!lies_in_plane(body.expansion_rate)) {
       of_body.add("expansion_rate", fmt::format("expansion is {}", expected));
     }
-    if (body.discretization.has_elements() || body.discretization.is_bars()) {
-      of_body.add("discretization", "finite elements and bars require three dimensions: use particles");
+    for (std::size_t i = 0; i < body.bars.size(); ++i) {
+      const BarRow& row = body.bars[i];
+      if (row.from[2] != 0.0 || row.to[2] != 0.0 || row.step[2] != 0.0) {
+        of_body.in("bar").in(i).add("from", "bars of a section are in its plane");
+      }
+    }
+    if (body.discretization.has_elements() && body.discretization.element != fem::Quadrature::one_point) {
+      of_body.add("discretization",
+                  "the quadrilaterals of a section have one point: element = \"one_point\"");
     }
   }
   if (!lies_in_plane(setup.gravity.acceleration)) {

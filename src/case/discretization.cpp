@@ -109,7 +109,11 @@ ParameterTable<BarRow> BarRow::parameters() {
           vector("to", &B::to, "m", range::any(),
                  "second end; on a mirror plane for a bar that continues through it"),
           integer("count", &B::count, range::between(1, 100000), "number of parallel bars").optional(),
-          vector("step", &B::step, "m", range::any(), "offset from one bar to the next").optional()};
+          vector("step", &B::step, "m", range::any(), "offset from one bar to the next").optional(),
+          real("number", &B::number, "", range::positive(),
+               "in two dimensions: how many such bars a metre of depth, or all of the ring, holds; equal "
+               "ends in an axisymmetric domain are a hoop")
+              .optional()};
 }
 
 ParameterTable<NodeCondition> NodeCondition::parameters() {

@@ -105,12 +105,13 @@ struct NodeCondition {
   static ParameterTable<NodeCondition> parameters();
 };
 
-/// Describes one `bar` of a body of bars: a row of parallel bars.
+/// Describes one `bar` of a body of bars: a row of parallel bars. Ends at one place of an axisymmetric section are a hoop.
 struct BarRow {
   Vector3 from = Vector3::Zero();  ///< m
   Vector3 to = Vector3::Zero();    ///< m
   std::int64_t count = 1;
   Vector3 step = Vector3::Zero();  ///< m, offset from one bar to the next
+  double number = 1.0;             ///< in two dimensions: of such bars in the depth of the section
   static ParameterTable<BarRow> parameters();
 };
 

@@ -57,6 +57,7 @@ void SurfacePoints::add(const fem::Mesh& mesh, std::span<const fem::Facet> facet
     node.push_back(id);
     return static_cast<std::uint32_t>(position.size() - 1);
   };
+  const bool flat = fem::is_flat(mesh.quadrature);
   for (const fem::Facet& facet : facets) {
     std::array<Vector3, 4> x;
     for (std::size_t i = 0; i < 4; ++i) x[i] = mesh.nodes.position[facet[i]];
@@ -68,14 +69,19 @@ void SurfacePoints::add(const fem::Mesh& mesh, std::span<const fem::Facet> facet
     for (std::size_t i = 0; i < 4; ++i) edge = std::max(edge, (x[(i + 1) % 4] - x[i]).norm());
     const int parts = std::max(1, static_cast<int>(std::ceil(edge / spacing - 1e-9)));
     // Trapezoidal rule over the bilinear facet, in natural coordinates
+    const int parts_v = flat ? 0 : parts;  // an edge of a section is one row of points
     for (int i = 0; i <= parts; ++i) {
-      for (int j = 0; j <= parts; ++j) {
+      for (int j = 0; j <= parts_v; ++j) {
         const double u = static_cast<double>(i) / parts, v = static_cast<double>(j) / parts;
         const bool at_end_u = i == 0 || i == parts, at_end_v = j == 0 || j == parts;
         const Vector3 along_u = (1 - v) * (x[1] - x[0]) + v * (x[2] - x[3]);
-        const Vector3 along_v = (1 - u) * (x[3] - x[0]) + u * (x[2] - x[1]);
-        const Vector3 part =
-            (at_end_u ? 0.5 : 1.0) * (at_end_v ? 0.5 : 1.0) / (parts * parts) * along_u.cross(along_v);
+        Vector3 along_v = (1 - u) * (x[3] - x[0]) + u * (x[2] - x[1]);
+        double share = (at_end_u ? 0.5 : 1.0) * (at_end_v ? 0.5 : 1.0) / (parts * parts);
+        if (flat) {  // per depth, as that of particles
+          along_v = Vector3::UnitZ();
+          share = (at_end_u ? 0.5 : 1.0) / parts;
+        }
+        const Vector3 part = share * along_u.cross(along_v);
         std::uint32_t point = no_point;
         if (at_end_u && at_end_v) {
           const std::size_t corner = j == 0 ? (i == 0 ? 0U : 1U) : (i == 0 ? 3U : 2U);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "src/core/base/error.hpp"
@@ -14,9 +15,20 @@
 namespace whipple::fem {
 namespace {
 
-Vector3 along(const Bars& bars, std::size_t b) {
+bool is_hoop(const Bars& bars, std::size_t b) { return bars.elements.ends[b][0] == bars.elements.ends[b][1]; }
+
+/// Returns the difference of a field at the two ends; for a hoop its radial part, the difference from the axis.
+Vector3 between_ends(const Bars& bars, std::size_t b, const std::vector<Vector3>& field) {
   const auto& ends = bars.elements.ends[b];
-  return bars.nodes.position[ends[1]] - bars.nodes.position[ends[0]];
+  if (is_hoop(bars, b)) return {0.0, field[ends[1]][1], 0.0};
+  return field[ends[1]] - field[ends[0]];
+}
+
+Vector3 along(const Bars& bars, std::size_t b) { return between_ends(bars, b, bars.nodes.position); }
+
+/// Returns the length of a bar or the circumference of a hoop, m.
+double length_of(const Bars& bars, std::size_t b) {
+  return (is_hoop(bars, b) ? 2.0 * std::numbers::pi : 1.0) * along(bars, b).norm();
 }
 
 /// Returns the initial volume, m^3.
@@ -85,11 +97,11 @@ Bars make_bars(const Lines& lines, double area, const BarMaterial& material, con
                                      lines.nodes.size()));
       }
     }
-    const double length = along(bars, b).norm();
+    const double length = length_of(bars, b);
     if (!(length > 0.0) || !std::isfinite(length))
       throw InputError(fmt::format("{}: bar {} has no length", name, b));
     bars.elements.reference_length[b] = length;
-    bars.elements.mass[b] = material.density * area * length;
+    bars.elements.mass[b] = material.density * area * length * lines.number[b];
   }
   connect(bars);
   lump_masses(bars);
@@ -122,7 +134,7 @@ double critical_time_step(const Bars& bars) {
          });
 }
 
-void internal_forces(Bars& bars) {
+double internal_forces(Bars& bars) {
   parallel::for_each(bars.elements.size(), [&](std::size_t b) {
     const Vector3 x = along(bars, b);
     bars.axial_force[b] = (-bars.elements.stress[b] * volume(bars, b) / x.squaredNorm()) * x;
@@ -131,10 +143,13 @@ void internal_forces(Bars& bars) {
     Vector3 force = Vector3::Zero();
     for (std::uint32_t k = bars.first_end[a]; k < bars.first_end[a + 1]; ++k) {
       const std::uint32_t end = bars.node_ends[k];
+      if (end % 2 == 0 && is_hoop(bars, end / 2)) continue;  // the first end is the axis
       force += (end % 2 == 1 ? 1.0 : -1.0) * bars.axial_force[end / 2];
     }
     bars.nodes.force[a] = force;
   });
+  return parallel::sum<double>(
+      bars.elements.size(), [&](std::size_t b) { return is_hoop(bars, b) ? bars.axial_force[b][1] : 0.0; });
 }
 
 BarWork deform(Bars& bars, const Motion& motion, double dt) {
@@ -142,10 +157,9 @@ BarWork deform(Bars& bars, const Motion& motion, double dt) {
     throw InternalError("fem::deform: velocities do not fit the bars");
   }
   return parallel::sum<BarWork>(bars.elements.size(), [&](std::size_t b) {
-    const auto& [first, second] = bars.elements.ends[b];
     const Vector3 x = along(bars, b);
-    const Vector3 end = x + dt * (motion.end[second] - motion.end[first]);
-    const double rate = x.dot(motion.mean[second] - motion.mean[first]) / x.squaredNorm();  // of the strain
+    const Vector3 end = x + dt * between_ends(bars, b, motion.end);
+    const double rate = x.dot(between_ends(bars, b, motion.mean)) / x.squaredNorm();  // of the strain
     const double work = dt * volume(bars, b) * bars.elements.stress[b] * rate;
     bars.elements.internal_energy[b] += work;
     const double strain = 0.5 * std::log(end.squaredNorm() / x.squaredNorm());

@@ -17,10 +17,16 @@
 /// finite element nodes: they move independently, or with the velocity field of a grid.
 namespace whipple::fem {
 
-/// Holds points and the two ends of every bar.
+/// Holds points and the two ends of every bar. A bar whose ends are one node is a hoop about the x axis (eq. 6.5).
 struct Lines {
   std::vector<Vector3> nodes;  ///< m
   std::vector<std::array<std::uint32_t, 2>> elements;
+  std::vector<double> number;  ///< of equal bars that each element stands for: a row of them
+
+  void add(const std::array<std::uint32_t, 2>& ends, double of_row = 1.0) {
+    elements.push_back(ends);
+    number.push_back(of_row);
+  }
 };
 
 /// Describes an elastic-plastic bar based on the logarithmic strain (eq. 6.2).
@@ -68,8 +74,8 @@ struct Bars {
 
 /// Creates bars from lines.
 /// @param area  m^2, of the cross-section
-/// @throws InputError if density, stiffness or area is not positive, if a bar has zero length, a node that does not
-/// exist or the same node twice, or if a node belongs to no bar
+/// @throws InputError if density, stiffness or area is not positive, if a bar has zero length, a hoop no radius, or if a
+/// node does not exist or belongs to no bar
 Bars make_bars(const Lines& lines, double area, const BarMaterial& material, const std::string& name,
                std::uint32_t body = 0, std::uint64_t first_node_id = 0, std::uint64_t first_element_id = 0);
 
@@ -83,7 +89,8 @@ void lump_masses(Bars& bars);
 double critical_time_step(const Bars& bars);
 
 /// Computes the nodal forces into `nodes.force` (eq. 6.1).
-void internal_forces(Bars& bars);
+/// @returns the radial force of hoops, N: what does not add up to zero
+double internal_forces(Bars& bars);
 
 /// Holds work into the internal energy of bars, and what of it is heat of plastic flow and of bars that break, J.
 struct BarWork {

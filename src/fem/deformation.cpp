@@ -40,7 +40,9 @@ void forces_of_block(Mesh& mesh, std::size_t block, typename Kernels::Field& pos
   if (mesh.quadrature == Quadrature::b_bar) {
     Kernels::forces(mesh, block, typename Kernels::BBarForces{}, position);
   } else {
-    Kernels::forces(mesh, block, typename Kernels::OnePointForces{}, position);
+    with_shape_of(mesh.quadrature, [&]<Quadrature quadrature>() {
+      Kernels::forces(mesh, block, typename Kernels::template OnePointForces<quadrature>{}, position);
+    });
   }
 }
 
@@ -52,8 +54,12 @@ DeformationReport deform_block(const DeformationStep& step, const Motion& motion
     return Kernels::deform(step, motion, block, kernel, position);
   };
   if (step.mesh.quadrature == Quadrature::b_bar) return deform_by(typename Kernels::EightPoints{});
-  if (step.hourglass.kind == HourglassControl::Kind::viscous) return deform_by(typename Kernels::Viscous{});
-  return deform_by(typename Kernels::Stiffness{});
+  return with_shape_of(step.mesh.quadrature, [&]<Quadrature quadrature>() {
+    if (step.hourglass.kind == HourglassControl::Kind::viscous) {
+      return deform_by(typename Kernels::template Viscous<quadrature>{});
+    }
+    return deform_by(typename Kernels::template Stiffness<quadrature>{});
+  });
 }
 
 }  // namespace

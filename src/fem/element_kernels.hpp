@@ -4,7 +4,8 @@
 #include <cstddef>
 #include <span>
 
-#include "src/fem/element_kernels/deformation_and_forces.hpp"
+#include "src/fem/element_kernels/deformation.hpp"
+#include "src/fem/element_kernels/forces.hpp"
 
 /// The loops over the elements of a block, one element per lane: four at a time with AVX2, eight with AVX-512. Each lane
 /// performs the same operations in the same order in both, and sums over lanes are taken in groups of four, so the
@@ -58,16 +59,15 @@ struct Kernels {
     });
   }
 
-  /// Computes the forces kernel(mesh, group, position modes) of the elements of a block, at its slots.
+  /// Computes the forces that kernel(mesh, group, positions, forces) adds for the elements of a block, at its slots.
   template <class Kernel>
   static void forces(Mesh& mesh, std::size_t block, const Kernel& kernel, Field& position) {
     Registers::run([&]() WHIPPLE_INLINE {
       Field force;
       force.zero(mesh, block);
       for (const ElementGroup& all : groups_of(mesh, block)) {
-        for_each_part<Vector>(all, [&](const Group<Vector>& group) WHIPPLE_INLINE {
-          force.add(group, kernel(mesh, group, position.of(group).modes()));
-        });
+        for_each_part<Vector>(all, [&](const Group<Vector>& group)
+                                       WHIPPLE_INLINE { kernel(mesh, group, position.of(group), force); });
       }
       Blocks& blocks = mesh.blocks;
       const std::uint32_t first = blocks.first_slot[block];
@@ -75,10 +75,13 @@ struct Kernels {
     });
   }
 
-  using Viscous = OnePoint<Vector, HourglassControl::Kind::viscous>;
-  using Stiffness = OnePoint<Vector, HourglassControl::Kind::stiffness>;
+  template <Quadrature quadrature>
+  using Viscous = OnePoint<Vector, HourglassControl::Kind::viscous, quadrature>;
+  template <Quadrature quadrature>
+  using Stiffness = OnePoint<Vector, HourglassControl::Kind::stiffness, quadrature>;
   using EightPoints = DeformEightPoints<Vector>;
-  using OnePointForces = ForcesOfOnePoint<Vector>;
+  template <Quadrature quadrature>
+  using OnePointForces = ForcesOfOnePoint<Vector, quadrature>;
   using BBarForces = ForcesOfBBar<Vector>;
 };
 

@@ -74,10 +74,11 @@ std::vector<Facet> surface_facets(const Mesh& mesh, std::span<const std::uint8_t
   const auto all_marked = [&](const auto& nodes) {
     return marked.empty() || std::ranges::all_of(nodes, [&](std::uint32_t a) { return marked[a] != 0; });
   };
-  std::vector<std::uint8_t> free(mesh.elements.size(), 0);  // one bit per face of each element
+  std::vector<std::uint8_t> free(mesh.elements.size(), 0);          // one bit per face of each element
+  const std::size_t first_face = is_flat(mesh.quadrature) ? 2 : 0;  // none across the plane
   parallel::for_each(free.size(), [&](std::size_t e) {
     const Corners& corners = mesh.elements.corners[e];
-    for (std::size_t f = 0; f < 6; ++f) {
+    for (std::size_t f = first_face; f < 6; ++f) {
       const Facet facet = face(corners, f);
       if (all_marked(facet) && !is_shared(mesh, e, facet)) {
         free[e] = static_cast<std::uint8_t>(free[e] | 1U << f);

@@ -11,7 +11,8 @@
 
 namespace whipple::fem {
 
-/// Holds the nodes of a face of a hexahedron, counter-clockwise about its outward normal.
+/// Holds the nodes of a face of a hexahedron, counter-clockwise about its outward normal. An edge of a quadrilateral,
+/// from a to b counter-clockwise, is (a, b, b, a).
 using Facet = std::array<std::uint32_t, 4>;
 
 /// Returns the faces that belong to one element only, the surface of a mesh, in the order of the elements. The mesh

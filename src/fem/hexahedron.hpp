@@ -162,12 +162,6 @@ template <class T>
   return room > 0.0 ? series : y;
 }
 
-/// Returns the length of a one-point element (m): V sqrt(3/2 / sum_a |B_a|^2), the edge of a cube (eq. 5.2).
-template <class T>
-[[gnu::always_inline]] inline T one_point_length(const VolumeGradient<T>& g) {
-  return g.volume / sqrt((2.0 / 3.0) * g.squared_norm());
-}
-
 /// Holds measures of the size of an element from eight Gauss points.
 template <class T>
 struct EightPointSize {

@@ -15,6 +15,7 @@
 #include "src/fem/hexahedron.hpp"
 #include "src/fem/lists.hpp"
 #include "src/fem/order.hpp"
+#include "src/fem/quadrilateral.hpp"
 
 namespace whipple::fem {
 namespace {
@@ -44,6 +45,28 @@ double shape_at_gauss_point(std::size_t corner, std::size_t point) {
     n *= 1.0 + gauss_coordinate * corner_coordinates[corner][i] * corner_coordinates[point][i];
   }
   return n;
+}
+
+/// Returns the mean radius of the corners, m.
+double mean_radius(const std::vector<Vector3>& position, const Corners& corners) {
+  double sum = 0.0;
+  for (const std::uint32_t a : corners) sum += position[a][1];
+  return sum / 8.0;
+}
+
+/// Sets volumes and lengths of the points of an element.
+void measure(Mesh& mesh, std::size_t e) {
+  const Modes<double> x = modes(mesh.nodes.position, mesh.elements.corners[e]);
+  const double radius = mean_radius(mesh.nodes.position, mesh.elements.corners[e]);
+  with_shape_of(mesh.quadrature, [&]<Quadrature quadrature>() {
+    const VolumeGradient<double> g = volume_gradient_of<quadrature>(x, radius);
+    const std::size_t n = points_per_element(mesh.quadrature);
+    for (std::size_t q = 0; q < n; ++q) {
+      mesh.points.volume[n * e + q] = n == 1 ? g.volume : jacobian(x, q, gauss_coordinate);
+      mesh.points.length[n * e + q] =
+          n == 1 ? length_of<quadrature>(g, radius) : eight_point_size(x, g).length;
+    }
+  });
 }
 
 std::string inversion(const Modes<double>& x) {
@@ -246,14 +269,7 @@ Mesh make_mesh(const Hexahedra& hexahedra, Quadrature quadrature, std::uint32_t 
   std::ranges::fill(mesh.nodes.affine_velocity, Matrix3::Zero());
   for (const auto component : Elements::hourglass_components())
     std::ranges::fill(mesh.elements.*component, 0.0);
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    const Modes<double> x = modes(mesh.nodes.position, mesh.elements.corners[e]);
-    const VolumeGradient<double> g = volume_gradient(x);
-    for (std::size_t q = 0; q < n; ++q) {
-      mesh.points.volume[n * e + q] = n == 1 ? g.volume : jacobian(x, q, gauss_coordinate);
-      mesh.points.length[n * e + q] = n == 1 ? one_point_length(g) : eight_point_size(x, g).length;
-    }
-  }
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) measure(mesh, e);
   connect(mesh);
   return mesh;
 }
@@ -264,7 +280,7 @@ void set_density(Mesh& mesh, double density) {
 }
 
 double corner_mass(const Mesh& mesh, std::size_t element, std::size_t corner) {
-  if (mesh.quadrature == Quadrature::one_point) return 0.125 * mesh.points.mass[element];
+  if (mesh.quadrature != Quadrature::b_bar) return 0.125 * mesh.points.mass[element];
   double sum = 0.0;
   for (std::size_t q = 0; q < 8; ++q)
     sum += shape_at_gauss_point(corner, q) * mesh.points.mass[8 * element + q];
@@ -324,13 +340,28 @@ double volume(const Hexahedra& hexahedra) {
 }
 
 double volume(const Mesh& mesh, std::size_t element) {
-  return volume_of(modes(mesh.nodes.position, mesh.elements.corners[element]));
+  const Corners& corners = mesh.elements.corners[element];
+  return with_shape_of(mesh.quadrature, [&]<Quadrature quadrature>() {
+    return volume_gradient_of<quadrature>(modes(mesh.nodes.position, corners),
+                                          mean_radius(mesh.nodes.position, corners))
+        .volume;
+  });
 }
 
 double scaled_jacobian(const Mesh& mesh, std::size_t element) {
   const std::array<Triple<double>, 8> x =
       corner_positions(mesh.nodes.position, mesh.elements.corners[element]);
   double least = std::numeric_limits<double>::infinity();
+  if (is_flat(mesh.quadrature)) {  // the two edges of each corner: 4 times its Jacobian
+    double sum = 0.0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Triple<double> before = x[k] - x[(k + 3) % 4], behind = x[(k + 1) % 4] - x[k];
+      const double twice_area = cross(before, behind).z;
+      least = std::min(least, twice_area);
+      sum += twice_area;
+    }
+    return 4.0 * least / std::abs(sum);
+  }
   for (std::size_t layer = 0; layer < 8; layer += 4) {
     std::array<Triple<double>, 4> edge;  // around the face, from each corner to the next
     for (std::size_t k = 0; k < 4; ++k) edge[k] = x[layer + (k + 1) % 4] - x[layer + k];

@@ -21,13 +21,22 @@ namespace whipple::fem {
 enum class Quadrature : std::uint8_t {
   one_point,  ///< mean gradient of Flanagan & Belytschko, with hourglass control
   b_bar,      ///< 2 x 2 x 2 Gauss points, mean volumetric strain of the element (Hughes' B-bar)
+  plane,      ///< one point of a quadrilateral in plane strain (quadrilateral.hpp)
+  ring,       ///< one point of a quadrilateral that stands for a ring about the x axis
 };
+/// Lists what a case chooses from; the dimension of its domain decides on quadrilaterals.
 constexpr std::array<Word<Quadrature>, 2> words(Quadrature) {
   return {{{Quadrature::one_point, "one_point"}, {Quadrature::b_bar, "b_bar"}}};
 }
 constexpr std::size_t points_per_element(Quadrature quadrature) {
-  return quadrature == Quadrature::one_point ? 1 : 8;
+  return quadrature == Quadrature::b_bar ? 8 : 1;
 }
+/// Returns whether the elements are quadrilaterals: hexahedra whose corners 4 to 7 repeat the corners 0 to 3.
+constexpr bool is_flat(Quadrature quadrature) {
+  return quadrature == Quadrature::plane || quadrature == Quadrature::ring;
+}
+/// Returns the number of particles that an element becomes.
+constexpr std::size_t particles_per_element(Quadrature quadrature) { return is_flat(quadrature) ? 4 : 8; }
 
 /// Lists the directions in which the velocity of a node is prescribed: bits of Nodes::constrained.
 namespace constraint {
@@ -154,10 +163,10 @@ void lump_masses(Mesh& mesh);
 void remove_elements(Mesh& mesh, std::span<const std::uint8_t> removed);
 
 double mass(const Mesh& mesh, std::size_t element);
-/// Returns the volume of the trilinear hexahedron, m^3 (exact); negative if inverted.
+/// Returns the volume of the trilinear hexahedron (exact) or quadrilateral, m^3; negative if inverted.
 double volume(const Mesh& mesh, std::size_t element);
-/// Returns the minimum Jacobian of the eight corners over the mean one, an eighth of the volume: 1 for a
-/// parallelepiped, 0 if a corner is flat, negative if it is inverted.
+/// Returns the minimum Jacobian of the corners over the mean one: 1 for a parallelepiped or parallelogram, 0 if a corner
+/// is flat, negative if it is inverted.
 double scaled_jacobian(const Mesh& mesh, std::size_t element);
 
 /// Returns the nodes whose coordinate along an axis (0 to 2) is within `tolerance` (m) of the given one.

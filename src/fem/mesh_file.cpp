@@ -170,7 +170,7 @@ Lines MeshFile::lines(const std::string& name) const {
     if (nodes[0] == nodes[1]) {
       throw InputError(fmt::format("{} has one node twice", located(e, name)));
     }
-    result.elements.push_back({number[nodes[0]], number[nodes[1]]});
+    result.add({number[nodes[0]], number[nodes[1]]});
   }
   return result;
 }

@@ -61,7 +61,7 @@ Links link_elements(std::span<const Corners> corners, const std::vector<std::uin
     const std::uint32_t node = corners[e][direction.front[0]];
     for (std::uint32_t k = first_corner[node]; k < first_corner[node + 1]; ++k) {
       const std::uint32_t other = node_corners[k] / 8;
-      bool same = true;
+      bool same = other != e;  // a quadrilateral is its own neighbour across the plane
       for (std::size_t i = 0; i < 4; ++i)
         same = same && corners[other][direction.back[i]] == corners[e][direction.front[i]];
       if (same) links.join(e, other);

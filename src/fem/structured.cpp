@@ -336,4 +336,31 @@ Hexahedra make_sphere(double radius, double size, const Halved& halved) {
   return mesh;
 }
 
+Hexahedra section_of(const Hexahedra& hexahedra, double tolerance) {
+  // Faces clockwise about their outward normal, which is -z here: counter-clockwise seen from z > 0.
+  constexpr std::array<std::array<std::size_t, 4>, 6> inward = {
+      {{0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1}, {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}}};
+  constexpr auto unused = std::numeric_limits<std::uint32_t>::max();
+  Hexahedra section;
+  std::vector<std::uint32_t> number(hexahedra.nodes.size(), unused);
+  const auto in_plane = [&](std::uint32_t a) { return std::abs(hexahedra.nodes[a][2]) <= tolerance; };
+  for (const Corners& corners : hexahedra.elements) {
+    const auto above = [&](std::uint32_t a) { return hexahedra.nodes[a][2] > tolerance; };
+    if (!std::ranges::any_of(corners, above)) continue;
+    for (const std::array<std::size_t, 4>& face : inward) {
+      if (!std::ranges::all_of(face, [&](std::size_t k) { return in_plane(corners[k]); })) continue;
+      Corners& added = section.elements.emplace_back();
+      for (std::size_t k = 0; k < 4; ++k) {
+        const std::uint32_t a = corners[face[k]];
+        if (number[a] == unused) {
+          number[a] = static_cast<std::uint32_t>(section.nodes.size());
+          section.nodes.emplace_back(hexahedra.nodes[a][0], hexahedra.nodes[a][1], 0.0);
+        }
+        added[k] = added[k + 4] = number[a];
+      }
+    }
+  }
+  return section;
+}
+
 }  // namespace whipple::fem

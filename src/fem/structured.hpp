@@ -42,6 +42,11 @@ Hexahedra make_sphere(double radius, double size, const Halved& halved = {});
 /// Applies x <- rotation x + translation; for reflections the elements are reversed, so that they are not inverted.
 void transform(Hexahedra& hexahedra, const Matrix3& rotation, const Vector3& translation);
 
+/// Returns the quadrilaterals of the section z = 0: the faces of the hexahedra in that plane, counter-clockwise in (x,
+/// y), of elements at z > 0. Corners 4 to 7 repeat the corners 0 to 3. Empty if there is no such face.
+/// @param tolerance  m
+Hexahedra section_of(const Hexahedra& hexahedra, double tolerance);
+
 /// Merges nodes that are closer than `tolerance` (m) to each other.
 void merge_nodes(Hexahedra& hexahedra, double tolerance);
 

@@ -154,8 +154,7 @@ void write_meshes(const hdf5::Group& group, std::span<const fem::Mesh> meshes, c
     const fem::Mesh& mesh = meshes[m];
     const hdf5::Group of_mesh = group.create_group(std::to_string(m));
     of_mesh.set_attribute("body", static_cast<std::int64_t>(mesh.body));
-    of_mesh.set_attribute("points_per_element",
-                          static_cast<std::int64_t>(fem::points_per_element(mesh.quadrature)));
+    of_mesh.set_attribute("quadrature", static_cast<std::int64_t>(mesh.quadrature));
     write_points(of_mesh.create_group("nodes"), mesh.nodes, ranks);
     write_points(of_mesh.create_group("elements"), mesh.elements, ranks);
     write_points(of_mesh.create_group("points"), mesh.points, ranks);
@@ -188,8 +187,12 @@ std::vector<fem::Mesh> read_meshes(const hdf5::Group& group, const Ranks& ranks)
     fem::Mesh& mesh = meshes[m];
     const hdf5::Group of_mesh = group.open_group(std::to_string(m));
     mesh.body = static_cast<std::uint32_t>(of_mesh.integer_attribute("body"));
-    mesh.quadrature = of_mesh.integer_attribute("points_per_element") == 1 ? fem::Quadrature::one_point
-                                                                           : fem::Quadrature::b_bar;
+    const std::int64_t quadrature = of_mesh.integer_attribute("quadrature");
+    if (quadrature < 0 || quadrature > static_cast<std::int64_t>(fem::Quadrature::ring)) {
+      throw InputError(
+          fmt::format("{}: is of the quadrature {}, which does not exist", of_mesh.name(), quadrature));
+    }
+    mesh.quadrature = static_cast<fem::Quadrature>(quadrature);
     read_points(of_mesh.open_group("nodes"), mesh.nodes, ranks);
     read_points(of_mesh.open_group("elements"), mesh.elements, ranks);
     read_points(of_mesh.open_group("points"), mesh.points, ranks);

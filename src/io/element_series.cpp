@@ -39,7 +39,9 @@ constexpr std::uint8_t failed_by_plastic_strain = 2;  // as in the description o
 void write_bar(const fem::Bars& bars, std::size_t b, Particles& points, std::size_t p) {
   const fem::BarElements& elements = bars.elements;
   const auto& [first, second] = elements.ends[b];
-  const Vector3 along = (bars.nodes.position[second] - bars.nodes.position[first]).normalized();
+  const Vector3 along =  // of a hoop across the section
+      first == second ? Vector3::UnitZ().eval()
+                      : (bars.nodes.position[second] - bars.nodes.position[first]).normalized();
   points.mass[p] = elements.mass[b];
   points.volume[p] = elements.mass[b] / bars.material.density;
   points.pressure[p] = -elements.stress[b] / 3.0;
@@ -131,20 +133,23 @@ UnstructuredGrid ElementSeries::grid(std::span<const fem::Mesh> meshes, std::spa
   };
   const auto all = std::make_shared<All>();  // lives as long as the arrays
   const auto append = [](auto& to, const auto& more) { to.insert(to.end(), more.begin(), more.end()); };
-  const auto append_body = [&](const fem::Nodes& nodes, const auto& nodes_of_element) {
+  const auto append_body = [&](const fem::Nodes& nodes, const auto& nodes_of_element, std::size_t count) {
     const auto first = static_cast<std::int64_t>(all->position.size());
     append(all->position, nodes.position);
     append(all->velocity, nodes.velocity);
     append(all->id, nodes.id);
     append(all->in_transition, nodes.in_transition);
     for (const auto& of_element : nodes_of_element) {
-      for (const std::uint32_t a : of_element)
+      for (const std::uint32_t a : std::span(of_element).first(count))
         all->connectivity.push_back(first + static_cast<std::int64_t>(a));
     }
   };
-  for (const fem::Mesh& mesh : meshes) append_body(mesh.nodes, mesh.elements.corners);
-  const std::size_t hexahedra = all->connectivity.size() / 8;
-  for (const fem::Bars& of_body : bars) append_body(of_body.nodes, of_body.elements.ends);
+  const bool flat =
+      std::ranges::any_of(meshes, [](const fem::Mesh& mesh) { return fem::is_flat(mesh.quadrature); });
+  const std::size_t corners = flat ? 4 : 8;  // a section has quadrilaterals only
+  for (const fem::Mesh& mesh : meshes) append_body(mesh.nodes, mesh.elements.corners, corners);
+  const std::size_t cells = all->connectivity.size() / corners;
+  for (const fem::Bars& of_body : bars) append_body(of_body.nodes, of_body.elements.ends, 2);
   all->elements = elements_as_points(meshes, bars);
   const std::uint64_t n = all->elements.size(), nodes = all->position.size();
   const auto rank = static_cast<std::uint64_t>(ranks_.rank()),
@@ -159,12 +164,15 @@ UnstructuredGrid ElementSeries::grid(std::span<const fem::Mesh> meshes, std::spa
   const hdf5::Slab bounds{of_cells.first + rank, n + 1, of_cells.total + partitions};
   grid.geometry.emplace_back(
       "Offsets", bounds,
-      [hexahedra](std::size_t e) {
-        return static_cast<std::int64_t>(8 * std::min(e, hexahedra) + 2 * (e - std::min(e, hexahedra)));
+      [cells, corners](std::size_t e) {
+        return static_cast<std::int64_t>(corners * std::min(e, cells) + 2 * (e - std::min(e, cells)));
       },
       Array::From::row_number);
   grid.geometry.emplace_back(
-      "Types", of_cells, [hexahedra](std::size_t e) { return e < hexahedra ? vtk_hexahedron : vtk_line; },
+      "Types", of_cells,
+      [cells, flat](std::size_t e) { return e >= cells ? vtk_line
+                                            : flat     ? vtk_quad
+                                                       : vtk_hexahedron; },
       Array::From::row_number);
   grid.cell_data = arrays_of(fields_, {all->elements, options_.material_of_body}, of_cells);
   grid.point_data.emplace_back("velocity", of_nodes, [all](std::size_t i) { return all->velocity[i]; });

@@ -108,7 +108,7 @@ class Array {
 };
 
 /// Defines cell types of VTK.
-constexpr std::uint8_t vtk_vertex = 1, vtk_line = 3, vtk_hexahedron = 12;
+constexpr std::uint8_t vtk_vertex = 1, vtk_line = 3, vtk_quad = 9, vtk_hexahedron = 12;
 
 /// Holds an unstructured grid of VTKHDF 1.0, one partition per rank.
 struct UnstructuredGrid {

@@ -266,9 +266,7 @@ void grid_to_nodes(const ShapeFunctions& functions, TransitionNodes& nodes, Bloc
   using enum AffineField;
   const double smoothing = functions.slope_smoothing;
   with_shape(functions.kind, [&]<class Shape>(Shape) {
-    if constexpr (Planar<Shape>) {
-      throw InternalError("elements need three dimensions");
-    } else if constexpr (CarriesAffineField<Shape>) {
+    if constexpr (CarriesAffineField<Shape>) {
       if (affine == none) return move_nodes<Shape, false>(smoothing, nodes, grid, dt, none);
       return move_nodes<Shape, true>(smoothing, nodes, grid, dt, affine);
     } else {

@@ -147,8 +147,7 @@ double hoop_force(const Particles& particles, const grid::BlockGrid& grid,
 
 void nodes_to_grid(ShapeFunction shape, const TransitionNodes& nodes, grid::BlockGrid& grid, Region region) {
   with_shape(shape, [&]<class Shape>(Shape) {
-    if constexpr (CarriesAffineField<Shape> && !Planar<Shape>)
-      scatter_region<Shape>(OfNodes{nodes}, grid, region, no_slopes);
+    if constexpr (CarriesAffineField<Shape>) scatter_region<Shape>(OfNodes{nodes}, grid, region, no_slopes);
   });
 }
 

@@ -17,7 +17,7 @@ namespace whipple::fem_test {
 
 using fem::Quadrature;
 
-constexpr std::array both = {Quadrature::one_point, Quadrature::b_bar};
+inline constexpr std::array both = {Quadrature::one_point, Quadrature::b_bar};
 inline const char* name(Quadrature q) { return q == Quadrature::one_point ? "one point" : "B-bar"; }
 
 /// Linear elastic for small strains: p = K (rho/rho0 - 1) in tension, a stiffening Hugoniot in compression of

@@ -23,7 +23,7 @@ fem::Lines straight(std::size_t n, double length) {
   fem::Lines lines;
   for (std::size_t i = 0; i <= n; ++i)
     lines.nodes.emplace_back(length * static_cast<double>(i) / static_cast<double>(n), 0, 0);
-  for (std::uint32_t i = 0; i < n; ++i) lines.elements.push_back({i, i + 1});
+  for (std::uint32_t i = 0; i < n; ++i) lines.add({i, i + 1});
   return lines;
 }
 
@@ -87,7 +87,8 @@ TEST(Bars, RodFrequencyConverges) {
 TEST(Bars, EnergyMomentumAngularMomentumOfATumblingFrame) {
   fem::Lines tetrahedron;
   tetrahedron.nodes = {Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(0, 1, 0), Vector3(0, 0, 1)};
-  tetrahedron.elements = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {2, 3}, {3, 1}};
+  for (const auto& ends : {std::array{0U, 1U}, {0U, 2U}, {0U, 3U}, {1U, 2U}, {2U, 3U}, {3U, 1U}})
+    tetrahedron.add(ends);
   fem::BarMaterial material = steel();
   material.yield_stress = 400e6;
   material.hardening_modulus = 2e9;
@@ -159,6 +160,46 @@ TEST(Bars, PlasticityHasItsClosedForm) {
   fem::internal_forces(bars);
   EXPECT_EQ(bars.nodes.force[1].norm(), 0.0);
   EXPECT_NEAR(fem::internal_energy(bars), work, 1e-12 * work);
+}
+
+TEST(Bars, AHoopBreathesWithItsFrequencyAndEndsWhereItsPlasticWorkIsDone) {
+  // omega = c/R; rigid-plastic: rho v^2/2 = Y ln(R/R0) + Y^2/(2 E). A row of three is three times as heavy.
+  const double radius = 0.1, speed = 100.0, area = 1e-4;
+  fem::BarMaterial material = steel();
+  for (const double yield : {std::numeric_limits<double>::infinity(), 250e6}) {
+    material.yield_stress = yield;
+    fem::Lines lines;
+    lines.nodes.emplace_back(0.3, radius, 0.0);
+    lines.add({0, 0}, 3.0);
+    Bars bars = fem::make_bars(lines, area, material, "hoop");
+    const double mass = 3.0 * material.density * area * 2.0 * pi * radius;
+    EXPECT_NEAR(bars.nodes.mass[0], mass, 1e-14 * mass);
+    bars.nodes.velocity[0] = Vector3(7.0, std::isinf(yield) ? 0.1 : speed, 0.0);
+    const double start = 0.5 * mass * bars.nodes.velocity[0].squaredNorm();
+    fem::Motion motion;
+    const double dt = 0.02 * fem::critical_time_step(bars);
+    double time = 0.0, before = bars.nodes.velocity[0][1], turned = 0.0;
+    while (turned == 0.0 && time < 1.0) {
+      fem::internal_forces(bars);
+      EXPECT_EQ(bars.nodes.force[0][0], 0.0);
+      fem::advance_velocities(bars.nodes, dt, motion);
+      fem::deform(bars, motion, dt);
+      fem::move_nodes(bars.nodes, motion, dt);
+      const double now = bars.nodes.velocity[0][1];
+      if (now < 0.0) turned = time + dt * before / (before - now);
+      before = now;
+      time += dt;
+    }
+    const double energy = 0.5 * mass * bars.nodes.velocity[0].squaredNorm() + fem::internal_energy(bars);
+    EXPECT_NEAR(energy, start, 1e-13 * start);
+    const double c = std::sqrt(material.young / material.density);
+    if (std::isinf(yield)) {
+      EXPECT_NEAR(turned, 0.5 * pi * radius / c, 0.01 * turned);
+    } else {
+      const double strain = 0.5 * material.density * speed * speed / yield + 0.5 * yield / material.young;
+      EXPECT_NEAR(std::log(bars.nodes.position[0][1] / radius), strain, 2e-3 * strain);
+    }
+  }
 }
 
 TEST(Bars, BadInput) {

@@ -443,8 +443,8 @@ TEST(TwoDimensions, WhatNeedsThreeIsRefusedWithTheReason) {
               HasSubstr("y is the radius"));
   EXPECT_THAT(error_of(replaced(text, "[\"3 km/s\", \"0 m/s\"]", "[\"3 km/s\", \"1 m/s\"]")),
               HasSubstr("must be along x, the axis"));
-  EXPECT_THAT(error_of(text + "discretization = { method = \"finite_elements\" }\n"),
-              HasSubstr("three dimensions"));
+  EXPECT_THAT(error_of(text + "discretization = { method = \"finite_elements\", element = \"b_bar\" }\n"),
+              HasSubstr("one point"));
   EXPECT_THAT(error_of(text + "angular_velocity = [\"0 rad/s\", \"0 rad/s\", \"1 rad/s\"]\n"),
               HasSubstr("nothing rotates in axisymmetry"));
   EXPECT_THAT(error_of(ball_on_plate("[gravity]\nacceleration = [\"0 m/s^2\", \"9.81 m/s^2\"]\n")),

@@ -34,13 +34,17 @@ double area_of(const Body& body) {
   return 0.25 * std::numbers::pi * d * d;
 }
 
-/// Calls f(from, to) for every bar of a body.
+bool is_hoop(const Case& setup, const Vector3& from, const Vector3& to) {
+  return setup.geometry.is_axisymmetric() && from == to;
+}
+
+/// Calls f(from, to, number) for every bar of a body.
 template <class Function>
 void for_each_bar(const Body& body, Function&& f) {
   for (const BarRow& row : body.bars) {
     for (std::int64_t i = 0; i < row.count; ++i) {
       const Vector3 offset = static_cast<double>(i) * row.step;
-      f(Vector3(row.from + offset), Vector3(row.to + offset));
+      f(Vector3(row.from + offset), Vector3(row.to + offset), row.number);
     }
   }
 }
@@ -51,9 +55,9 @@ std::shared_ptr<const Shape> shape_of_bars(const Body& body) {
   const Vector3 everywhere = Vector3::Constant(std::numeric_limits<double>::infinity());
   Shape::Bounds bounds{everywhere, -everywhere};
   double length = 0.0;
-  for_each_bar(body, [&](const Vector3& from, const Vector3& to) {
+  for_each_bar(body, [&](const Vector3& from, const Vector3& to, double number) {
     bounds = {bounds.lower.cwiseMin(from).cwiseMin(to), bounds.upper.cwiseMax(from).cwiseMax(to)};
-    length += (to - from).norm();
+    length += number * (from == to ? 2.0 * std::numbers::pi * from[1] : (to - from).norm());
   });
   return std::make_shared<BarShape>(bounds, area_of(body) * length);
 }
@@ -62,7 +66,7 @@ std::optional<std::string> fault_of_bars(const Case& setup, const Body& bars) {
   for (const Body& body : setup.bodies) {
     if (!body.discretization.has_elements()) continue;
     bool inside = false;
-    for_each_bar(bars, [&](const Vector3& from, const Vector3& to) {
+    for_each_bar(bars, [&](const Vector3& from, const Vector3& to, double) {
       inside = inside || body.shape->contains(0.5 * (from + to));
     });
     if (!inside) continue;
@@ -77,8 +81,8 @@ std::optional<std::string> fault_of_bars(const Case& setup, const Body& bars) {
 
 std::optional<std::size_t> body_around_bars(const Case& setup, const Body& bars) {
   std::vector<double> inside(setup.bodies.size(), 0.0);
-  for_each_bar(bars, [&](const Vector3& from, const Vector3& to) {
-    const double length = (to - from).norm();
+  for_each_bar(bars, [&](const Vector3& from, const Vector3& to, double) {
+    const double length = std::max((to - from).norm(), 1e-9 * setup.domain.cell_size);  // of hoops
     const int parts = static_cast<int>(std::clamp(length / setup.domain.cell_size, 1.0, 1000.0));
     for (int i = 0; i < parts; ++i) {
       const Vector3 point = from + (i + 0.5) / parts * (to - from);
@@ -138,12 +142,18 @@ std::vector<fem::Bars> make_bars(const Case& setup, std::uint64_t first_node_id,
     if (!body.discretization.is_bars()) continue;
     const double size = body.discretization.size(setup.domain.cell_size);
     fem::Lines lines;
-    for_each_bar(body, [&](const Vector3& from, const Vector3& to) {
+    for_each_bar(body, [&](const Vector3& from, const Vector3& to, double number) {
+      if (is_hoop(setup, from, to)) {
+        const auto node = static_cast<std::uint32_t>(lines.nodes.size());
+        lines.nodes.push_back(from);
+        lines.add({node, node}, number);
+        return;
+      }
       const auto parts = static_cast<std::uint32_t>(std::max(1.0, std::round((to - from).norm() / size)));
       const auto first = static_cast<std::uint32_t>(lines.nodes.size());
       for (std::uint32_t i = 0; i <= parts; ++i) {
         lines.nodes.emplace_back(from + static_cast<double>(i) / parts * (to - from));
-        if (i > 0) lines.elements.push_back({first + i - 1, first + i});
+        if (i > 0) lines.add({first + i - 1, first + i}, number);
       }
     });
     const Shape::Bounds bounds = body.shape->bounds();

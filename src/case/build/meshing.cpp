@@ -10,6 +10,7 @@
 
 #include "src/core/base/error.hpp"
 #include "src/fem/step.hpp"
+#include "src/fem/structured.hpp"
 
 namespace whipple::cases {
 namespace {
@@ -40,6 +41,10 @@ std::vector<Plane> planes_of(const Case& setup) {
 Shape::Bounds before_planes(const Case& setup) {
   const Vector3 everywhere = Vector3::Constant(std::numeric_limits<double>::infinity());
   Shape::Bounds bounds{-everywhere, everywhere};
+  if (setup.geometry.is_planar()) {  // one layer of elements behind the section
+    bounds.lower[2] = 0.0;
+    bounds.upper[2] = setup.domain.cell_size;
+  }
   for (const Plane& plane : planes_of(setup)) {
     (plane.inward > 0.0 ? bounds.lower : bounds.upper)[plane.axis] = plane.coordinate;
   }
@@ -130,6 +135,52 @@ void apply(const NodeCondition& condition, const std::string& body, fem::Mesh& m
   fem::constrain(mesh, inside, directions, condition.velocity);
 }
 
+/// Moves the nodes so that the section has the bounds of the body: nodes of meshes of curved bodies lie outside of them,
+/// for the sake of their volume (docs/theory/fem.md, 7).
+void fit(fem::Hexahedra& section, const Shape::Bounds& whole, const Shape::Bounds& before) {
+  for (int axis = 0; axis < 2; ++axis) {
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    for (const Vector3& x : section.nodes) {
+      least = std::min(least, x[axis]);
+      most = std::max(most, x[axis]);
+    }
+    const double lower = std::max(whole.lower[axis], before.lower[axis]);
+    const double upper = std::min(whole.upper[axis], before.upper[axis]);
+    for (Vector3& x : section.nodes) {
+      x[axis] = lower + (x[axis] - least) * (upper - lower) / (most - least);
+    }
+  }
+}
+
+fem::Hexahedra cut_by_planes(const Case& setup, const Body& body, fem::Hexahedra mesh) {
+  const double tolerance = plane_tolerance * setup.geometry.cell_size;
+  for (const Plane& plane : planes_of(setup)) cut(mesh, plane, tolerance, body.name);
+  drop_unused_nodes(mesh);
+  fem::check(mesh, fmt::format("body \"{}\"", body.name));
+  if (!setup.geometry.is_planar()) return mesh;
+  fem::Hexahedra section = fem::section_of(mesh, tolerance);
+  if (section.elements.empty()) {
+    throw InputError(
+        fmt::format("body \"{}\": no element of its mesh has a face in the plane z = 0, the section "
+                    "that is simulated: move it so that a layer of elements begins there",
+                    body.name));
+  }
+  if (body.discretization.mesh.empty()) fit(section, body.shape->bounds(), before_planes(setup));
+  return section;
+}
+
+/// Returns the elements that a case asks for in the dimension of its domain.
+fem::Quadrature quadrature_of(const Case& setup, const Body& body) {
+  switch (setup.geometry.dimension) {
+    case grid::Dimension::plane_strain:
+      return fem::Quadrature::plane;
+    case grid::Dimension::axisymmetric:
+      return fem::Quadrature::ring;
+    default:
+      return body.discretization.element;
+  }
+}
+
 }  // namespace
 
 fem::Hexahedra hexahedra_of(const Case& setup, const Body& body) {
@@ -142,11 +193,7 @@ fem::Hexahedra hexahedra_of(const Case& setup, const Body& body) {
                     "included; for other shapes give a Gmsh file, discretization.mesh",
                     body.name));
   }
-  const double tolerance = plane_tolerance * setup.geometry.cell_size;
-  for (const Plane& plane : planes_of(setup)) cut(*mesh, plane, tolerance, body.name);
-  drop_unused_nodes(*mesh);
-  fem::check(*mesh, fmt::format("body \"{}\"", body.name));
-  return std::move(*mesh);
+  return cut_by_planes(setup, body, std::move(*mesh));
 }
 
 std::vector<fem::Mesh> make_meshes(const Case& setup, std::uint64_t first_particle_id,
@@ -158,7 +205,7 @@ std::vector<fem::Mesh> make_meshes(const Case& setup, std::uint64_t first_partic
     if (!body.discretization.has_elements()) continue;
     const Material& material = *setup.materials[b];
     fem::Mesh& mesh =
-        meshes.emplace_back(fem::make_mesh(hexahedra_of(setup, body), body.discretization.element,
+        meshes.emplace_back(fem::make_mesh(hexahedra_of(setup, body), quadrature_of(setup, body),
                                            static_cast<std::uint32_t>(b), node_id, element_id));
     node_id += mesh.nodes.size();
     element_id += mesh.elements.size();

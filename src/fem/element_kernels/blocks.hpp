@@ -126,6 +126,14 @@ class BlockField {
       }
       return modes_of_eighths(u);
     }
+    /// Returns the mean of one component at the corners.
+    [[nodiscard]] WHIPPLE_INLINE Vector mean(std::size_t i) const {
+      Vector sum{};
+      for (std::size_t a = 0; a < 8; ++a) {
+        sum += load<Vector>(&field_.at_[i][group_.all.place[a] + group_.lane]);
+      }
+      return sum;
+    }
     [[nodiscard]] WHIPPLE_INLINE Modes<Vector> modes() const {
       return modes_by_components(component(0), component(1), component(2));
     }
@@ -142,6 +150,11 @@ class BlockField {
     add_component(at_[0], group, [&](std::size_t a) WHIPPLE_INLINE { return corners[a].x; });
     add_component(at_[1], group, [&](std::size_t a) WHIPPLE_INLINE { return corners[a].y; });
     add_component(at_[2], group, [&](std::size_t a) WHIPPLE_INLINE { return corners[a].z; });
+  }
+
+  /// Adds a value to one component at all corners.
+  WHIPPLE_INLINE void add_constant(const Group<Vector>& group, std::size_t i, Vector value) {
+    add_component(at_[i], group, [&](std::size_t) WHIPPLE_INLINE { return value; });
   }
 
  private:

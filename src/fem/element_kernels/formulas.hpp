@@ -12,6 +12,8 @@
 /// Formulas at integration points.
 namespace whipple::fem {
 
+inline constexpr double root8 = 2.8284271247461900976;  ///< norm of a mode's corner values
+
 /// Describes one of the 2 x 2 x 2 Gauss points; weight 1.
 struct GaussPoint {
   std::size_t number;

@@ -34,6 +34,7 @@ afemp::ElementRange range(const cases::ElementRange& control) {
 
 void Hexahedra::convert(ParticleCarrier& particles, double grid_step) {
   std::array<double, 2> counts = {0.0, 0.0};  // of elements converted to particles, and deleted
+  const std::size_t parts = state_.setup.geometry.is_planar() ? 4 : 8;
   std::string error;
   for (fem::Mesh& mesh : meshes_) {
     const cases::Body& body = state_.setup.bodies[mesh.body];
@@ -78,7 +79,7 @@ void Hexahedra::convert(ParticleCarrier& particles, double grid_step) {
   parallel::sum(state_.communicator, std::span(counts));
   if (counts[0] + counts[1] > 0.0) {
     if (state_.keeps_losses()) use_stores(state_.particles);
-    state_.particle_count += 8 * static_cast<std::size_t>(counts[0]);
+    state_.particle_count += parts * static_cast<std::size_t>(counts[0]);
     state_.element_count -= static_cast<std::size_t>(counts[0] + counts[1]);
     elements_removed();
     particles.reallocated();

@@ -45,6 +45,11 @@ void Hexahedra::compute_forces() {
   of_mesh_.resize(meshes_.size());
   for (std::size_t m = 0; m < meshes_.size(); ++m) {
     fem::internal_forces(meshes_[m]);
+    of_mesh_[m].hoop_force = 0.0;
+    if (meshes_[m].quadrature ==
+        fem::Quadrature::ring) {  // what does not add up to zero (docs/theory/fem.md, 8)
+      for (const Vector3& force : meshes_[m].nodes.force) of_mesh_[m].hoop_force += force[1];
+    }
     add_loads(loads_, state_.run.time, meshes_[m].body, meshes_[m].nodes, of_mesh_[m].acceleration);
   }
 }
@@ -97,6 +102,7 @@ std::string Hexahedra::advance_mesh(std::size_t m, SqueezedPoints& squeezed) {
   fem::Mesh& mesh = meshes_[m];
   Ledger& booked = state_.booked;
   const double dt = state_.run.time_step;
+  booked.wall_impulse[1] += dt * of_mesh_[m].hoop_force;
   damp_nodes(m);
   const bool gauged = state_.force_gauges.any();
   const std::vector<Vector3> unconstrained = gauged ? unconstrained_velocities(m) : std::vector<Vector3>();

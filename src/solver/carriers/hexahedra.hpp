@@ -91,6 +91,7 @@ class Hexahedra : public Carrier {
   std::size_t first_ = 0, count_ = 0;   // of the nodes in State::transition
   struct Motion {                       // of each mesh
     std::vector<Vector3> acceleration;  // of the nodes by loads, m/s^2
+    double hoop_force = 0.0;            // N, sum of the radial forces of rings
     std::vector<Vector3> damping;       // impulses of local damping on the nodes, N s; empty: none
     fem::VelocityGradients gradient;
   };

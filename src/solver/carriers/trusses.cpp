@@ -27,8 +27,9 @@ void Trusses::connect() {
 
 void Trusses::compute_forces() {
   acceleration_.resize(bars_.size());
+  hoop_force_ = 0.0;
   for (std::size_t b = 0; b < bars_.size(); ++b) {
-    fem::internal_forces(bars_[b]);
+    hoop_force_ += fem::internal_forces(bars_[b]);
     add_loads(loads_, state_.run.time, bars_[b].body, bars_[b].nodes, acceleration_[b]);
   }
 }
@@ -63,6 +64,7 @@ double Trusses::critical_time_step() const {
 std::string Trusses::advance() {
   const double dt = state_.run.time_step;
   const transfer::TransitionNodes& from = state_.transition;
+  state_.booked.wall_impulse[1] += dt * hoop_force_;
   std::size_t i = first_;
   for (std::size_t b = 0; b < bars_.size(); ++b) {
     fem::Bars& bars = bars_[b];

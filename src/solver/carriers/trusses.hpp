@@ -44,6 +44,7 @@ class Trusses : public Carrier {
   const Loads& loads_;
   std::vector<fem::Bars> bars_;
   std::vector<std::vector<Vector3>> acceleration_;  // of the nodes of each body by loads, in the current step
+  double hoop_force_ = 0.0;                         // N, radial, of the hoops of all bodies
   std::size_t first_ = 0;                           // index of their first node in State::transition
 };
 

@@ -6,11 +6,11 @@
 
 #include "src/core/base/prefetch.hpp"
 #include "src/fem/element_kernels/formulas.hpp"
+#include "src/fem/quadrilateral.hpp"
 
-/// Deformation of elements, and forces of their stresses.
+/// Deformation of elements.
 namespace whipple::fem {
 
-inline constexpr double root8 = 2.8284271247461900976;  ///< norm of a mode's corner values
 inline constexpr double negligible_cut = 0.02;  ///< energy fraction cut from hourglass forces, not counted
 inline constexpr double negligible_energy = 1e-12;  ///< of m c^2, likewise not counted as a limit
 
@@ -22,9 +22,11 @@ struct DeformationStep {
   VelocityGradients& gradient;
 };
 
-template <class Vector, HourglassControl::Kind kind>
+/// Deforms elements of one point: hexahedra, or quadrilaterals of a section.
+template <class Vector, HourglassControl::Kind kind, Quadrature quadrature>
 struct OnePoint {
   static constexpr bool viscous = kind == HourglassControl::Kind::viscous;
+  static constexpr bool is_ring = quadrature == Quadrature::ring;
 
   WHIPPLE_INLINE void operator()(const DeformationStep& step, const Group<Vector>& group,
                                  const Fields<Vector>& fields, Tally<Vector>& tally) const {
@@ -41,7 +43,12 @@ struct OnePoint {
     }
     const double dt = step.dt;
     const Modes<Vector> x = fields.position.modes();
-    const VolumeGradient<Vector> beta = volume_gradient(x);
+    Vector radius{}, end_radius{};
+    if constexpr (is_ring) {
+      radius = fields.position.mean(1);
+      end_radius = radius + dt * fields.end_velocity.mean(1);
+    }
+    const VolumeGradient<Vector> beta = volume_gradient_of<quadrature>(x, radius);
     const Vector per_volume = 1.0 / beta.volume, per_eighth = 8.0 * per_volume;
 
     // Component by component, each a row of a gradient, as the registers do not hold a complete field.
@@ -59,23 +66,29 @@ struct OnePoint {
       for (std::size_t m = 0; m < 4; ++m) end_modes[m].*axis = u[3 + m];
       return per_eighth * mean_gradient_times_eighth(u, beta);
     };
-    const Columns<Vector> l = by_rows<Vector>(end_row);
+    Columns<Vector> l = by_rows<Vector>(end_row);
+    if constexpr (is_ring) l.z.z = fields.end_velocity.mean(1) / radius;
 
     // Velocity gradient of the step. Computed first because of its chain of slow divisions.
-    const VolumeGradient<Vector> end = volume_gradient(moved);
-    for_each_component(with_volume_ratio(l, end.volume * per_volume, dt),
-                       [&](const Vector& value, std::size_t k)
-                           WHIPPLE_INLINE { group.store(step.gradient.component[k], value); });
-    group.store(points.length, one_point_length(end));
+    const VolumeGradient<Vector> end = volume_gradient_of<quadrature>(moved, end_radius);
+    const auto store_gradient = [&](const Vector& value, std::size_t k)
+                                    WHIPPLE_INLINE { group.store(step.gradient.component[k], value); };
+    if constexpr (is_flat(quadrature)) {  // det(I + dt L) is the ratio of the volumes
+      for_each_component(l, store_gradient);
+    } else {
+      for_each_component(with_volume_ratio(l, end.volume * per_volume, dt), store_gradient);
+    }
+    group.store(points.length, length_of<quadrature>(end, end_radius));
 
     // Work of the stress (eq. 2.7) and of the hourglass forces (eq. 3.6), on the mean velocity.
     auto q = hourglass_forces_of(elements, group);
     Vector hourglass_rate{};
-    const Columns<Vector> mean = by_rows<Vector>([&](std::size_t i, Axis axis) WHIPPLE_INLINE {
+    Columns<Vector> mean = by_rows<Vector>([&](std::size_t i, Axis axis) WHIPPLE_INLINE {
       const std::array<Vector, 7> u = fields.mean_velocity.component(i);
       for (std::size_t m = 0; m < 4; ++m) hourglass_rate += q[m].*axis * u[3 + m];
       return mean_gradient_times_eighth(u, beta);
     });
+    if constexpr (is_ring) mean.z.z = 0.125 * beta.volume * (fields.mean_velocity.mean(1) / radius);
     const Columns<Vector> deviator = deviator_at<Vector>(points, group);
     Columns<Vector> stress = deviator;
     add_to_diagonal(stress, -(group.load(points.pressure) + group.load(points.artificial_viscosity)));
@@ -86,7 +99,7 @@ struct OnePoint {
 
     // Hourglass forces of the next step (eq. 3.3 to 3.9).
     const Vector sound_speed = group.load(points.sound_speed), rate = sound_speed * per_volume;
-    const Vector frequency_squared = 8.0 * beta.squared_norm() * rate * rate;  // eq. 5.1
+    const Vector frequency_squared = 8.0 * stiffness_of<quadrature>(beta, radius) * rate * rate;  // eq. 5.1
     const double coefficient = 0.125 * root8 * step.hourglass.coefficient;
     const Vector mass = group.load(points.mass);
     const Vector resistance = mass * (viscous ? 2.0 * coefficient * sqrt(frequency_squared)
@@ -183,67 +196,6 @@ struct DeformEightPoints {
     }
     tally.add(group, total, Vector{});
     tally.count_inverted(group, least_jacobian);
-  }
-};
-
-/// Returns the forces f_a = sum_k F_k phi_ka of a stress on the mean gradient (eq. 2.6).
-template <class Vector>
-WHIPPLE_INLINE inline Modes<Vector> mean_gradient_forces(const Columns<Vector>& stress,
-                                                         const VolumeGradient<Vector>& beta) {
-  return {-(stress * beta.xi),      -(stress * beta.eta),    -(stress * beta.zeta), -(stress * beta.eta_zeta),
-          -(stress * beta.zeta_xi), -(stress * beta.xi_eta), Triple<Vector>{}};
-}
-
-template <class Vector>
-struct ForcesOfOnePoint {
-  WHIPPLE_INLINE Modes<Vector> operator()(const Mesh& mesh, const Group<Vector>& group,
-                                          const Modes<Vector>& x) const {
-    const VolumeGradient<Vector> beta = volume_gradient(x);
-    Columns<Vector> stress = deviator_at<Vector>(mesh.points, group);
-    add_to_diagonal(stress,
-                    -(group.load(mesh.points.pressure) + group.load(mesh.points.artificial_viscosity)));
-    const auto q = hourglass_forces_of(mesh.elements, group);
-    // Hourglass resistance (eq. 3.5): the part along B_a acts like a stress, the rest on the four modes.
-    const Vector scale = -root8 / beta.volume;
-    const std::array<Triple<Vector>, 4> shape = {x.eta_zeta, x.zeta_xi, x.xi_eta, x.xi_eta_zeta};
-    for (std::size_t m = 0; m < 4; ++m) add_dyad(stress, scale * q[m], shape[m]);
-    Modes<Vector> f = mean_gradient_forces(stress, beta);
-    f.eta_zeta -= (1.0 / root8) * q[0];
-    f.zeta_xi -= (1.0 / root8) * q[1];
-    f.xi_eta -= (1.0 / root8) * q[2];
-    f.xi_eta_zeta -= (1.0 / root8) * q[3];
-    return f;
-  }
-};
-
-template <class Vector>
-struct ForcesOfBBar {
-  WHIPPLE_INLINE Modes<Vector> operator()(const Mesh& mesh, const Group<Vector>& group,
-                                          const Modes<Vector>& x) const {
-    const VolumeGradient<Vector> beta = volume_gradient(x);
-    Modes<Vector> f{};
-    Vector mean_stress{};  // times the volume
-    for (std::size_t g = 0; g < 8; ++g) {
-      const GaussPoint at(g);
-      const auto rows = at.rows(group);
-      const Columns<Vector> jacobian = at.gradient(x);
-      mean_stress += determinant(jacobian) * mean_stress_at<Vector>(mesh.points, rows);
-      // Deviator: det J s : grad u = (s cof J) : du/dxi
-      const Columns<Vector> cofactor = cofactors(jacobian), s = deviator_at<Vector>(mesh.points, rows);
-      const Triple<Vector> px = -0.125 * (s * cofactor.x), py = -0.125 * (s * cofactor.y),
-                           pz = -0.125 * (s * cofactor.z);
-      f.xi += px;
-      f.eta += py;
-      f.zeta += pz;
-      f.eta_zeta += at.zeta * py + at.eta * pz;
-      f.zeta_xi += at.zeta * px + at.xi * pz;
-      f.xi_eta += at.eta * px + at.xi * py;
-      f.xi_eta_zeta += (at.eta * at.zeta) * px + (at.zeta * at.xi) * py + (at.xi * at.eta) * pz;
-    }
-    // Pressure on the mean gradient.
-    Columns<Vector> mean{};
-    add_to_diagonal(mean, mean_stress / beta.volume);
-    return f + mean_gradient_forces(mean, beta);
   }
 };
 
