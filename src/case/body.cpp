@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstddef>
+#include <memory>
 
 #include "src/case/case.hpp"
 
@@ -67,6 +69,8 @@ std::span<const Section<Body>> Body::sections() {
                                       [](const Body& body) { return body.failure_scatter.given(); }),
       section<&Body::failure_grains>("failure_grains", "",
                                      [](const Body& body) { return body.failure_grains.given(); }),
+      section<&Body::strength_scatter>("strength_scatter", "",
+                                       [](const Body& body) { return body.strength_scatter.given(); }),
       section<&Body::viscosity>("artificial_viscosity", ", keys not given: those of [artificial_viscosity]")};
   return all;
 }
@@ -154,6 +158,15 @@ void Body::check(const Case& setup, const Faults& faults) const {
     }
   }
   failure_grains.check(setup, faults.in("failure_grains"));
+  const std::shared_ptr<const Material>& own =
+      setup.materials[static_cast<std::size_t>(this - setup.bodies.data())];
+  if (strength_scatter.given() &&
+      (discretization.is_bars() || (own != nullptr && !own->returns_radially()))) {
+    faults.in("strength_scatter")
+        .add("least",
+             "only material that flows at a flow stress of its own can be weaker: not bars, nor brittle "
+             "material, soil, foam, metal of Gurson, fluids, rubber or elastic material");
+  }
   if (path && !driven && node_conditions.empty()) {
     faults.in("path").add("times",
                           "a path is that of prescribed velocities: the body needs 'driven = true' "

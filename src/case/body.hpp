@@ -64,6 +64,7 @@ struct Body {
   Failure failure;
   FailureScatter failure_scatter;
   FailureGrains failure_grains;
+  StrengthScatter strength_scatter;
   std::optional<ArtificialViscosity> viscosity;  ///< overrides that of the case
   std::shared_ptr<const Shape> shape;            ///< for bars and meshes: set by `complete`
 

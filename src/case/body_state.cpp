@@ -74,4 +74,15 @@ double FailureScatter::factor(std::uint64_t id, double volume) const {
   return of_mean_one * std::pow(size, 1.0 / m);
 }
 
+ParameterTable<StrengthScatter> StrengthScatter::parameters() {
+  using S = StrengthScatter;
+  return {real("least", &S::least, "", {.lower = 0.0, .upper = 1.0, .lower_open = true},
+               "least factor of the flow stress; factors are uniform between it and 1"),
+          integer("seed", &S::seed, range::between(0, 1e18), "seed of the scatter").optional()};
+}
+
+double StrengthScatter::factor(std::uint64_t id) const {
+  return least + (1.0 - least) * uniform(static_cast<std::uint64_t>(seed), id);
+}
+
 }  // namespace whipple::cases

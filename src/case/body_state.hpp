@@ -65,4 +65,16 @@ struct FailureScatter {
   [[nodiscard]] double factor(std::uint64_t id, double volume) const;
 };
 
+/// Describes `strength_scatter` of a body: factors of the flow stress of its particles, uniform between `least` and 1
+/// (docs/theory/material.md, eq. 23b).
+struct StrengthScatter {
+  double least = 1.0;  ///< 1: no scatter
+  std::int64_t seed = 0;
+  static ParameterTable<StrengthScatter> parameters();
+
+  [[nodiscard]] bool given() const { return least < 1.0; }
+  /// Returns the factor of a particle, which depends only on its number and the parameters.
+  [[nodiscard]] double factor(std::uint64_t id) const;
+};
+
 }  // namespace whipple::cases

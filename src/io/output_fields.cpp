@@ -78,6 +78,11 @@ const auto table_of_state = std::to_array<OutputField>({
        const auto& factor = s.particles.failure_threshold_factor;
        return factor.empty() ? 1.0 : factor[i];
      }},
+    {"strength_factor", "1", "scatter of the flow stress", false,
+     [](const Source& s, std::size_t i) {
+       const auto& factor = s.particles.strength_factor;
+       return factor.empty() ? 1.0 : factor[i];
+     }},
     {"stress", "Pa", "Cauchy stress xx yy zz xy yz zx, positive in tension, without artificial viscosity", false,
      stress},
     {"von_mises_stress", "Pa", "sqrt(3/2 s:s) of the deviatoric stress s", false, von_mises_stress},

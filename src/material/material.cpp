@@ -15,6 +15,7 @@
 #include "src/material/eos_strength/eos_strength.hpp"
 #include "src/material/failure/fragment_size.hpp"
 #include "src/material/strength/brittle.hpp"
+#include "src/material/strength/elastic.hpp"
 #include "src/material/strength/foam.hpp"
 #include "src/material/strength/granular_flow.hpp"
 #include "src/material/strength/none.hpp"
@@ -305,6 +306,7 @@ void initialise(const Material& material, MaterialPoints& points, std::size_t be
     points.maximum_temperature[i] = points.temperature[i];
     points.melting_time[i] = state.melted_fraction >= melted_share ? 0.0 : never;
     if (!points.failure_threshold_factor.empty()) points.failure_threshold_factor[i] = 1.0;
+    if (!points.strength_factor.empty()) points.strength_factor[i] = 1.0;
   }
   for (History& history : points.history) {
     std::visit(
@@ -340,6 +342,13 @@ std::string Material::constants() const {
   }
   for (const auto& criterion : failure) text += fmt::format("\n[[failure]]\n{}", criterion->constants());
   return text;
+}
+
+bool Material::returns_radially() const {
+  const bool yields =
+      strength->carries_deviator() && dynamic_cast<const strength::ElasticModel*>(strength.get()) == nullptr;
+  return yields && strength->brittle() == nullptr && !is_foam(*this) &&
+         (void_growth == nullptr || !void_growth->returns_deviator());
 }
 
 }  // namespace whipple

@@ -64,6 +64,7 @@ struct MaterialPoints {
   std::vector<double> maximum_temperature;  ///< K, so far
   std::vector<double> melting_time;  ///< s, when half of the mass first melted; `never` (-1) if it has not
   std::vector<double> failure_threshold_factor;  ///< scatter of the failure threshold (1: none); optional
+  std::vector<double> strength_factor;           ///< scatter of the flow stress (1: none); optional
   /// Holds the part of the artificial viscosity whose work is heat, Pa; the work of the rest becomes unresolved energy
   /// (docs/theory/dissipation.md, 3); optional
   std::vector<double> heating_viscosity;
@@ -84,6 +85,7 @@ struct MaterialPoints {
         Field{"maximum_temperature", "K", &P::maximum_temperature},
         Field{"melting_time", "s", &P::melting_time},
         Field{"failure_threshold_factor", "1", &P::failure_threshold_factor, true, 1.0},
+        Field{"strength_factor", "1", &P::strength_factor, true, 1.0},
         Field{"heating_viscosity", "Pa", &P::heating_viscosity, true});
   }
 };

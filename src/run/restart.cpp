@@ -100,6 +100,7 @@ const std::array admissible = {
     Admissible{"failed", {.lower = 0.0, .upper = static_cast<double>(failure::greatest_code())}},
     Admissible{"melting_time", {.lower = never}},
     Admissible{"failure_threshold_factor", {.lower = 0.0}},
+    Admissible{"strength_factor", {.lower = 0.0, .upper = 1.0}},
     Admissible{"length", {.lower = 0.0, .lower_open = true}},
     Admissible{"reference_length", {.lower = 0.0, .lower_open = true}},
     Admissible{"constrained", {.lower = 0.0, .upper = fem::constraint::all}},

@@ -51,6 +51,35 @@ TEST(Elastic, StressFollowsHookeToAnyStrainAndReturns) {
   EXPECT_EQ(points.plastic_strain[0], 0.0);
 }
 
+// A point with the factor k flows at k (A + B ep): the increment of the plastic strain is then (3 G strain - k A)/(3 G + k B), and
+// the elastic stress below k A is that of strong material.
+TEST(StrengthFactor, ScalesTheFlowStressAndLeavesTheStiffness) {
+  strength::VonMises constants;
+  constants.shear_modulus = 40e9;
+  constants.yield_stress = 200e6;
+  constants.hardening_modulus = 3e9;
+  const Material material = of<strength::VonMisesModel>(constants);
+  for (const double factor : {1.0, 0.9, 0.5}) {
+    MaterialPoints points = points_of(material, 1);
+    points.strength_factor = {factor};
+    EXPECT_NEAR(stretch(material, points, 1e-4 * factor, 1), 3 * 40e9 * 1e-4 * factor, 1.0);
+    EXPECT_EQ(points.plastic_strain[0], 0.0);
+    const double stress = stretch(material, points, 0.05, 500), ep = points.plastic_strain[0];
+    EXPECT_NEAR(stress, factor * (200e6 + 3e9 * ep), 1e-6 * stress);
+    EXPECT_NEAR(ep, (3 * 40e9 * (0.05 + 1e-4 * factor) - factor * 200e6) / (3 * 40e9 + factor * 3e9), 1e-7);
+  }
+}
+
+TEST(StrengthFactor, IsOfMaterialThatFlows) {
+  strength::VonMises metal;
+  metal.shear_modulus = 40e9;
+  metal.yield_stress = 200e6;
+  strength::Elastic elastic;
+  elastic.shear_modulus = 40e9;
+  EXPECT_TRUE(of<strength::VonMisesModel>(metal).returns_radially());
+  EXPECT_FALSE(of<strength::ElasticModel>(elastic).returns_radially());
+}
+
 /// Tests the yield stress on loading and reverse loading, after plastic strain ep: von Mises with A, B, H.
 TEST(KinematicHardening, BauschingerEffectIsTwiceTheInitialYieldStress) {
   strength::VonMises constants;

@@ -77,6 +77,38 @@ TEST(FailureGrains, AreTheSameForAnyNumberOfRanksAndAreReadAndWritten) {
                {"'strength'", "1"});
 }
 
+TEST(StrengthScatter, IsUniformTheSameForAnyNumberOfRanksAndIsReadAndWritten) {
+  const std::string key = "strength_scatter = { least = 0.8, seed = 3 }\n";
+  const Case setup = read_case_text(domain + sphere + key, "case.toml");
+  const Particles whole = seed(setup).particles;
+  std::size_t at = 0;
+  double sum = 0.0, squares = 0.0;
+  for (int rank = 0; rank < 3; ++rank) {
+    const Particles part = seed(setup, rank, 3).particles;
+    for (std::size_t p = 0; p < part.size(); ++p, ++at) {
+      ASSERT_EQ(part.id[p], whole.id[at]);
+      ASSERT_EQ(part.strength_factor[p], whole.strength_factor[at]);
+      ASSERT_GE(part.strength_factor[p], 0.8);
+      ASSERT_LE(part.strength_factor[p], 1.0);
+      sum += part.strength_factor[p];
+      squares += part.strength_factor[p] * part.strength_factor[p];
+    }
+  }
+  ASSERT_EQ(at, whole.size());
+  const double n = static_cast<double>(at), mean = sum / n, deviation = std::sqrt(squares / n - mean * mean);
+  EXPECT_NEAR(mean, 0.9, 4.0 * 0.2 / std::sqrt(12.0 * n));
+  EXPECT_NEAR(deviation, 0.2 / std::sqrt(12.0), 4.0 * 0.2 / std::sqrt(12.0 * n));
+  const Case again = read_case_text(to_toml(setup, {"copper.toml"}), "run.toml");
+  EXPECT_EQ(again.bodies[0].strength_scatter.least, 0.8);
+  EXPECT_EQ(again.bodies[0].strength_scatter.seed, 3);
+  EXPECT_TRUE(seed(read_case_text(domain + sphere, "case.toml")).particles.strength_factor.empty());
+  std::string ceramic = sphere;
+  ceramic.replace(ceramic.find("copper"), 6, "alumina_99_5_jh2");
+  expect_error(domain + ceramic + key, {"flow stress of its own"});
+  expect_error(domain + sphere + "strength_scatter = { seed = 5 }\n", {"missing key 'least'"});
+  expect_error(domain + sphere + "strength_scatter = { least = 1.5 }\n", {"'least'", "1"});
+}
+
 TEST(RandomBits, DependOnBothNumbers) {
   double sum = 0.0;
   for (std::uint64_t n = 0; n < 1000; ++n) {

@@ -253,6 +253,11 @@ std::vector<fem::Mesh> make_meshes(const Case& setup, std::uint64_t first_partic
         place += mesh.nodes.position[corner] / 8.0;
       mesh.points.failure_threshold_factor[i] = body.failure_factor(id, volume[i], place, setup.geometry);
     }
+    if (body.strength_scatter.given()) mesh.points.strength_factor.resize(mesh.points.size());
+    for (std::size_t i = 0; i < mesh.points.strength_factor.size(); ++i) {
+      mesh.points.strength_factor[i] =
+          body.strength_scatter.factor(8 * mesh.elements.id[i / rows] + i % rows);
+    }
     const Shape::Bounds bounds = body.shape->bounds();
     const Vector3 center = 0.5 * (bounds.lower + bounds.upper);
     for (std::size_t a = 0; a < mesh.nodes.size(); ++a) {

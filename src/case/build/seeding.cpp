@@ -71,6 +71,7 @@ Seeding seed(const Case& setup, int rank, int ranks) {
     if (body.discretization.has_elements()) {
       use_fields(material, particles);  // of the particles to which its elements may be converted
       if (body.varies_failure()) particles.failure_threshold_factor.resize(particles.size(), 1.0);
+      if (body.strength_scatter.given()) particles.strength_factor.resize(particles.size(), 1.0);
       seeding.bodies.push_back({.first = particles.size()});
       continue;
     }
@@ -130,6 +131,12 @@ Seeding seed(const Case& setup, int rank, int ranks) {
       particles.failure_threshold_factor.resize(summary.first, 1.0);
       particles.failure_threshold_factor.insert(particles.failure_threshold_factor.end(),
                                                 threshold_factor.begin(), threshold_factor.end());
+    }
+    if (body.strength_scatter.given()) {
+      particles.strength_factor.resize(end, 1.0);
+      for (std::size_t p = summary.first; p < end; ++p) {
+        particles.strength_factor[p] = body.strength_scatter.factor(particles.id[p]);
+      }
     }
     if (!planar) summary.mass = mass * allotment.volume;
     first_id += allotment.particles;

@@ -64,10 +64,17 @@ void find_trial(const EosStrength& model, const Step& step, Chunk& chunk) {
 /// Computes the increments of the plastic strain.
 /// @param modulus  effective shear modulus of the return
 void find_increment(const EosStrength& model, const Step& step, Chunk& chunk, Lanes& modulus) {
-  step.material.strength->plastic_increment(chunk.strength_state(chunk.old_density, model.threshold_stress),
-                                            chunk.view(chunk.motion.trial), chunk.view(modulus),
-                                            chunk.view(chunk.solid_fraction), step.settings.time_step,
-                                            chunk.view(chunk.increment));
+  Lanes* bearing = &chunk.solid_fraction;
+  Lanes weakened;
+  if (!step.points.strength_factor
+           .empty()) {  // a return sees this fraction in the flow stress and its slope alone
+    chunk.fetch(step.points.strength_factor, weakened);
+    for (std::size_t k = 0; k < chunk.size; ++k) weakened[k] *= chunk.solid_fraction[k];
+    bearing = &weakened;
+  }
+  step.material.strength->plastic_increment(
+      chunk.strength_state(chunk.old_density, model.threshold_stress), chunk.view(chunk.motion.trial),
+      chunk.view(modulus), chunk.view(*bearing), step.settings.time_step, chunk.view(chunk.increment));
 }
 
 /// Adds the fraction of the plastic work per volume (J/m^3) that does not become heat to the stored energy (eq. 24).

@@ -18,6 +18,10 @@ void ParticleCarrier::require_fields(bool extent) const {
   if (std::ranges::any_of(state_.setup.bodies, [](const auto& body) { return body.varies_failure(); })) {
     needed.failure_threshold_factor.resize(state_.particles.size());
   }
+  if (std::ranges::any_of(state_.setup.bodies,
+                          [](const auto& body) { return body.strength_scatter.given(); })) {
+    needed.strength_factor.resize(state_.particles.size());
+  }
   if (state_.affine_inertia() > 0.0) needed.affine_velocity.resize(state_.particles.size());
   if (extent) needed.extent.resize(state_.particles.size());
   if (state_.keeps_losses()) {

@@ -45,6 +45,8 @@ void check_loads(const cases::Case& setup, const Faults& faults) {
   refuse_if(!setup.loads.empty(), faults, "load", "a load other than gravity");
   refuse_if(!setup.force_gauges.empty(), faults, "force_gauge", "a force gauge");
   refuse_if(setup.has_burn(), faults, "detonation", "an explosive that burns");
+  refuse_if(std::ranges::any_of(setup.bodies, [](const auto& b) { return b.strength_scatter.given(); }),
+            faults, "body", "a body with strength_scatter");
   refuse_if(setup.has_elements() || setup.has_bars(), faults, "body", "a body of elements or bars");
 }
 
