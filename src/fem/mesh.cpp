@@ -442,9 +442,9 @@ double sum_by_four(std::size_t n, Value&& value) {
 }  // namespace
 
 MeshTotals totals(const Mesh& mesh) {
-  MeshTotals sum = parallel::sum_of_chunks<MeshTotals>(
-      mesh.nodes.size(),
-      [&](std::size_t begin, std::size_t end) { return totals_of_nodes(mesh.nodes, begin, end); });
+  auto sum = parallel::sum_of_chunks<MeshTotals>(mesh.nodes.size(), [&](std::size_t begin, std::size_t end) {
+    return totals_of_nodes(mesh.nodes, begin, end);
+  });
   const GaussPoints& points = mesh.points;
   sum.internal_energy = sum_by_four(points.size(), [&](std::size_t i, std::size_t count) {
     return load(&points.mass[i], count, 0.0) * load(&points.specific_internal_energy[i], count, 0.0);

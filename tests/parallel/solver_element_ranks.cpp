@@ -210,6 +210,42 @@ TEST_F(ElementRanks, ElementsThatBecomeParticlesAgreeWithOneRank) {
   EXPECT_GT(b.outflow.mass, 0.0);
 }
 
+TEST_F(ElementRanks, QuadrilateralsOfSectionsAgreeWithOneRank) {
+  for (const char* dimension : {"plane_strain", "axisymmetric"}) {
+    const cases::Case setup = read(std::string("[domain]\ndimension = \"") + dimension + R"("
+lower = ["-6 mm", "0 mm"]
+upper = ["10 mm", "9 mm"]
+cell_size = "0.5 mm"
+boundary = { y_lower = "symmetry" }
+[time]
+end = "3 us"
+[[body]]
+name = "ball"
+material = "aluminium.toml"
+velocity = ["2 km/s", "0 m/s"]
+discretization = { method = "adaptive" }
+conversion = { plastic_strain = 0.3 }
+shape = { sphere = { center = ["-2.2 mm", "0 mm"], radius = "2 mm" } }
+[[body]]
+name = "plate"
+material = "aluminium.toml"
+discretization = { method = "adaptive" }
+conversion = { plastic_strain = 0.3 }
+shape = { box = { lower = ["0 mm", "0 mm"], upper = ["2 mm", "8 mm"] } }
+)");
+    Simulation together(setup, MPI_COMM_WORLD), alone(setup, MPI_COMM_SELF);
+    advance_to(together, 1e-6);
+    advance_on_root(alone, 1e-6);
+    expect_agreement(together, alone, 1e-11);
+    expect_equal_copies(together, ranks_);
+    if (!is_root()) continue;
+    const Ledger &a = together.state().ledger, &b = alone.state().ledger;
+    EXPECT_GT(b.converted_mass, 0.0);
+    EXPECT_NEAR(a.converted_mass, b.converted_mass, 1e-11 * b.initial.mass);
+    EXPECT_NEAR(a.wall_impulse[1], b.wall_impulse[1], 1e-11 * b.initial.momentum_scale);
+  }
+}
+
 TEST_F(ElementRanks, ContactAgreesWithOneRank) {
   for (const char* normal : {"separating", "logistic_regression"}) {
     const double end = normal[0] == 's' ? 1e-6 : 0.4e-6;
