@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The pictures of the gallery: sections of shapes by their areas, places of quantities in a chart."""
+import gzip
 import pathlib
 import tempfile
 import unittest
@@ -42,6 +43,18 @@ class Sections(unittest.TestCase):
                  32 + 2 * (100 * 0.5 * 0.9272952180 - 0.5 * 6 * 8))):
             with self.subTest(shape=shape[:12]):
                 self.assertAlmostEqual(area(shape), expected, delta=0.6)
+
+    def test_label_image(self):
+        labels = bytes(1 + i // 2 for i in range(4)) * 16  # 1 1 2 2 along x, voxels of 2 mm
+        head = ("NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 4 4\nspace directions: (2,0,0) (0,2,0) (0,0,2)\n"
+                "space origin: (-3,-3,-3)\nencoding: ")
+        for encoding, data in (("raw", labels), ("gzip", gzip.compress(labels))):
+            with tempfile.TemporaryDirectory() as folder:
+                path = pathlib.Path(folder) / "labels.nrrd"
+                path.write_bytes(f"{head}{encoding}\n\n".encode() + data)
+                for values, expected in ("[2]", 32), ("[1, 2]", 64):
+                    shape = f'{{ image = {{ file = "{path}", unit = "1 mm", values = {values} }} }}'
+                    self.assertAlmostEqual(area(shape), expected, delta=0.6)
 
     def test_keys_that_may_be_left_out(self):
         for shape, expected in (

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The bodies of a case at its start as a section, drawn from the case file alone: which body fills which point of a plane
-through the domain. Shapes as in docs/manual/input_reference.md; distances in m. Bodies of other files, generated ones and
-bars are named instead."""
+through the domain. Shapes as in docs/manual/input_reference.md; distances in m. Bodies of other files than label images,
+generated ones and bars are named instead."""
+import gzip
 import math
+import pathlib
 import re
 import tomllib
 from dataclasses import dataclass
@@ -162,9 +164,34 @@ def array(shape, points):
     return found
 
 
+def labels(path):
+    """Return the labels of an image by x, y, z, the position of the first and the edges of a voxel, in units of the image.
+    Read NRRD with attached bytes along the axes, compressed or not. @raises ValueError"""
+    head, _, data = pathlib.Path(path).read_bytes().partition(b"\n\n")
+    keys = dict(line.split(": ", 1) for line in head.decode().splitlines() if ": " in line)
+    if keys["type"] != "uint8" or keys["encoding"] not in ("raw", "gzip"):
+        raise ValueError(f'an image of {keys["type"]}, {keys["encoding"]}')
+    sizes = [int(size) for size in keys["sizes"].split()]
+    edges = np.array([[float(x) for x in row.split(",")] for row in re.findall(r"\(([^)]*)\)", keys["space directions"])])
+    if np.count_nonzero(edges - np.diag(np.diag(edges))):
+        raise ValueError("an image across the axes")
+    values = np.frombuffer(gzip.decompress(data) if keys["encoding"] == "gzip" else data, dtype=np.uint8)
+    origin = [float(x) for x in keys["space origin"].strip("()").split(",")]
+    return values.reshape(sizes, order="F"), origin, np.diag(edges)
+
+
+def image(shape, points):
+    values, origin, edges = labels(shape["file"])
+    at = [np.rint((x / number(shape["unit"]) - o) / e).astype(int) for x, o, e in zip(points, origin, edges)]
+    within = np.logical_and.reduce([(i >= 0) & (i < n) for i, n in zip(at, values.shape)])
+    found = values[tuple(np.clip(i, 0, n - 1) for i, n in zip(at, values.shape))]
+    return within & np.isin(found, shape["values"])
+
+
 SHAPES = {"sphere": sphere, "box": box, "cylinder": cylinder, "tube": tube, "cone": cone, "ogive": ogive, "prism": prism,
           "half_space": half_space, "extrude": extrude, "revolve": revolve, "difference": difference,
-          "intersection": intersection, "union": union, "moved": moved, "scaled": scaled, "array": array}
+          "intersection": intersection, "union": union, "moved": moved, "scaled": scaled, "array": array,
+          "image": image}
 
 
 def inside(shape, points):
@@ -174,8 +201,17 @@ def inside(shape, points):
         raise Unknown(kind)
     try:
         return SHAPES[kind](keys, points)
-    except (LookupError, TypeError, ValueError) as fault:
+    except (LookupError, TypeError, ValueError, OSError) as fault:
         raise Unknown(f"{kind} with other keys ({fault})") from fault
+
+
+def located(shape, folder):
+    """Return a shape, or a part of one, with the paths of its files from that of the case."""
+    if isinstance(shape, list):
+        return [located(part, folder) for part in shape]
+    if not isinstance(shape, dict):
+        return shape
+    return {key: str(folder / value) if key == "file" else located(value, folder) for key, value in shape.items()}
 
 
 def filled(body, points):
@@ -215,7 +251,7 @@ def plane_of(domain):
 
 def section(path):
     """Return the section of a case file. @raises Unknown  if not even its domain is understood"""
-    case = tomllib.loads(path.read_text(encoding="utf-8"))
+    case = located(tomllib.loads(path.read_text(encoding="utf-8")), path.parent)
     domain = case["domain"]
     lower, upper = (vector(domain[key]) for key in ("lower", "upper"))
     u, v, at = plane_of(domain)
