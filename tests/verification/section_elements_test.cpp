@@ -218,6 +218,10 @@ TEST(RingElements, ASphereHasItsMass) {
   const double pi = std::numbers::pi;
   const std::vector<std::pair<std::string, double>> shapes = {
       {"sphere = { center = [\"0 mm\", \"0 mm\"], radius = \"3 mm\" }", 36e-9 * pi},
+      {"moved = { axis = [0, 1, 0], angle = \"90 degree\", shape = { cylinder = { center = [\"0 mm\", \"0 "
+       "mm\", "
+       "\"0 mm\"], axis = \"z\", radius = \"3 mm\", height = \"4 mm\" } } }",
+       36e-9 * pi},
       {"box = { lower = [\"-2 mm\", \"0 mm\"], upper = [\"2 mm\", \"3 mm\"] }", 36e-9 * pi}};
   for (const auto& [shape, volume] : shapes) {
     const std::string text = R"(

@@ -170,6 +170,16 @@ bool is_of_revolution(const Shape& shape) {
   return true;
 }
 
+/// Returns the volume of the elements at z > 0, m^3: turned shapes are meshed on both sides of the section.
+double volume_behind_section(const fem::Hexahedra& mesh, double tolerance) {
+  fem::Hexahedra behind{mesh.nodes, {}};
+  for (const fem::Corners& corners : mesh.elements) {
+    const auto above = [&](std::uint32_t a) { return mesh.nodes[a][2] > tolerance; };
+    if (std::ranges::any_of(corners, above)) behind.elements.push_back(corners);
+  }
+  return fem::volume(behind);
+}
+
 /// Widens a section of a body of revolution until its rings have the volume of the body, four times that of the quarter
 /// in three dimensions.
 void give_volume(fem::Hexahedra& section, double volume) {
@@ -195,7 +205,7 @@ fem::Hexahedra cut_by_planes(const Case& setup, const Body& body, fem::Hexahedra
   if (!body.discretization.mesh.empty()) return section;
   fit(section, body.shape->bounds(), before_planes(setup));
   if (setup.geometry.is_axisymmetric() && is_of_revolution(*body.shape)) {
-    give_volume(section, 4.0 * fem::volume(mesh));
+    give_volume(section, 4.0 * volume_behind_section(mesh, tolerance));
   }
   return section;
 }
