@@ -3,6 +3,7 @@
 import functools
 import hashlib
 import json
+import os
 import pathlib
 import shutil
 import subprocess
@@ -18,6 +19,30 @@ def call(command, allowed=(0,)):
     if result.returncode not in allowed:
         sys.exit(f"{' '.join(map(str, command))}\nfailed with code {result.returncode}:\n{result.stdout}{result.stderr}")
     return result
+
+
+def timed_run(arguments, folder, prepare):
+    """Runs and analyses a case on one thread unless a run of the same program is there. prepare() returns case file and settings;
+    with arguments.table nothing is run. @returns code and user time (s) of the run, or None"""
+    record = folder.with_suffix(".json")
+    if record.exists():
+        kept = json.loads(record.read_text(encoding="utf-8"))
+        if arguments.table or kept["program"] == str(arguments.whipple.stat().st_mtime_ns):
+            return kept
+    if arguments.table:
+        return None
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    case, settings = prepare()
+    command = [str(arguments.whipple), "run", str(case), "-o", str(folder), "--force", "--quiet", "--threads", "1",
+               *[word for setting in settings for word in ("--set", setting)]]
+    process = subprocess.Popen(command, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+    _, status, usage = os.wait4(process.pid, 0)
+    process.returncode = code = os.waitstatus_to_exitcode(status)
+    if code == 0:
+        code = subprocess.run([str(arguments.whipple), "analyse", str(folder), "--quiet"], check=False, stdout=subprocess.DEVNULL).returncode
+    kept = {"program": str(arguments.whipple.stat().st_mtime_ns), "code": code, "seconds": usage.ru_utime}
+    record.write_text(json.dumps(kept), encoding="utf-8")
+    return kept
 
 
 def digest(file):

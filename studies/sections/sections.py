@@ -12,15 +12,13 @@ The same particles per cell in both; three dimensions are a quarter between two 
 takes one thread; user time is that of the process. Runs of the same program are kept; --table prints what is there.
 """
 import argparse
-import json
-import os
 import pathlib
-import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[0] = str(ROOT)
 from report.measured import Measures  # noqa: E402
+from studies.commands import timed_run  # noqa: E402
 
 SECTION = ["domain.dimension=axisymmetric", "domain.axis=z"]
 
@@ -72,29 +70,14 @@ def case_of(problem, cell, folder):
 
 
 def run_of(arguments, problem, cell, dimension):
-    """Runs a problem unless it is there. @returns folder, user time (s) or None"""
+    """Runs a problem unless it is there. @returns folder, its record or None"""
     folder = arguments.folder / f"{problem}_{round(cell * 1e3)}_um_{dimension}"
-    record = folder.with_suffix(".json")
-    program = str(arguments.whipple.stat().st_mtime_ns) if not arguments.table else None
-    if record.exists():
-        kept = json.loads(record.read_text(encoding="utf-8"))
-        if arguments.table or kept["program"] == program:
-            return folder, kept
-    if arguments.table:
-        return folder, None
-    arguments.folder.mkdir(parents=True, exist_ok=True)
-    case, settings = case_of(problem, cell, arguments.folder)
-    settings += SECTION if dimension == "section" else []
-    command = [str(arguments.whipple), "run", str(case), "-o", str(folder), "--force", "--quiet", "--threads", "1",
-               *[word for setting in settings for word in ("--set", setting)]]
-    process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
-    _, status, usage = os.wait4(process.pid, 0)
-    process.returncode = os.waitstatus_to_exitcode(status)
-    if process.returncode == 0:
-        subprocess.run([str(arguments.whipple), "analyse", str(folder), "--quiet"], check=True, stdout=subprocess.DEVNULL)
-    kept = {"program": program, "code": process.returncode, "seconds": usage.ru_utime}
-    record.write_text(json.dumps(kept), encoding="utf-8")
-    return folder, kept
+
+    def prepare():
+        case, settings = case_of(problem, cell, arguments.folder)
+        return case, settings + (SECTION if dimension == "section" else [])
+
+    return folder, timed_run(arguments, folder, prepare)
 
 
 def main():

@@ -12,15 +12,13 @@ length of the rod over that at the start, its speed over that of the impact, at 
 """
 import argparse
 import csv
-import json
-import os
 import pathlib
-import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[0] = str(ROOT)
 from report.measured import Measures  # noqa: E402
+from studies.commands import timed_run  # noqa: E402
 
 CASE = ROOT / "cases/long_rod_oblique_plate/case.toml"
 WAYS = {"particles": ["body.0.discretization.method=particles", "body.1.discretization.method=particles"],
@@ -31,34 +29,10 @@ WAYS = {"particles": ["body.0.discretization.method=particles", "body.1.discreti
                                        ("discretization.method=finite_elements", "element_range.beyond=remove", "element_range.plastic_strain=2")]}
 
 
-def user_seconds(command):
-    """Runs a command. @returns its exit code and the user time of its process (s)"""
-    process = subprocess.Popen(command, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
-    _, status, usage = os.wait4(process.pid, 0)
-    process.returncode = os.waitstatus_to_exitcode(status)
-    return process.returncode, usage.ru_utime
-
-
 def run_of(arguments, way, cell):
     folder = arguments.folder / f"{list(WAYS).index(way)}_{round(cell * 1e6)}_um"
-    record = folder.with_suffix(".json")
-    program = str(arguments.whipple.stat().st_mtime_ns) if not arguments.table else None
-    if record.exists():
-        kept = json.loads(record.read_text(encoding="utf-8"))
-        if arguments.table or kept["program"] == program:
-            return folder, kept
-    if arguments.table:
-        return folder, None
     settings = [f"domain.cell_size={cell * 1e3:.12g} mm", *WAYS[way], *([f"time.end={arguments.end} s"] if arguments.end else [])]
-    command = [str(arguments.whipple), "run", str(CASE), "-o", str(folder), "--force", "--quiet", "--threads", "1",
-               *[word for setting in settings for word in ("--set", setting)]]
-    arguments.folder.mkdir(parents=True, exist_ok=True)
-    code, seconds = user_seconds(command)
-    if code == 0:
-        code = subprocess.run([str(arguments.whipple), "analyse", str(folder), "--quiet"], check=False, stdout=subprocess.DEVNULL).returncode
-    kept = {"program": program, "code": code, "seconds": seconds}
-    record.write_text(json.dumps(kept), encoding="utf-8")
-    return folder, kept
+    return folder, timed_run(arguments, folder, lambda: (CASE, settings))
 
 
 def row_of(folder, kept, way, cell):
