@@ -26,7 +26,7 @@ if(WHIPPLE_NATIVE)
   set(whipple_processor -march=native)
   # GCC 12 warns of its own AVX-512 header where Eigen uses it (GCC bug 105593).
   target_compile_options(whipple_flags INTERFACE -Wno-maybe-uninitialized)
-elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND NOT WHIPPLE_PORTABLE)
   set(whipple_processor -march=x86-64-v3)
 endif()
 target_compile_options(whipple_flags INTERFACE ${whipple_processor})

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <immintrin.h>
-
 #include <array>
 #include <cmath>
 #include <functional>
@@ -27,14 +25,12 @@ class CubicTable {
   /// Evaluates the table; below 0 the first polynomial is continued, beyond the end the last.
   [[nodiscard]] Lanes operator()(Lanes x) const {
     const Lanes position = x * inverse_step_;
-    const __m128i index =
-        _mm256_cvttpd_epi32(__m256d(minimum(maximum(position, broadcast(0.0)), broadcast(last_interval_))));
-    const Lanes t = position - Lanes(_mm256_cvtepi32_pd(index));
+    const Indices index = truncated(minimum(maximum(position, broadcast(0.0)), broadcast(last_interval_)));
+    const Lanes t = position - as_numbers(index);
     const Piece* first = pieces_.data();
     const auto piece = [&](int i) { return load(first[static_cast<unsigned>(i)].data()); };
     const auto [c0, c1, c2, c3] =
-        transposed({piece(_mm_extract_epi32(index, 0)), piece(_mm_extract_epi32(index, 1)),
-                    piece(_mm_extract_epi32(index, 2)), piece(_mm_extract_epi32(index, 3))});
+        transposed({piece(index[0]), piece(index[1]), piece(index[2]), piece(index[3])});
     return c0 + t * (c1 + t * (c2 + t * c3));
   }
   [[nodiscard]] std::size_t intervals() const { return pieces_.size(); }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <immintrin.h>
-
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -43,9 +41,7 @@ class FourfoldTable {
     const Lanes from_first = x - first_;
     const Lanes rounded = from_first * per_width_ + rounding;
     store(places.distance.data(), from_first * per_width_ - (rounded - rounding));
-    _mm256_store_si256(
-        reinterpret_cast<__m256i*>(places.cell.data()),
-        _mm256_mul_epu32(_mm256_castpd_si256(__m256d(rounded)), _mm256_set1_epi64x(sizeof(Cell))));
+    store_low_bits_times(places.cell.data(), rounded, sizeof(Cell));
   }
   /// Evaluates the four functions at four arguments.
   [[nodiscard]] std::array<Lanes, 4> operator()(const Places& places) const {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "src/core/base/vector_math.hpp"
@@ -37,23 +38,24 @@ class HermiteTable {
   [[nodiscard]] Lanes operator()(Lanes x) const {
     const Lanes position = (x - begin_) * inverse_step_;
     const auto last = static_cast<double>(nodes_.size() - 2);
-    const __m128i cell =
-        _mm256_cvttpd_epi32(__m256d(minimum(maximum(position, broadcast(0.0)), broadcast(last))));
-    alignas(16) int index[4];
-    _mm_store_si128(reinterpret_cast<__m128i*>(index), cell);
+    const Indices cell = truncated(minimum(maximum(position, broadcast(0.0)), broadcast(last)));
+    alignas(16) std::int32_t index[4];
+    store(index, cell);
     // Two neighbouring nodes are six numbers in a row: f, f', f'' of the left one, then of the right one.
     static_assert(sizeof(Node) == 3 * sizeof(double));
     std::array<Lanes, 4> rows;
-    __m128d tails[4];
+    Pair tails[4];
     for (std::size_t i = 0; i < 4; ++i) {
       const double* const node = &nodes_[static_cast<std::size_t>(index[i])].value;
       rows[i] = load(node);
-      tails[i] = _mm_loadu_pd(node + 4);
+      tails[i] = load_pair(node + 4);
     }
     const auto [f, f1, f2, r] = transposed(rows);
-    const __m256d left = _mm256_set_m128d(tails[2], tails[0]), right = _mm256_set_m128d(tails[3], tails[1]);
-    const auto r1 = Lanes(_mm256_unpacklo_pd(left, right)), r2 = Lanes(_mm256_unpackhi_pd(left, right));
-    const Lanes t = position - Lanes(_mm256_cvtepi32_pd(cell));
+    const Lanes left = __builtin_shufflevector(tails[0], tails[2], 0, 1, 2, 3),
+                right = __builtin_shufflevector(tails[1], tails[3], 0, 1, 2, 3);
+    const Lanes r1 = __builtin_shufflevector(left, right, 0, 4, 2, 6),
+                r2 = __builtin_shufflevector(left, right, 1, 5, 3, 7);
+    const Lanes t = position - as_numbers(cell);
     const Lanes d0 = r - (f + f1 + 0.5 * f2), d1 = r1 - (f1 + f2), d2 = r2 - f2;
     const Lanes c3 = 10.0 * d0 - 4.0 * d1 + 0.5 * d2;
     const Lanes c4 = -15.0 * d0 + 7.0 * d1 - d2;

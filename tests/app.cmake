@@ -82,6 +82,15 @@ if(TARGET whipple_python_eos AND WHIPPLE_PYTHON AND NOT WHIPPLE_SANITIZE)
   set_tests_properties(packages_installed PROPERTIES LABELS long TIMEOUT 1200 COST 200 FIXTURES_REQUIRED packages SKIP_RETURN_CODE 77)
 endif()
 
+# Where it is asked for in the same way: the program for another processor, and by other compilers; up to an hour each.
+if(WHIPPLE_PYTHON AND NOT WHIPPLE_SANITIZE AND NOT CMAKE_CROSSCOMPILING)
+  foreach(other processor compilers)
+    add_test(NAME other_${other} COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/installed/other_${other}.py
+             $<TARGET_FILE:whipple> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/other_${other})
+    set_tests_properties(other_${other} PROPERTIES LABELS long TIMEOUT 10800 PROCESSORS 2 SKIP_RETURN_CODE 77)
+  endforeach()
+endif()
+
 # Coarse runs against stored numbers, half a minute of one core. Sanitizers would make it minutes.
 if(WHIPPLE_PYTHON AND NOT WHIPPLE_SANITIZE)
   add_test(NAME drift COMMAND ${WHIPPLE_PYTHON} ${PROJECT_SOURCE_DIR}/scripts/drift.py --threads 2

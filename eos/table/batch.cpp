@@ -21,12 +21,10 @@ constexpr std::string_view number_bound = "density and specific internal energy 
 using Numbers = std::array<double, block_size>;
 using Integers = std::array<std::int32_t, block_size>;
 
-void store(std::int32_t* to, __m128i x) { _mm_store_si128(reinterpret_cast<__m128i*>(to), x); }
-
 /// Returns the index of the interval, of n equal ones, that contains a position from 0 to n; NaN gives the first.
 Lanes piece_of(Lanes position, Lanes n) {
   const Lanes within = minimum(maximum(position, Lanes{}), n - 1.0);
-  return Lanes(_mm256_round_pd(__m256d(within), _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC));
+  return whole_part(within);
 }
 
 /// Holds the edges of the regions at the density of a point: curve 0 is e_0, the uppermost edge the top of the table.
@@ -58,10 +56,10 @@ class Block {
     }
     for (std::size_t i = 0; i < padded; i += 4) {
       const table::Thermal<Lanes> result = table::thermal<Lanes>(load(density + i), slopes(i));
-      whipple::store(pressure + i, result.pressure);
-      whipple::store(temperature + i, result.temperature);
+      store(pressure + i, result.pressure);
+      store(temperature + i, result.temperature);
       // The floor is the first operand: a NaN in the second operand is preserved.
-      whipple::store(sound_speed + i, sqrt(maximum(broadcast(least_squared_), result.squared_sound_speed)));
+      store(sound_speed + i, sqrt(maximum(broadcast(least_squared_), result.squared_sound_speed)));
     }
   }
 
@@ -76,20 +74,18 @@ class Block {
       const Lanes nx = grid[0], ny = grid[1], first = grid[2];
       const Lanes x = load(&strip_x_[i]) * nx, y = load(&y_[i]) * ny;
       const Lanes ix = piece_of(x, nx), iy = piece_of(y, ny);
-      store(corner.data(), _mm256_cvttpd_epi32(__m256d(first + ix * (ny + 1.0) + iy)));
-      store(row.data(), _mm256_cvttpd_epi32(__m256d(ny + 1.0)));
-      whipple::store(u.data(), x - ix);
-      whipple::store(v.data(), minimum(maximum(y - iy, Lanes{}), broadcast(1.0)));
+      store(corner.data(), truncated(first + ix * (ny + 1.0) + iy));
+      store(row.data(), truncated(ny + 1.0));
+      store(u.data(), x - ix);
+      store(v.data(), minimum(maximum(y - iy, Lanes{}), broadcast(1.0)));
       for (std::size_t j = 0; j < 4; ++j) {
         // Both fractions of two neighbours along y are contiguous.
         const auto pair = [&](std::int32_t at) {
-          const void* from = &data_.fractions[static_cast<std::size_t>(at)];
-          const __m128i values = _mm_cvtepu16_epi32(_mm_loadl_epi64(static_cast<const __m128i*>(from)));
-          return Lanes(_mm256_cvtepi32_pd(values));
+          return load_short(&data_.fractions[static_cast<std::size_t>(at)][0]);
         };
         const Lanes lower = pair(corner[j]), upper = pair(corner[j] + row[j]);
         const Lanes mixed = lower + u[j] * (upper - lower);
-        const Lanes next = Lanes(_mm256_permute4x64_pd(__m256d(mixed), 0x0e));
+        const Lanes next = __builtin_shufflevector(mixed, mixed, 2, 3, 0, 0);
         result[i + j] = (mixed + v[j] * (next - mixed)) * fraction_unit;
       }
     }
@@ -99,9 +95,9 @@ class Block {
   void find_bins(const double* density, std::size_t i) {
     const Lanes x = natural_log(load(density + i));
     const Lanes inside = minimum(maximum(x, broadcast(layout_.begin)), broadcast(layout_.end));
-    whipple::store(&x_[i], x);
-    whipple::store(&inside_[i], inside);  // the lower end for NaN
-    store(&bins_[i], _mm256_cvttpd_epi32(__m256d((inside - layout_.begin) * layout_.bins_per_length)));
+    store(&x_[i], x);
+    store(&inside_[i], inside);  // the lower end for NaN
+    store(&bins_[i], truncated((inside - layout_.begin) * layout_.bins_per_length));
   }
 
   void evaluate_curves(std::size_t i) {
@@ -114,9 +110,9 @@ class Block {
     const auto add = [&](const std::array<Lanes, 6>& curves, std::size_t first) {
       Lanes value, slope, half_curvature;
       table::horner([&](std::size_t j) { return curves[j]; }, broadcast(t), value, slope, half_curvature);
-      whipple::store(&edges.value[first], value);
-      whipple::store(&edges.slope[first], slope);
-      whipple::store(&edges.half_curvature[first], half_curvature);
+      store(&edges.value[first], value);
+      store(&edges.slope[first], slope);
+      store(&edges.half_curvature[first], half_curvature);
     };
     add(slab->curves, 0);
     if (slab->region_count > 4) add(layout_.more_curves[slab->more_curves], 4);
@@ -145,19 +141,16 @@ class Block {
         e = outside ? State::unknown : std::max(e, coldest);
       }
     }
-    whipple::store(&z_[i], natural_log(thermal));
-    whipple::store(&inverse_thermal_[i], 1.0 / thermal);
+    store(&z_[i], natural_log(thermal));
+    store(&inverse_thermal_[i], 1.0 / thermal);
   }
 
   /// Returns the number of the region of a point, counted from the bottom.
   std::size_t region_of(std::size_t i, std::size_t first, std::size_t count, RangeReport& report) {
     const Edges& edges = edges_[i];
     const std::uint32_t n = slabs_[i]->region_count;
-    const __m256d z = _mm256_set1_pd(z_[i]);
-    const auto above = [&](std::size_t edge) {
-      return static_cast<unsigned>(
-          _mm256_movemask_pd(_mm256_cmp_pd(z, _mm256_loadu_pd(&edges.value[edge]), _CMP_GT_OQ)));
-    };
+    const Lanes z = broadcast(z_[i]);
+    const auto above = [&](std::size_t edge) { return bits(z > load(&edges.value[edge])); };
     unsigned passed = above(1);
     if (n > 4) passed |= above(5) << 4;
     const auto k = static_cast<std::size_t>(__builtin_popcount(passed & ((1u << n) - 1)));
@@ -184,12 +177,12 @@ class Block {
     const Lanes half = select(lowest, Lanes{}, edge(&Edges::half_curvature, 0));
     const Lanes inverse = 1.0 / maximum(edge(&Edges::value, 1) - low, broadcast(table::least_width));
     const Lanes y = (load(&z_[i]) - low) * inverse;
-    whipple::store(&y_[i], y);
-    whipple::store(&inverse_width_[i], inverse);
-    whipple::store(&low_slope_[i], slope);
-    whipple::store(&low_curvature_[i], 2.0 * half);
-    whipple::store(&width_slope_[i], edge(&Edges::slope, 1) - slope);
-    whipple::store(&width_curvature_[i], 2.0 * (edge(&Edges::half_curvature, 1) - half));
+    store(&y_[i], y);
+    store(&inverse_width_[i], inverse);
+    store(&low_slope_[i], slope);
+    store(&low_curvature_[i], 2.0 * half);
+    store(&width_slope_[i], edge(&Edges::slope, 1) - slope);
+    store(&width_curvature_[i], 2.0 * (edge(&Edges::half_curvature, 1) - half));
 
     const auto strip = transposed({load(&regions_[i]->begin), load(&regions_[i + 1]->begin),
                                    load(&regions_[i + 2]->begin), load(&regions_[i + 3]->begin)});
@@ -197,13 +190,13 @@ class Block {
     const Lanes strip_x = (load(&inside_[i]) - strip[0]) * inverse_length;
     const Lanes px = strip_x * nx, py = y * ny;
     const Lanes ix = piece_of(px, nx), iy = piece_of(py, ny);
-    whipple::store(&strip_x_[i], strip_x);
-    whipple::store(&local_x_[i], px - ix);
-    whipple::store(&local_y_[i], py - iy);
-    whipple::store(&cells_per_x_[i], nx * inverse_length);
-    whipple::store(&cells_per_y_[i], ny);
+    store(&strip_x_[i], strip_x);
+    store(&local_x_[i], px - ix);
+    store(&local_y_[i], py - iy);
+    store(&cells_per_x_[i], nx * inverse_length);
+    store(&cells_per_y_[i], ny);
     const Lanes first_cell = gathered(i, [&](std::size_t j) { return regions_[j]->first_cell; });
-    store(&cells_[i], _mm256_cvttpd_epi32(__m256d(first_cell + ix * ny + iy)));
+    store(&cells_[i], truncated(first_cell + ix * ny + iy));
   }
 
   /// Returns the derivatives of the entropy with respect to ln rho and e.

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <immintrin.h>
-
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -36,17 +34,16 @@ using AlongX =
     std::array<double, 20>;  ///< powers 0 to 3 of the value, slope, curvature; powers 4 and 5; two unused
 
 inline void along_x(const double* cell, double tx, AlongX& sums) {
-  using Pair [[gnu::vector_size(16)]] = double;
   Lanes a0, a1, a2;
   Pair b0, b1, b2;
-  horner([&](std::size_t j) { return Lanes(_mm256_loadu_pd(cell + 6 * j)); }, broadcast(tx), a0, a1, a2);
-  horner([&](std::size_t j) { return Pair(_mm_loadu_pd(cell + 6 * j + 4)); }, Pair{tx, tx}, b0, b1, b2);
-  _mm256_storeu_pd(&sums[0], __m256d(a0));
-  _mm256_storeu_pd(&sums[4], __m256d(a1));
-  _mm256_storeu_pd(&sums[8], __m256d(a2));
-  _mm_storeu_pd(&sums[12], __m128d(b0));
-  _mm_storeu_pd(&sums[14], __m128d(b1));
-  _mm_storeu_pd(&sums[16], __m128d(b2));
+  horner([&](std::size_t j) { return load(cell + 6 * j); }, broadcast(tx), a0, a1, a2);
+  horner([&](std::size_t j) { return load_pair(cell + 6 * j + 4); }, Pair{tx, tx}, b0, b1, b2);
+  store(&sums[0], a0);
+  store(&sums[4], a1);
+  store(&sums[8], a2);
+  store(&sums[12], b0);
+  store(&sums[14], b1);
+  store(&sums[16], b2);
 }
 
 /// Returns four numbers of four points, ordered by number.

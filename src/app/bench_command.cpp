@@ -39,6 +39,7 @@ struct BenchOptions {
   std::vector<int> ranks = {1};
   bool quick = false;
   bool whole = false;
+  bool weak = false;
   bool force = false;
   bool laws = false;
   solver::Device device = solver::Device::cpu;
@@ -56,8 +57,11 @@ bench::Length length(const BenchOptions& options) {
 /// is measured separately.
 void run_worker(const BenchOptions& options) {
   solver::default_device() = options.device;
-  const Measurement measurement = bench::measure(bench::find_problem(options.problems.front()),
-                                                 options.threads.front(), length(options), parallel::world());
+  bench::Problem problem = bench::find_problem(options.problems.front());
+  const int cores = parallel::size(parallel::world()) * options.threads.front();
+  if (options.weak) problem = bench::refined(problem, cores);
+  const Measurement measurement =
+      bench::measure(problem, options.threads.front(), length(options), parallel::world());
   if (parallel::rank(parallel::world()) == 0) {
     io::write_text_atomically(options.worker, json_text(bench::to_json(measurement), -1) + "\n");
   }
@@ -76,6 +80,7 @@ Measurement measure_in_own_processes(const BenchOptions& options, const std::str
                                       file.string()};
   if (options.quick) program.emplace_back("--quick");
   if (options.whole) program.emplace_back("--whole");
+  if (options.weak) program.emplace_back("--weak");
   if (solver::is_device(options.device)) {
     program.emplace_back("--device");
     program.emplace_back(word_of(options.device));
@@ -126,7 +131,8 @@ void print(const Measurement& m) {
 }
 
 /// Prints how each problem scales with cores: the speed-up relative to its first configuration, per core, and relative
-/// to the speed-up of the reference kernel, whose threads share no data, on the same cores.
+/// to the speed-up of the reference kernel, whose threads share no data, on the same cores. Times are per particle:
+/// the speed-up of a problem that grows with the cores is that of the work done in a second.
 void print_scaling(const std::vector<Measurement>& all) {
   std::vector<std::vector<std::string>> rows = {{"problem", "ranks", "threads", "ns/particle", "speed-up",
                                                  "efficiency", "kernel's speed-up", "of the kernel's"}};
@@ -185,6 +191,7 @@ nlohmann::json to_json(const std::vector<Measurement>& all, const BenchOptions& 
   for (const Measurement& m : all) measurements.push_back(bench::to_json(m));
   return {{"version", build_info().version},
           {"revision", build_info().revision},
+          {"scaling", options.weak ? "weak" : "strong"},
           {"length", options.whole   ? "whole"
                      : options.quick ? "quick"
                                      : "normal"},
@@ -274,6 +281,10 @@ void add_bench_command(CLI::App& app) {
   command
       ->add_flag("--whole", options->whole, "The cases from beginning to end instead of some steps of them")
       ->excludes(quick)
+      ->excludes(laws);
+  command
+      ->add_flag("--weak", options->weak,
+                 "As many points for each core: cells finer by the cube root of the number of cores")
       ->excludes(laws);
   command->add_option("--json", options->json, "Also write the figures to a file")
       ->type_name("FILE.json")

@@ -83,7 +83,7 @@ std::string_view kernels() {
     case KernelSet::plain:
       return "scalar";
     case KernelSet::narrow:
-      return "AVX2";
+      return WHIPPLE_AVX2 ? "AVX2" : "portable";
     case KernelSet::wide:
       break;
   }

@@ -5,8 +5,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "src/case/case.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/process/paths.hpp"
 
 namespace whipple::bench {
 namespace {
@@ -155,6 +158,17 @@ const Problem& find_problem(std::string_view name) {
   std::vector<std::string> names;
   for (const Problem& problem : problems()) names.push_back(problem.name);
   throw InputError(fmt::format("there is no problem \"{}\"; there are {}", name, fmt::join(names, ", ")));
+}
+
+Problem refined(const Problem& problem, int times) {
+  const double finer = std::cbrt(times);
+  const cases::Case setup =
+      cases::read_case(process::find_data(problem.case_file).string(), problem.overrides);
+  Problem result = problem;
+  std::erase_if(result.overrides, [](const auto& change) { return change.first == "domain.cell_size"; });
+  result.overrides.emplace_back("domain.cell_size", fmt::format("{} m", setup.domain.cell_size / finer));
+  result.steps_before = static_cast<int>(std::lround(problem.steps_before * finer));
+  return result;
 }
 
 }  // namespace whipple::bench

@@ -28,4 +28,8 @@ const std::vector<Problem>& problems();
 /// @throws InputError that lists the names
 const Problem& find_problem(std::string_view name);
 
+/// Returns a problem with about `times` as many points, in cells finer by the cube root of it, at the same depth.
+/// @throws InputError if its case cannot be read
+Problem refined(const Problem& problem, int times);
+
 }  // namespace whipple::bench

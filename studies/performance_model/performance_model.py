@@ -62,6 +62,14 @@ def measurements(record, problem):
     return {(m["ranks"], m["threads"]): m for m in record["measurements"] if m["problem"] == problem}
 
 
+def predicted_nanoseconds(measurement, one, latency, bandwidth, imbalance):
+    """Per particle and step of a measured configuration, from the measurement on one core; threads of a rank exchange nothing."""
+    ranks, cores = measurement["ranks"], measurement["ranks"] * measurement["threads"]
+    parts = seconds_per_step(measurement["particles"] / cores, ranks, kernels_of(one), one["particles_per_block"], latency, bandwidth,
+                             one["bandwidth_bytes_per_s"], 1.0 if ranks == 1 else imbalance)
+    return 1e9 * sum(parts) / measurement["particles"]
+
+
 def print_table(rows):
     widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
     for row in rows:
@@ -94,11 +102,7 @@ def main(arguments):
 
     rows = [["ranks", "threads", "ns/particle measured", "predicted", "measured / predicted"]]
     for (ranks, threads), m in sorted(known.items()):
-        cores = ranks * threads
-        share = one["particles"] / cores
-        parts = seconds_per_step(share, ranks, kernels, per_block, options.machine_latency, options.machine_bandwidth, memory,
-                                 1.0 if ranks == 1 else options.imbalance)
-        predicted = 1e9 * sum(parts) / one["particles"]
+        predicted = predicted_nanoseconds(m, one, options.machine_latency, options.machine_bandwidth, options.imbalance)
         rows.append([str(ranks), str(threads), f"{m['ns_per_particle_step']:.1f}", f"{predicted:.1f}",
                      f"{m['ns_per_particle_step'] / predicted:.2f}"])
     print_table(rows)

@@ -2,21 +2,21 @@
 """The packages of cpack: what is in them, and the tarball from a folder of its own. With --install, those in FOLDER are
 installed in an empty Debian 12: a user without rights computes the first tutorial there, and removing the packages leaves
 nothing. This takes mmdebstrap, the rights of root and a mirror of Debian, and therefore is done only if
-WHIPPLE_INSTALL_PACKAGES is set in the environment (to a mirror, or to "default"); otherwise the exit code is 77.
+WHIPPLE_DEBIAN_MIRROR is set in the environment (to a mirror, or to "default"); otherwise the exit code is 77.
 
 Usage: packages.py BUILD_FOLDER ROOT FOLDER [--install]
 """
-import os
 import pathlib
 import shutil
 import subprocess
 import sys
 
 BUILD, ROOT, FOLDER = (pathlib.Path(argument).resolve() for argument in sys.argv[1:4])
-sys.path.insert(0, str(ROOT / "tests/unit"))
+sys.path[:0] = [str(ROOT / path) for path in ("tests/unit", "tests/installed", "scripts")]
 from checks import require  # noqa: E402
+from debian_root import ENVIRONMENT, inside, make_root  # noqa: E402
+from roots import mirror_or_skip  # noqa: E402
 
-MIRROR = "WHIPPLE_INSTALL_PACKAGES"
 PROGRAM, LIBRARY, PYTHON = "whipple", "libwhipple-dev", "python3-whipple"
 HOLDS = {
     PROGRAM: ("usr/bin/whipple", "usr/bin/whipple-md", "usr/bin/whipple-fit", "usr/share/whipple/materials/copper.toml",
@@ -56,11 +56,8 @@ def check_tarball(tarball):
 
 
 def check_clean_root(packages, mirror):
-    require(os.geteuid() == 0 and shutil.which("mmdebstrap"), "an empty root is made by root, with mmdebstrap (Debian has a package of this name)")
     root = FOLDER / "root"
-    shutil.rmtree(root, ignore_errors=True)
-    output("mmdebstrap", "--quiet", "--variant=minbase", "bookworm", root, *([] if mirror == "default" else [mirror]))
-    environment = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "DEBIAN_FRONTEND": "noninteractive", "LANG": "C.UTF-8"}
+    make_root(root, mirror=mirror)
     (root / "packages").mkdir()
     for name in (PROGRAM, PYTHON):
         shutil.copy(packages[name], root / "packages")
@@ -68,15 +65,15 @@ def check_clean_root(packages, mirror):
     shutil.copy(ROOT / "tests/unit/tutorial.py", root / "packages")
     shutil.copy(ROOT / "tests/unit/checks.py", root / "packages")
     before = set(output("find", root / "usr", "-path", "*whipple*").splitlines())
-    inside = ("unshare", "--mount", "sh", "-c", f"mount -t proc proc {root}/proc; mount --rbind /sys {root}/sys; exec chroot {root} \"$@\"", "sh")
-    output(*inside, "apt-get", "update", "-qq", env=environment)
-    output(*inside, "sh", "-c", "apt-get install -y -qq --no-install-recommends /packages/*.deb python3-h5py python3-matplotlib", env=environment)
-    output(*inside, "useradd", "--create-home", "user", env=environment)
-    user = (*inside, "su", "user", "-c")
-    require('"version"' in output(*user, "whipple version --json", env=environment), "the version")
-    print(output(*user, "/usr/bin/python3 /packages/tutorial.py /packages/first_impact.md /home/user/first", env=environment), end="")
-    output(*user, "/usr/bin/python3 -c 'import whipple.eos; whipple.eos.material(\"copper\")'", env=environment)
-    output(*inside, "apt-get", "purge", "-y", "-qq", PROGRAM, PYTHON, env=environment)
+    within = inside(root)
+    output(*within, "apt-get", "update", "-qq", env=ENVIRONMENT)
+    output(*within, "sh", "-c", "apt-get install -y -qq --no-install-recommends /packages/*.deb python3-h5py python3-matplotlib", env=ENVIRONMENT)
+    output(*within, "useradd", "--create-home", "user", env=ENVIRONMENT)
+    user = (*within, "su", "user", "-c")
+    require('"version"' in output(*user, "whipple version --json", env=ENVIRONMENT), "the version")
+    print(output(*user, "/usr/bin/python3 /packages/tutorial.py /packages/first_impact.md /home/user/first", env=ENVIRONMENT), end="")
+    output(*user, "/usr/bin/python3 -c 'import whipple.eos; whipple.eos.material(\"copper\")'", env=ENVIRONMENT)
+    output(*within, "apt-get", "purge", "-y", "-qq", PROGRAM, PYTHON, env=ENVIRONMENT)
     after = set(output("find", root / "usr", "-path", "*whipple*").splitlines())
     require(after == before, f"left behind: {sorted(after - before)[:5]}")
     print("installed into an empty Debian 12, run there by a user, removed")
@@ -90,10 +87,7 @@ def built():
 
 
 if "--install" in sys.argv:
-    if MIRROR not in os.environ:
-        print(f"SKIPPED: installation into an empty Debian: {MIRROR} is not set")
-        sys.exit(77)
-    check_clean_root(built(), os.environ[MIRROR])
+    check_clean_root(built(), mirror_or_skip("installation into an empty Debian"))
 else:
     shutil.rmtree(FOLDER, ignore_errors=True)
     FOLDER.mkdir(parents=True)

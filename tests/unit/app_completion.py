@@ -96,7 +96,7 @@ def check_version():
     told = json.loads(output(WHIPPLE, "version", "--json"))
     licences = {library["name"]: library["licence"] for library in told["libraries"]}
     require(licences["p4est"] == "GPL-2.0-or-later" == told["licence_of_executable"], f"{told}")
-    require(told["kernels"] in ("scalar", "AVX2", "AVX-512") and all(library["version"] for library in told["libraries"]), f"{told}")
+    require(told["kernels"] in ("scalar", "portable", "AVX2", "AVX-512") and all(library["version"] for library in told["libraries"]), f"{told}")
     files = re.findall(r"\(NEEDED\).*\[(.+)\]", output("readelf", "-d", WHIPPLE))
     needed = {re.split(r"[.-]|_openmpi", file)[0] for file in files}
     require(needed and needed <= set(LINKED), f"libraries without a name here: {sorted(needed - set(LINKED))}")

@@ -3,11 +3,19 @@
 
 #include <cstdint>
 
+/// Tells whether every processor that the program is for has AVX2 (preset `release`); if not, registers of four doubles
+/// are what the compiler makes of them (src/core/base/registers/portable.hpp).
+#if defined(__AVX2__) && defined(__FMA__)
+#define WHIPPLE_AVX2 1
+#else
+#define WHIPPLE_AVX2 0
+#endif
+
 /// Marks a kernel that is compiled twice, for AVX2 and for AVX-512, whose 32 vector registers (instead of 16) avoid
 /// many moves; the loader selects the version for the processor. All called functions are inlined into both. There is
 /// only one version if the whole program is built for the machine, and under sanitizers, which do not support selection
 /// by the loader.
-#if defined(__x86_64__) && defined(__OPTIMIZE__) && !defined(__clang__) && !defined(__AVX512F__) && \
+#if WHIPPLE_AVX2 && defined(__OPTIMIZE__) && !defined(__clang__) && !defined(__AVX512F__) && \
     !defined(__SANITIZE_ADDRESS__)
 #define WHIPPLE_KERNEL [[gnu::target_clones("arch=x86-64-v4", "default"), gnu::flatten, gnu::noinline]]
 #else
@@ -17,13 +25,13 @@
 /// Enables kernels that are instantiated for AVX2 and for AVX-512 registers (src/core/base/registers.hpp): those of
 /// src/transfer and src/fem. Sanitizers, which take minutes for functions of that size, use the AVX2 versions without
 /// inlining.
-#if defined(__x86_64__) && defined(__OPTIMIZE__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#if WHIPPLE_AVX2 && defined(__OPTIMIZE__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 #define WHIPPLE_WIDE_KERNELS 1
 #else
 #define WHIPPLE_WIDE_KERNELS 0
 #endif
-/// Marks a function with instructions of AVX-512, unless the whole program is built for it.
-#ifdef __AVX512F__
+/// Marks a function with instructions of AVX-512, unless the whole program is built for it, or without any.
+#if defined(__AVX512F__) || !WHIPPLE_AVX2
 #define WHIPPLE_WIDE
 #else
 #define WHIPPLE_WIDE [[gnu::target("arch=x86-64-v4")]]
@@ -43,7 +51,7 @@ namespace whipple {
 /// versions agree bitwise.
 enum class KernelSet : std::uint8_t {
   plain,   ///< scalar loops: the reference
-  narrow,  ///< for AVX2
+  narrow,  ///< for AVX2, or for processors without it
   wide,    ///< for AVX-512
 };
 /// Returns the set in use: the widest one supported by the processor, unless the program or a test selects another.

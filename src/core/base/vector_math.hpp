@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <immintrin.h>
-
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -11,10 +9,11 @@
 #include "src/core/base/registers.hpp"
 
 /// Elementary functions of four doubles, by the vector mathematics library of glibc (libmvec, AVX2 variant; maximum
-/// error 4 ulp). For batch loops; a single point and a batch of points must use the same function to agree bitwise.
+/// error 4 ulp), without AVX2 one by one. For batch loops; a single point and a batch of points must use the same function to agree bitwise.
 namespace whipple {
 
 #ifndef __CUDACC__
+#if WHIPPLE_AVX2
 namespace libmvec {
 extern "C" {
 // NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming): names of the library
@@ -31,8 +30,24 @@ inline Lanes exp(Lanes x) { return Lanes(libmvec::_ZGVdN4v_exp(__m256d(x))); }
 inline Lanes exp_minus_1(Lanes x) { return Lanes(libmvec::_ZGVdN4v_expm1(__m256d(x))); }
 /// Returns the natural logarithm; `log` is the namespace of the messages (src/core/base/log.hpp).
 inline Lanes natural_log(Lanes x) { return Lanes(libmvec::_ZGVdN4v_log(__m256d(x))); }
-inline Lanes exponential(Lanes x) { return exp(x); }
 inline Lanes pow(Lanes x, Lanes y) { return Lanes(libmvec::_ZGVdN4vv_pow(__m256d(x), __m256d(y))); }
+#else
+inline Lanes exp(Lanes x) {
+  return by_lane([&](std::size_t l) { return std::exp(x[l]); });
+}
+/// Returns exp(x) - 1.
+inline Lanes exp_minus_1(Lanes x) {
+  return by_lane([&](std::size_t l) { return std::expm1(x[l]); });
+}
+/// Returns the natural logarithm; `log` is the namespace of the messages (src/core/base/log.hpp).
+inline Lanes natural_log(Lanes x) {
+  return by_lane([&](std::size_t l) { return std::log(x[l]); });
+}
+inline Lanes pow(Lanes x, Lanes y) {
+  return by_lane([&](std::size_t l) { return std::pow(x[l], y[l]); });
+}
+#endif
+inline Lanes exponential(Lanes x) { return exp(x); }
 #endif
 /// Returns the natural logarithm of positive normal numbers to 4e-8, for initial guesses, at a third of the cost. Loops
 /// over it are vectorised by the compiler.

@@ -24,12 +24,6 @@ inline void store_vectors(double* to, const Triple<Lanes>& v) {
   store(to + 4, __builtin_shufflevector(yx, v.z, 0, 5, 1, 2));
   store(to + 8, __builtin_shufflevector(xy_last, v.z, 6, 0, 1, 7));
 }
-inline Lanes load_from_four_places(const double* from, const std::uint16_t* places) {
-  const __m128i four = _mm_cvtepu16_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(places)));
-  const __m256d all =
-      _mm256_castsi256_pd(_mm256_set1_epi64x(-1));  // (avoids a compiler warning about uninitialised values)
-  return Lanes(_mm256_mask_i32gather_pd(_mm256_setzero_pd(), from, four, all, sizeof(double)));
-}
 /// Adds the contributions of the elements of a row to the nodes behind and ahead of each of them, to a line of nodes.
 /// Elements are processed in groups of four, so that sums are bitwise identical for all register widths.
 inline void add_to_line(double* line, Lanes behind, Lanes before, std::size_t count) {
@@ -40,6 +34,7 @@ inline void add_to_line(double* line, Lanes behind, Lanes before, std::size_t co
   line[4] += before[3];
 }
 
+#if WHIPPLE_AVX2
 WHIPPLE_WIDE inline Triple<WideLanes> load_eight_vectors(const double* from) {
   const WideLanes a = load_wide(from), b = load_wide(from + 8), c = load_wide(from + 16);
   const WideLanes x = __builtin_shufflevector(a, b, 0, 3, 6, 9, 12, 15, 0, 0),
@@ -71,6 +66,10 @@ WHIPPLE_WIDE inline void add_to_line(double* line, WideLanes behind, WideLanes b
   _mm512_storeu_pd(line, sum);
   line[8] += count == 8 ? before[7] : 0.0;
 }
+#else  // named, never called
+Triple<WideLanes> load_eight_vectors(const double* from);
+WideLanes load_from_eight_places(const double* from, const std::uint16_t* places);
+#endif
 
 /// Loads as many consecutive 3-vectors as a register has lanes, by component.
 template <class Vector>

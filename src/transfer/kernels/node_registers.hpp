@@ -14,7 +14,7 @@ namespace whipple::transfer {
 template <class Vector>
 constexpr std::size_t points_of = width<Vector> / 4;
 
-/// Both registers of a node as two of AVX2.
+/// Both registers of a node as two of four doubles.
 struct TwoRegisters {
   Lanes first, second;
 };
@@ -39,9 +39,13 @@ WHIPPLE_INLINE inline void store_node(grid::Node& node, const TwoRegisters& valu
 }
 
 using NodeInRegister [[gnu::vector_size(64), gnu::may_alias]] = double;
+#if WHIPPLE_AVX2
 WHIPPLE_WIDE inline WideLanes broadcast_halves(double first, double second) {
   return WideLanes(_mm512_mask_broadcastsd_pd(_mm512_set1_pd(first), 0xf0, _mm_set_sd(second)));
 }
+#else
+WideLanes broadcast_halves(double first, double second);  // named, never called
+#endif
 WHIPPLE_WIDE inline Lanes first_of(WideLanes both) { return half(both, 0); }
 WHIPPLE_WIDE inline Lanes second_of(WideLanes both) { return half(both, 1); }
 WHIPPLE_WIDE inline void store_node(grid::Node& node, WideLanes value) {
