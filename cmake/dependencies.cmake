@@ -28,3 +28,13 @@ target_link_libraries(P4EST INTERFACE SC MPI::MPI_C)
 add_library(HDF5_MPI INTERFACE IMPORTED)
 target_include_directories(HDF5_MPI SYSTEM INTERFACE ${HDF5_C_INCLUDE_DIRS})
 target_link_libraries(HDF5_MPI INTERFACE ${HDF5_C_LIBRARIES} MPI::MPI_C)
+
+# Libraries that the loader finds unaided, as Debian's, need no search path in what is installed: packages shall have none.
+set(CMAKE_INSTALL_RPATH_USE_LINK_PATH OFF)
+foreach(library ${HDF5_C_LIBRARIES} ${MPI_C_LIBRARIES} ${UDUNITS2_LIBRARY} ${SC_LIBRARY} ${P4EST_LIBRARY})
+  get_filename_component(file ${library} REALPATH)
+  get_filename_component(folder ${file} DIRECTORY)
+  if(NOT folder IN_LIST CMAKE_C_IMPLICIT_LINK_DIRECTORIES)
+    set(CMAKE_INSTALL_RPATH_USE_LINK_PATH ON)
+  endif()
+endforeach()
