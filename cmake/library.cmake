@@ -46,7 +46,7 @@ if(WHIPPLE_PRECOMPILED_HEADERS AND CCACHE)
       CCACHE_DEPEND=1 ${CCACHE})
   target_compile_options(whipple_flags INTERFACE -fpch-preprocess)
 endif()
-if(WHIPPLE_PRECOMPILED_HEADERS)
+if(WHIPPLE_PRECOMPILED_HEADERS AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # GCC 12 forgets which lines of a precompiled header are the system's, and sees overlong copies in std::string there.
   target_compile_options(whipple_flags INTERFACE -Wno-stringop-overflow -Wno-array-bounds -Wno-restrict)
 endif()

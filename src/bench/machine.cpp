@@ -50,7 +50,7 @@ double multiply_adds(int threads) {
     parallel::for_each(results.size(), [&](std::size_t thread) {
       std::array<Lanes, chains> x{};
       Lanes factor = broadcast(0.999999 + 1e-9 * static_cast<double>(thread)), term = broadcast(1e-6);
-      asm volatile("" : "+x"(factor), "+x"(term));  // unknown to the compiler, so nothing folds
+      asm volatile("" : "+m"(factor), "+m"(term));  // unknown to the compiler, so nothing folds
       for (long i = 0; i < rounds; ++i) {
         for (Lanes& chain : x) chain = chain * factor + term;
       }
