@@ -12,6 +12,13 @@
 #include "eos/equation_of_state.hpp"
 #include "src/core/base/error.hpp"
 
+/// Marks a function that has one body, neither inlined nor cloned for some of its callers.
+#ifdef __clang__
+#define WHIPPLE_SINGLE_BODY [[gnu::noinline]]
+#else
+#define WHIPPLE_SINGLE_BODY [[gnu::noipa]]
+#endif
+
 /// Provides the common core of the models with a constant heat capacity (docs/theory/equations_of_state.md, section
 /// 2).
 namespace whipple::eos {
@@ -114,11 +121,11 @@ class ConstantHeatCapacity {
   /// Evaluates `n` points, a multiple of `width`; leaves the bound of the report empty. `melted` and `vaporised`
   /// may be null, and so may `worked`, which receives the energies after the work of the pressure (it may be
   /// `energies`). Must not be inlined or cloned: a single point must execute the same instructions as a batch.
-  [[gnu::noipa]] RangeReport evaluate_whole(const double* densities, const double* energies, double* worked,
-                                            const double* half_changes, double* __restrict p,
-                                            double* __restrict T, double* __restrict c,
-                                            double* __restrict melted, double* __restrict vaporised,
-                                            std::size_t n) const;
+  WHIPPLE_SINGLE_BODY RangeReport evaluate_whole(const double* densities, const double* energies,
+                                                 double* worked, const double* half_changes,
+                                                 double* __restrict p, double* __restrict T,
+                                                 double* __restrict c, double* __restrict melted,
+                                                 double* __restrict vaporised, std::size_t n) const;
   /// Returns the reason for a point being out of range; empty if it is not.
   [[nodiscard]] std::string_view broken_bound(double density, double energy) const {
     if (!(density > 0) || !std::isfinite(density)) return "density must be positive and finite";

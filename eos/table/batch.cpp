@@ -134,11 +134,11 @@ class Block {
     // One test for the usual points, which fails for NaN.
     if (bits((load(&x_[i]) == load(&inside_[i])) & (thermal >= coldest)) != all_lanes) {
       for (std::size_t j = i; j < i + 4; ++j) {
-        double& e = thermal[j - i];
+        const double e = thermal[j - i];
         const bool bad = !std::isfinite(x_[j]) || !std::isfinite(e), outside = bad || x_[j] != inside_[j];
         if (j < count && outside) broken(report, first + j, bad ? number_bound : table::density_bound);
         if (j < count && !outside && e < coldest) ++report.below_cold_curve;
-        e = outside ? State::unknown : std::max(e, coldest);
+        thermal[j - i] = outside ? State::unknown : std::max(e, coldest);
       }
     }
     store(&z_[i], natural_log(thermal));

@@ -124,8 +124,9 @@ WHIPPLE_KERNEL void scatter(const Step& step, Chunk& chunk, MaterialPoints& poin
   const bool any_melted = any_positive(chunk.melted, chunk.size);
   chunk.fetch(points.maximum_pressure, maximum_pressure);
   chunk.fetch(points.maximum_temperature, maximum_temperature);
-  const bool new_maximum = raise(maximum_pressure, chunk.acting_pressure, chunk.size) |
-                           raise(maximum_temperature, chunk.temperature, chunk.size);
+  const bool denser = raise(maximum_pressure, chunk.acting_pressure, chunk.size);
+  const bool hotter = raise(maximum_temperature, chunk.temperature, chunk.size);
+  const bool new_maximum = denser || hotter;
   if (any_melted || chunk.any_melted) {
     for (std::size_t k = 0; k < chunk.size; ++k) {
       double& time = points.melting_time[chunk.index[k]];
