@@ -63,7 +63,7 @@ class Contact {
 
  private:
   [[nodiscard]] double friction_between(unsigned first, unsigned second) const;
-  [[nodiscard]] double distance(const grid::BlockGrid& grid, double gap) const;
+  [[nodiscard]] double distance(double cell_size, double gap) const;
 
   Settings settings_;
   Surfaces surfaces_;

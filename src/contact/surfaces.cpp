@@ -184,12 +184,12 @@ struct Surfaces::Sources {
 template <class Shape>
 void Surfaces::fit_planes(const Sources& sources, grid::BlockGrid& grid) {
   lay_out(plane_, grid, broadcast(0.0), one_per_pair);
-  const double per_cell = 1.0 / grid.geometry().cell_size;
   for (int iteration = 0; iteration < regression::iterations; ++iteration) {
     lay_out(equations_, grid, broadcast(0.0),
             [](std::size_t bodies) { return regression::lanes_per_node * one_per_pair(bodies); });
     const auto add = [&](const Place& place) {
       // The normal at a node on a mirror plane lies in the plane: only the position along the plane is relevant.
+      const double per_cell = 1.0 / grid.cell_size(grid.contact_slots()[place.contact_slot]);
       const Vector3 cells = per_cell * place.distance.cwiseProduct(place.off_plane);
       place.for_each_pair([&](std::size_t pair, bool first) {
         const Lanes plane = plane_.values[place.in(plane_, pair)];
@@ -230,10 +230,10 @@ void Surfaces::sum_gradients(const Sources& sources, grid::BlockGrid& grid) {
           lanes(size * place.gradient.cwiseProduct(place.off_plane), size * place.weight);
     };
   });
-  const double cell_size = grid.geometry().cell_size;
   for_each_place<Shape>(sources.placed, grid, sources.several, [&](std::size_t p) {
     return [&, p](const Place& place) {  // (3.6)
       const Vector3 area = place.sign.cwiseProduct(sources.elements.area[p]).cwiseProduct(place.off_plane);
+      const double cell_size = grid.cell_size(grid.contact_slots()[place.contact_slot]);
       gradient_.values[place.in(gradient_, place.body)] +=
           place.weight * lanes(area, sources.elements.size[p] * cell_size);
     };
@@ -242,9 +242,9 @@ void Surfaces::sum_gradients(const Sources& sources, grid::BlockGrid& grid) {
 }
 
 void Surfaces::choose_normals(Normal kind, grid::BlockGrid& grid, double dt) {
-  const double cell_size = grid.geometry().cell_size;
   const bool knows_motion = dt > 0.0 && !grid.is_shared();
   for_each_owned_node(grid, [&](std::size_t c, std::size_t bodies, std::size_t node) {
+    const double cell_size = grid.cell_size(grid.contact_slots()[c]);
     const bool may_part = knows_motion && !near_planes(grid, grid.contact_slots()[c]);
     const auto at_node = [&](std::size_t body) {
       return gradient_.values[gradient_.begin[c] + body * nodes_per_block + node];
