@@ -9,7 +9,7 @@
 #include "src/core/base/error.hpp"
 #include "src/core/parallel/threads.hpp"
 #include "src/transfer/kernels.hpp"
-#include "src/transfer/mixed.hpp"
+#include "src/transfer/mixed_kernels.hpp"
 #include "src/transfer/shape_function.hpp"
 #include "src/transfer/stress_columns.hpp"
 #include "src/transfer/transition_nodes.hpp"
@@ -176,9 +176,10 @@ template <class Shape, bool affine>
                                                         double& volume_rate, double radius) {
   const grid::Geometry& geometry = grid.geometry();
   const bool mixed = is_mixed(grid, p);
-  Advance<> advance = mixed ? sums_of_mixed<Shape>(particles, grid, p, update.functions.slope_smoothing,
-                                                   plain::Transfer<affine>{update.affine, update.dt})
-                            : of_level;
+  Advance<> advance = mixed
+                          ? advance_mixed<Shape, affine>(particles, grid, p, update.functions.slope_smoothing,
+                                                         update.affine, update.dt)
+                          : of_level;
   const double before = geometry.cell_size_at(particles.position[p]);
   if constexpr (affine) {
     const Vector3 moved = particles.position[p] + update.dt * vector(advance.grid_velocity.value);

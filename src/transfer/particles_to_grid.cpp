@@ -4,7 +4,7 @@
 #include "src/core/base/prefetch.hpp"
 #include "src/core/parallel/threads.hpp"
 #include "src/transfer/kernels.hpp"
-#include "src/transfer/mixed.hpp"
+#include "src/transfer/mixed_kernels.hpp"
 #include "src/transfer/shape_function.hpp"
 #include "src/transfer/stress_columns.hpp"
 #include "src/transfer/transition_nodes.hpp"
@@ -126,12 +126,9 @@ struct Momentum : OfParticles {
 template <class Shape, class What>
 void scatter_parts(const What& what, const Particles& particles, grid::BlockGrid& grid, Region region,
                    double slope_smoothing) {
-  constexpr plain::Functions functions = plain::functions<Shape>();
   for_each_part_apart(grid, region, [&](std::uint32_t part) {
     const auto load = what.template payload<CarriesAffineField<Shape>>(grid.mixed_of_part(part).particle);
-    for_each_node_of_part(
-        functions, particles, grid, part, slope_smoothing,
-        [&](grid::Node& node, const plain::AtNode& at) { plain::Kernels::add(load, at, node); });
+    add_part<Shape>(particles, grid, part, slope_smoothing, load);
   });
 }
 
