@@ -18,6 +18,7 @@ whipple_test(test_force_gauges STARTS_MPI SOURCES property/run_force_gauges_test
 whipple_test(test_damping STARTS_MPI SOURCES verification/solver_damping_test.cpp verification/solver_plate_test.cpp DEPENDS whipple_solver LABELS fast)
 whipple_test(test_contact STARTS_MPI SOURCES property/contact_pressing_test.cpp verification/solver_gap_test.cpp verification/solver_first_touch_test.cpp verification/solver_conduction_test.cpp property/device_of_tests.cpp
              DEPENDS whipple_run LABELS fast)
+whipple_test(test_levels STARTS_MPI SOURCES verification/solver_levels_test.cpp DEPENDS whipple_run GTest::gmock LABELS fast)
 whipple_test(test_cracks STARTS_MPI SOURCES verification/solver_cracks_test.cpp verification/solver_fragment_size_test.cpp DEPENDS whipple_run LABELS fast)
 whipple_test(test_quasi_static STARTS_MPI SOURCES verification/solver_quasi_static_test.cpp verification/solver_load_step_laws_test.cpp verification/solver_load_step_rings_test.cpp DEPENDS whipple_solver GTest::gmock LABELS fast)
 # The steady flow of grains: half a minute.

@@ -68,13 +68,12 @@ bool is_empty(const grid::RefinedBox& box, const grid::Geometry& geometry) {
 }  // namespace
 
 void Refinement::check(const Case& setup, const Faults& faults) const {
-  const bool has_corners = lower.allFinite() && upper.allFinite();
-  const bool has_any_corner = !(lower.array() == -no_end).all() || !(upper.array() == no_end).all();
+  const bool has_corners = lower != upper;
   if (body.empty()) {
     if (!has_corners) return faults.add("lower", "a region needs corners, 'lower' and 'upper', or a 'body'");
     if (margin > 0.0) faults.add("margin", "'margin' is around the box of a 'body'");
   } else {
-    if (has_any_corner) faults.add("body", "a region is the box of a 'body' or has corners, not both");
+    if (has_corners) faults.add("body", "a region is the box of a 'body' or has corners, not both");
     if (!find_body(setup, body)) return faults.add("body", fmt::format("there is no body \"{}\"", body));
   }
   const std::optional<Shape::Bounds> box = box_of(setup, *this);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -14,8 +13,7 @@ namespace whipple::cases {
 /// Describes a region whose cells have the edge `domain.cell_size`; with such regions the cells elsewhere are twice as
 /// large (docs/theory/levels.md).
 struct Refinement {
-  static constexpr double no_end = std::numeric_limits<double>::infinity();
-  Vector3 lower = Vector3::Constant(-no_end), upper = Vector3::Constant(no_end);  ///< m; infinite: not given
+  Vector3 lower = Vector3::Zero(), upper = Vector3::Zero();  ///< m; both the same: not given
   std::string body;     ///< whose bounding box it is instead; empty: none
   double margin = 0.0;  ///< around the box, m
 

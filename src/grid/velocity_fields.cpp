@@ -127,14 +127,6 @@ void VelocityFields::number_blocks() {
   }
 }
 
-std::uint32_t VelocityFields::mixed_at_contact() const {
-  if (mixed().empty()) return not_mixed;
-  for (std::size_t s = 0; s < slots(); ++s) {
-    if (meets_contact(s) && !parts_in(s).empty()) return mixed_of_part(parts_in(s).front()).particle;
-  }
-  return not_mixed;
-}
-
 int VelocityFields::field_of_block(std::size_t block) const {
   const std::size_t s = slot_of_block(block);
   if (contact_number(s) != no_slot) {

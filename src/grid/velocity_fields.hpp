@@ -48,8 +48,7 @@ class VelocityFields : public PointBins {
   template <class Function>
   WHIPPLE_INLINE void for_each_field(Points points, std::size_t slot, Function&& f) const {
     const std::span<const std::uint32_t> all = members(points, slot);
-    // Parts of mixed particles do not reach contact slots (docs/theory/levels.md).
-    const bool one_field = points == Points::parts || !meets_contact(slot);
+    const bool one_field = !meets_contact(slot);
     const std::vector<std::uint8_t>& field_of = points == Points::particles ? field_ : field_of_guest_;
     for (std::size_t i = 0, end = 0; i < all.size(); i = end) {
       const std::uint8_t field = one_field ? std::uint8_t{0} : field_of[all[i]];
@@ -89,8 +88,10 @@ class VelocityFields : public PointBins {
   [[nodiscard]] unsigned whole_of_block(std::size_t block) const {
     return whole(static_cast<unsigned>(std::max(field_of_block(block), 0)));
   }
-  /// Returns a mixed particle that reaches a contact slot with one of its parts, `not_mixed` if there is none.
-  [[nodiscard]] std::uint32_t mixed_at_contact() const;
+  /// Returns the field whose nodes a part of a mixed particle has.
+  [[nodiscard]] unsigned field_of_part(std::uint32_t part) const {
+    return meets_contact(slot_of_part(part)) ? field_[mixed_of_part(part).particle] : 0U;
+  }
   /// Returns the fields that reach a slot, since `separate_fields`.
   [[nodiscard]] const FieldSet& fields(std::size_t slot) const { return fields_[slot]; }
 

@@ -29,7 +29,8 @@ void for_each_node_of_part(const plain::Functions& functions, const Particles& p
   const Vector3 slope = mixed.blend.slope(level);
   plain::for_each_node(
       functions, particles, mixed.particle, grid.places(kind)[part], Cells(grid, slot, slope_smoothing),
-      plain::NodesAround(grid, slot, 0, functions.stencil), [&](grid::Node& node, const plain::AtNode& at) {
+      plain::NodesAround(grid, slot, grid.field_of_part(part), functions.stencil),
+      [&](grid::Node& node, const plain::AtNode& at) {
         f(node, plain::AtNode{.n = share * at.n, .gradient = share * at.gradient + at.n * slope, .r = at.r});
       });
 }

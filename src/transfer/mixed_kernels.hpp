@@ -26,7 +26,8 @@ struct PartInLevel {
       : cells(grid, grid.slot_of_part(part), slope_smoothing),
         place(grid.places(grid::BlockGrid::Points::parts)[part]),
         weights(weights_at<Shape>(particles, grid.mixed_of_part(part).particle, place, cells)),
-        nodes(DirectAccess<Shape>(grid, grid.slot_of_part(part), 0).stencil(place.first_node())),
+        nodes(DirectAccess<Shape>(grid, grid.slot_of_part(part), grid.field_of_part(part))
+                  .stencil(place.first_node())),
         share(grid.mixed_of_part(part).blend.share(grid::BlockGrid::level_of_part(part))),
         slope(grid.mixed_of_part(part).blend.slope(grid::BlockGrid::level_of_part(part))) {}
 };

@@ -31,21 +31,20 @@ std::uint32_t mixed_at_plane(const State& state) {
 
 }  // namespace
 
+void stop_at_mixed(const State& state, std::uint32_t particle, const std::string& what) {
+  std::string error;
+  if (particle != grid::BlockGrid::not_mixed) {
+    error = state.describe_particle(particle, state.run.time,
+                                    what +
+                                        " where the cells change their size: a region of 'domain.refinement' "
+                                        "should hold this place, or none of it");
+  }
+  parallel::throw_together(state.communicator, error);
+}
+
 void watch_levels(State& state) {
   constexpr double strong = 0.1;  // of rho_0 c_0^2
-  std::string error;
-  const auto refuse = [&](std::uint32_t p, const char* what) {
-    if (p == grid::BlockGrid::not_mixed || !error.empty()) return;
-    error = state.describe_particle(p, state.run.time, what);
-  };
-  refuse(state.grid.mixed_at_contact(),
-         "bodies meet where the cells change their size: a region of 'domain.refinement' should hold this "
-         "place, "
-         "or none of it");
-  refuse(mixed_at_plane(state),
-         "material may part from a wall or its image where the cells change their size: a region of "
-         "'domain.refinement' should hold this place, or none of it");
-  parallel::throw_together(state.communicator, error);
+  stop_at_mixed(state, mixed_at_plane(state), "material may part from a wall or its image");
   for (const grid::MixedParticle& mixed : state.grid.mixed()) {
     const std::uint32_t body = state.particles.body[mixed.particle];
     const double c = state.setup.materials[body]->reference.sound_speed;
