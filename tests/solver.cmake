@@ -68,7 +68,7 @@ foreach(ranks 1 2 4 8)
   set_tests_properties(test_solver_ranks.${ranks} PROPERTIES LABELS ${label} TIMEOUT 900 RUN_SERIAL ON
     ENVIRONMENT "${mpi_environment}")
 endforeach()
-add_executable(test_crack_ranks parallel/solver_crack_ranks.cpp)
+add_executable(test_crack_ranks parallel/solver_crack_ranks.cpp parallel/solver_level_ranks.cpp)
 target_link_libraries(test_crack_ranks PRIVATE whipple_run GTest::gtest)
 whipple_test_flags(test_crack_ranks)
 foreach(ranks 2 4)
