@@ -13,6 +13,7 @@ Particle-steps count the particles that take part. Runs of the same program are 
 """
 import argparse
 import csv
+import math
 import pathlib
 import subprocess
 import sys
@@ -101,7 +102,7 @@ def print_problem(arguments, problem):
                 print(f"| {cell:g} | {way} | ended with code {kept['code']} |")
                 continue
             measured, rows = Measures(folder), history(folder)
-            values = [f"{measured.value(name) * scale:.{digits}f}" for name, (_, scale, digits) in measures.items()]
+            values = [f"{measured.single.get(name, math.nan) * scale:.{digits}f}" for name, (_, scale, digits) in measures.items()]
             counted = rows.get("shocks_at_change", ["-"])[-1]
             print(f"| {cell:g} | {way} | {' | '.join(values)} | {rows['particles'][-1]} | {rows['step'][-1]} | {kept['seconds']:.0f} | "
                   f"{kept['memory'] / 2**20:.0f} | {counted} |", flush=True)
