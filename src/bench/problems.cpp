@@ -165,7 +165,6 @@ Problem refined(const Problem& problem, int times) {
   const cases::Case setup =
       cases::read_case(process::find_data(problem.case_file).string(), problem.overrides);
   Problem result = problem;
-  std::erase_if(result.overrides, [](const auto& change) { return change.first == "domain.cell_size"; });
   result.overrides.emplace_back("domain.cell_size", fmt::format("{} m", setup.domain.cell_size / finer));
   result.steps_before = static_cast<int>(std::lround(problem.steps_before * finer));
   return result;
