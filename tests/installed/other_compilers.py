@@ -14,7 +14,7 @@ import sys
 WHIPPLE, ROOT, FOLDER = (pathlib.Path(argument).resolve() for argument in sys.argv[1:4])
 sys.path[:0] = [str(ROOT / path) for path in ("tests/unit", "tests/installed", "scripts")]
 from debian_root import ENVIRONMENT, build_packages, inside, make_root  # noqa: E402
-from roots import MPI_ALONE, call, mirror_or_skip, same_impact  # noqa: E402
+from roots import MPI_ALONE, call, mirror_or_skip, same_impact, verdict  # noqa: E402
 
 COMPILERS = {"gcc": ("gcc", "g++"), "clang": ("clang", "clang++")}
 TESTS = ("base_test", "eos_test", "test_material", "test_transfer", "test_fem", "test_exact")
@@ -38,7 +38,7 @@ def main():
         settings = ENVIRONMENT | MPI_ALONE | {"HOME": "/root"}
         for test in TESTS:
             told = call(*within, f"{build}/tests/bin/{test}", "--gtest_filter=*-*Fine*", "--gtest_brief=1", env=settings)
-            print(f"  {test}: {told.strip().splitlines()[-1]}", flush=True)
+            print(f"  {test}: {verdict(told)}", flush=True)
         same_impact(ROOT, (WHIPPLE,), (*within, f"{build}/bin/whipple"), FOLDER, "/source", root)
 
 

@@ -16,7 +16,7 @@ WHIPPLE, ROOT, FOLDER = (pathlib.Path(argument).resolve() for argument in sys.ar
 sys.path[:0] = [str(ROOT / path) for path in ("tests/unit", "tests/installed", "scripts")]
 from checks import require  # noqa: E402
 from debian_root import library_packages, unpack_root  # noqa: E402
-from roots import MPI_ALONE, call, mirror_or_skip, same_impact  # noqa: E402
+from roots import MPI_ALONE, call, mirror_or_skip, same_impact, verdict  # noqa: E402
 
 EMULATOR, COMPILER = "qemu-aarch64-static", "aarch64-linux-gnu-g++-12"
 # Executables, and which of their tests: minutes under emulation, twenty times as long as here. None that starts other programs.
@@ -48,7 +48,7 @@ def main():
     call(*emulated, FOLDER / "build/bin/whipple-md", "--help", env=settings())
     for name, wanted in TESTS.items():
         told = call(*emulated, FOLDER / "build/tests/bin" / name, f"--gtest_filter={wanted}", "--gtest_brief=1", env=settings(), cwd=FOLDER)
-        print(f"{name}: {told.strip().splitlines()[-1]}", flush=True)
+        print(f"{name}: {verdict(told)}", flush=True)
     same_impact(ROOT, (WHIPPLE,), (*emulated, FOLDER / "build/bin/whipple"), FOLDER)
 
 

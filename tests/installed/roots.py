@@ -76,3 +76,8 @@ def same_impact(sources, here, there, folder, there_sources=None, root=None):
     if not figure < ROUND_OFF:
         raise SystemExit(f"FAILED: {column} differs by {figure:.1e} of its largest value")
     print(f"small impact: {len(next(iter(one.values())))} rows of {len(one)} columns, largest difference {figure:.1e} ({column})", flush=True)
+
+
+def verdict(told):
+    """Return what GoogleTest said in the end."""
+    return ", ".join(" ".join(line.split()) for line in told.splitlines() if line.startswith(("[  PASSED", "[  SKIPPED")))

@@ -88,7 +88,7 @@ class Hexahedra : public Carrier {
   // Of each shared node over all its copies: force (N), mass (kg), sound speed (m/s)
   std::vector<std::array<double, 5>> shared_;
   // In the current step:
-  std::size_t first_ = 0, count_ = 0;   // of the nodes in State::transition
+  std::size_t count_ = 0;               // of the nodes in State::transition
   struct Motion {                       // of each mesh
     std::vector<Vector3> acceleration;  // of the nodes by loads, m/s^2
     double hoop_force = 0.0;            // N, sum of the radial forces of rings
