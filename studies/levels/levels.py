@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A region of small cells beside small and large cells everywhere (docs/theory/levels.md, 6).
 
-usage: levels.py [crater] [shield] [shock]... [--grid 0|1]... [--table] [--folder run/studies/levels] [--whipple EXE]
+usage: levels.py [section] [crater] [shield] [shock]... [--grid 0|1]... [--table] [--folder run/studies/levels] [--whipple EXE]
 
+  section cases/aluminium_crater as an axisymmetric section
   crater  cases/aluminium_crater: sphere of 0.5 g into a thick block at 6 km/s
   shield  cases/whipple_shield: bumper, cloud and wall, with the middle of both in the region
   shock   column without strength onto a plane at 1000, 500 and 250 m/s, whose shock crosses the change to larger and to smaller cells
@@ -27,12 +28,15 @@ REGIONS = {
     "crater": [(("0 mm", "0 mm", "-40 mm"), ("28 mm", "28 mm", "28 mm")), (("0 mm", "0 mm", "-40 mm"), ("48 mm", "48 mm", "4 mm"))],
     "shield": [(("0 mm", "0 mm", "-30 mm"), ("44 mm", "44 mm", "160 mm"))],
 }
-CASES = {"crater": ROOT / "cases/aluminium_crater/case.toml", "shield": ROOT / "cases/whipple_shield/case.toml"}
-CELLS = {"crater": [1.0, 0.7], "shield": [0.5, 0.35]}  # mm, the small ones
+REGIONS["section"] = REGIONS["crater"]
+CASES = {"section": ROOT / "cases/aluminium_crater/case.toml", "crater": ROOT / "cases/aluminium_crater/case.toml", "shield": ROOT / "cases/whipple_shield/case.toml"}
+CELLS = {"section": [0.5, 0.25, 0.125], "crater": [1.0, 0.7], "shield": [0.5, 0.35]}  # mm, the small ones
 MEASURES = {
     "crater": {"crater_depth.block": ("depth, mm", 1e3, 2), "crater_diameter.block": ("diameter, mm", 1e3, 2)},
     "shield": {"mean_velocity.sphere": ("sphere, m/s", 1.0, 1), "mean_velocity.bumper": ("bumper, m/s", 1.0, 1), "mean_velocity.wall": ("wall, m/s", 1.0, 2)},
 }
+MEASURES["section"] = MEASURES["crater"]
+SECTION = ["domain.dimension=axisymmetric", "domain.axis=z"]
 WAYS = ("small", "two sizes", "large")
 COLUMN = """title = "column"
 [domain]
@@ -75,7 +79,7 @@ def run_of(arguments, problem, cell, way):
             text = head + region_text(REGIONS[problem]) + mark + rest
         path = folder.with_suffix(".toml")
         path.write_text(text, encoding="utf-8")
-        return path, [f"domain.cell_size={2 * cell if way == 'large' else cell} mm"]
+        return path, [f"domain.cell_size={2 * cell if way == 'large' else cell} mm", *(SECTION if problem == "section" else [])]
 
     return folder, timed_run(arguments, folder, prepare)
 

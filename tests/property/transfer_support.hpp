@@ -25,7 +25,11 @@ namespace whipple::transfer {
 inline constexpr double dx = 0.5;
 
 inline grid::Geometry geometry(std::array<grid::Boundary, 6> boundary = {}) {
-  return {.lower = Vector3(-2, -1, 3), .cells = {22, 17, 19}, .cell_size = dx, .boundary = boundary};
+  return {.lower = Vector3(-2, -1, 3),
+          .cells = {22, 17, 19},
+          .cell_size = dx,
+          .boundary = boundary,
+          .levels = {}};
 }
 
 inline SymmetricTensor random_stress(std::mt19937& random) {

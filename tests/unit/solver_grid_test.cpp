@@ -20,7 +20,7 @@ namespace whipple::grid {
 namespace {
 
 Geometry geometry() {
-  return {.lower = Vector3(0, 0, 0), .cells = {50, 37, 410}, .cell_size = 1.0, .boundary = {}};
+  return {.lower = Vector3(0, 0, 0), .cells = {50, 37, 410}, .cell_size = 1.0, .boundary = {}, .levels = {}};
 }
 
 std::vector<Vector3> random_positions(std::size_t n, unsigned seed) {
