@@ -12,7 +12,6 @@
 #include "eos/model_equation_of_state.hpp"
 #include "eos/models/gray.hpp"
 #include "md_fitting/elements/element_defaults.hpp"
-#include "md_fitting/fit/constant_list.hpp"
 #include "md_fitting/fit/fit_report.hpp"
 #include "md_fitting/fit/fit_samples.hpp"
 #include "md_fitting/fit/gray_fit.hpp"
