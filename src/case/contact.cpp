@@ -54,7 +54,8 @@ void ContactControl::check(const Case& setup, const Faults& faults) const {
   }
   const unsigned count = count_of(fields_of_groups(setup.bodies));
   const bool parts = std::ranges::any_of(setup.bodies, [](const Body& body) { return body.parts_touch(); });
-  if (count < 2 && !parts) faults.add("method", "'method' is \"multi_field\", but all bodies are one contact group");
+  if (count < 2 && !parts)
+    faults.add("method", "'method' is \"multi_field\", but all bodies are one contact group");
   if (count > grid::maximum_fields) {
     faults.add("method", fmt::format("'method': {} bodies or contact groups, at most {} can have velocity "
                                      "fields of their own: join some with contact_group",
