@@ -45,7 +45,7 @@ MAY_USE = {
     "src/afemp": ["src/core/base", "src/core/parallel", "src/particles", "src/grid", "src/material", "src/transfer", "src/fem"],
     # Implicit load steps without inertia: equilibrium on the grid.
     "src/quasi_static": ["src/core/base", "src/core/parallel", "src/particles", "src/grid", "src/material", "src/transfer"],
-    "src/io": ["src/core/base", "src/core/parallel", "src/core/hdf5", "src/particles", "src/material", "src/fem"],
+    "src/io": ["src/core/base", "src/core/parallel", "src/core/hdf5", "src/particles", "src/grid", "src/material", "src/fem"],
     # Solids from files of other programs, and generated ones.
     "src/solids": ["src/core/base", "src/core/parallel"],
     "src/case": ["src/core/base", "src/core/input", "src/core/parallel", "src/solids", "eos", "eos/files", "src/particles", "src/grid", "src/material",

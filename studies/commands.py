@@ -23,7 +23,7 @@ def call(command, allowed=(0,)):
 
 def timed_run(arguments, folder, prepare):
     """Runs and analyses a case on one thread unless a run of the same program is there. prepare() returns case file and settings;
-    with arguments.table nothing is run. @returns code and user time (s) of the run, or None"""
+    with arguments.table nothing is run. @returns code, user time (s) and largest memory (bytes) of the run, or None"""
     record = folder.with_suffix(".json")
     if record.exists():
         kept = json.loads(record.read_text(encoding="utf-8"))
@@ -40,7 +40,7 @@ def timed_run(arguments, folder, prepare):
     process.returncode = code = os.waitstatus_to_exitcode(status)
     if code == 0:
         code = subprocess.run([str(arguments.whipple), "analyse", str(folder), "--quiet"], check=False, stdout=subprocess.DEVNULL).returncode
-    kept = {"program": str(arguments.whipple.stat().st_mtime_ns), "code": code, "seconds": usage.ru_utime}
+    kept = {"program": str(arguments.whipple.stat().st_mtime_ns), "code": code, "seconds": usage.ru_utime, "memory": 1024 * usage.ru_maxrss}
     record.write_text(json.dumps(kept), encoding="utf-8")
     return kept
 

@@ -18,6 +18,7 @@ whipple_test(test_force_gauges STARTS_MPI SOURCES property/run_force_gauges_test
 whipple_test(test_damping STARTS_MPI SOURCES verification/solver_damping_test.cpp verification/solver_plate_test.cpp DEPENDS whipple_solver LABELS fast)
 whipple_test(test_contact STARTS_MPI SOURCES property/contact_pressing_test.cpp verification/solver_gap_test.cpp verification/solver_first_touch_test.cpp verification/solver_conduction_test.cpp property/device_of_tests.cpp
              DEPENDS whipple_run LABELS fast)
+whipple_test(test_levels STARTS_MPI SOURCES verification/solver_levels_test.cpp DEPENDS whipple_run GTest::gmock LABELS fast)
 whipple_test(test_cracks STARTS_MPI SOURCES verification/solver_cracks_test.cpp verification/solver_fragment_size_test.cpp DEPENDS whipple_run LABELS fast)
 whipple_test(test_quasi_static STARTS_MPI SOURCES verification/solver_quasi_static_test.cpp verification/solver_load_step_laws_test.cpp verification/solver_load_step_rings_test.cpp DEPENDS whipple_solver GTest::gmock LABELS fast)
 # The steady flow of grains: half a minute.
@@ -65,7 +66,7 @@ foreach(ranks 1 2 4 8)
   set_tests_properties(test_solver_ranks.${ranks} PROPERTIES LABELS ${label} TIMEOUT 900 RUN_SERIAL ON
     ENVIRONMENT "${mpi_environment}")
 endforeach()
-add_executable(test_crack_ranks parallel/solver_crack_ranks.cpp)
+add_executable(test_crack_ranks parallel/solver_crack_ranks.cpp parallel/solver_level_ranks.cpp)
 target_link_libraries(test_crack_ranks PRIVATE whipple_run GTest::gtest)
 whipple_test_flags(test_crack_ranks)
 foreach(ranks 2 4)

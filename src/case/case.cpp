@@ -237,6 +237,7 @@ std::vector<InputFault> settle(Case& setup) {
   const Faults faults(list), bodies = faults.in("body");
   fill_in(setup);
   make_shapes(setup, bodies);
+  setup.geometry.levels = levels_of(setup);
   read_materials(setup, bodies);
   const std::size_t of_files = list.size();
   settle_particles(setup, bodies);
@@ -257,6 +258,7 @@ std::vector<InputFault> settle(Case& setup) {
   check_places_of_loads(setup, faults);
   check_lithostatic(setup, faults);
   check_load_step_fields(setup, faults);
+  check_two_levels(setup, faults);
   return list;
 }
 

@@ -36,7 +36,9 @@ ParameterTable<Domain> Domain::parameters() {
       vector("upper", &Domain::upper, "m", range::any(),
              "upper corner; moved outwards to whole cells at outflow faces"),
       real("cell_size", &Domain::cell_size, "m", range::positive(),
-           "edge of the cells of the background grid"),
+           "edge of the cells of the background grid; with regions of refinement that of the cells inside, "
+           "and "
+           "twice as much elsewhere"),
       real("friction", &Domain::friction, "", range::non_negative(),
            "Coulomb coefficient of the faces of kind friction")
           .optional("none"),
@@ -55,13 +57,14 @@ ParameterTable<Domain> Domain::parameters() {
 
 std::span<const Section<Domain>> Domain::sections() {
   static const std::array all = {
-      section<&Domain::boundary>("boundary", ", or boundary = { x_lower = \"symmetry\", ... }")};
+      section<&Domain::boundary>("boundary", ", or boundary = { x_lower = \"symmetry\", ... }"),
+      section<&Domain::refinement>("refinement", ", a region of cells of 'cell_size' among larger ones")};
   return all;
 }
 
 namespace {
 
-/// Holds the number of cells along an extent, and whether it is an integer up to round-off.
+/// Holds the number of the largest cells along an extent, and whether it is an integer up to round-off.
 struct Count {
   double exact, nearest;
   [[nodiscard]] bool whole() const { return std::abs(exact - nearest) < 1e-6 * std::max(nearest, 1.0); }
@@ -70,7 +73,7 @@ struct Count {
 
 Count cells_along(const Domain& domain, Eigen::Index axis) {
   if (domain.is_planar() && axis == 2) return {1.0, 1.0};
-  const double exact = (domain.upper[axis] - domain.lower[axis]) / domain.cell_size;
+  const double exact = (domain.upper[axis] - domain.lower[axis]) / domain.coarse_cell_size();
   return {exact, std::round(exact)};
 }
 
@@ -92,7 +95,8 @@ grid::Geometry Domain::geometry() const {
   for (std::size_t a = 0; a < 3; ++a) {
     const Count count = cells_along(*this, static_cast<Eigen::Index>(a));
     if (!count.possible()) continue;
-    g.cells[a] = static_cast<std::int32_t>(count.whole() ? count.nearest : std::ceil(count.exact));
+    const std::int32_t finest = refinement.empty() || (is_planar() && a == 2) ? 1 : 2;
+    g.cells[a] = finest * static_cast<std::int32_t>(count.whole() ? count.nearest : std::ceil(count.exact));
   }
   return g;
 }
@@ -107,11 +111,11 @@ void Domain::check(const Case& setup, const Faults& faults) const {
       faults.add("upper",
                  fmt::format("the domain has {} cells along {}; expected 1 to 1e6", count.exact, "xyz"[a]));
     } else if (!count.whole() && end != grid::Boundary::outflow) {
-      faults.add(
-          "upper",
-          fmt::format("{}_upper is a {} face, so the domain must hold a whole number of cells "
-                      "along {}: {} m holds {:.6g} cells of {} m",
-                      "xyz"[a], word_of(end), "xyz"[a], upper[axis] - lower[axis], count.exact, cell_size));
+      faults.add("upper",
+                 fmt::format("{}_upper is a {} face, so the domain must hold a whole number of cells "
+                             "along {}: {} m holds {:.6g} cells of {} m",
+                             "xyz"[a], word_of(end), "xyz"[a], upper[axis] - lower[axis], count.exact,
+                             coarse_cell_size()));
     }
   }
   if (!is_planar() && axis != Axis::x) {

@@ -4,7 +4,9 @@
 #include <array>
 #include <limits>
 #include <span>
+#include <vector>
 
+#include "src/case/refinement.hpp"
 #include "src/case/section.hpp"
 #include "src/case/shapes/axis.hpp"
 #include "src/grid/geometry.hpp"
@@ -29,7 +31,7 @@ struct Faces {
 struct Domain {
   Vector3 lower = Vector3::Zero();  ///< m
   Vector3 upper = Vector3::Zero();  ///< m
-  double cell_size = 0.0;           ///< m
+  double cell_size = 0.0;           ///< of the finest cells, m
   double friction =
       std::numeric_limits<double>::infinity();  ///< of faces of kind `friction`; infinite: not given
   grid::Dimension dimension = grid::Dimension::space;
@@ -37,14 +39,17 @@ struct Domain {
   /// case uses the directions of the section.
   Axis axis = Axis::x;
   Faces boundary;
+  std::vector<Refinement> refinement;  ///< where the cells have that size; empty: everywhere
 
   static constexpr bool required = true;
   static ParameterTable<Domain> parameters();
   static std::span<const Section<Domain>> sections();
   void check(const Case& setup, const Faults& faults) const;
 
+  /// Returns the edge of the largest cells, m.
+  [[nodiscard]] double coarse_cell_size() const { return refinement.empty() ? cell_size : 2.0 * cell_size; }
   [[nodiscard]] bool is_planar() const { return dimension != grid::Dimension::space; }
-  /// Returns the grid of whole cells; in two dimensions it has one cell along z, starting at z = 0. Walls coincide with
+  /// Returns the grid of whole cells, without its levels; in two dimensions it has one cell along z, starting at z = 0. Walls coincide with
   /// cell faces; an outflow face at an upper end is moved outwards to one. An axis for which `check` finds a fault may
   /// have no cells.
   [[nodiscard]] grid::Geometry geometry() const;

@@ -90,7 +90,7 @@ void book_rest(const Pressing& pressing, std::span<Side> sides, std::span<const 
 class HeldComponents {
  public:
   HeldComponents(const grid::BlockGrid& grid, std::uint32_t slot) : grid_(grid) {
-    const grid::Geometry& geometry = grid.geometry();
+    const grid::Geometry& geometry = grid.geometry(slot);
     for (std::size_t face = 0; face < 6; ++face) {
       const std::size_t axis = face / 2;
       const int edge = grid.block_shape().along(axis), at = face % 2 == 0 ? 0 : geometry.cells[axis];
@@ -168,8 +168,8 @@ void choose(Response response, const std::vector<Side>& sides, Least&& least,
 }  // namespace
 
 /// Returns the distance (m) of two surfaces with the given gap beyond the distance that counts as touching.
-double Contact::distance(const grid::BlockGrid& grid, double gap) const {
-  return settings_.gap_test ? std::max(gap - settings_.gap * grid.geometry().cell_size, 0.0) : 0.0;
+double Contact::distance(double cell_size, double gap) const {
+  return settings_.gap_test ? std::max(gap - settings_.gap * cell_size, 0.0) : 0.0;
 }
 
 double Contact::friction_between(unsigned first, unsigned second) const {
@@ -188,7 +188,8 @@ bool Contact::touch(const grid::BlockGrid& grid, std::size_t contact_slot, std::
   if (a == b) return true;
   const std::size_t pair = pair_index(std::min(a, b), std::max(a, b), bodies.count());
   const Surfaces::Gap gap = surfaces_.at(contact_slot, pair, node);
-  return !gap.normal.isZero(0.0) && distance(grid, gap.width) <= resting_distance * grid.geometry().cell_size;
+  const double cell_size = grid.cell_size(slot);
+  return !gap.normal.isZero(0.0) && distance(cell_size, gap.width) <= resting_distance * cell_size;
 }
 
 Balance Contact::apply(grid::BlockGrid& grid, double dt, FirstTouches& touches, const Cracks* cracks) const {
@@ -205,6 +206,7 @@ Balance Contact::apply(grid::BlockGrid& grid, double dt, FirstTouches& touches, 
     }
     std::vector<Meeting> meetings;
     const HeldComponents held(grid, grid.contact_slots()[c]);
+    const double cell_size = grid.cell_size(grid.contact_slots()[c]);
     std::vector<std::uint8_t> by_impulses;  // of each side
     std::vector<Stop> stops;
     Pressing pressing;
@@ -218,7 +220,7 @@ Balance Contact::apply(grid::BlockGrid& grid, double dt, FirstTouches& touches, 
           const std::size_t of_a = at_node.body(a), of_b = at_node.body(b);
           if (of_a == of_b) {  // faces of a crack
             const Cracks::Crack& crack = at_node.crack(a);
-            const double open = distance(grid, crack.gap);
+            const double open = distance(cell_size, crack.gap);
             meetings.push_back({a, b, crack.axis, open,
                                 Pressing::share(sides[a], sides[b], crack.axis, open, dt),
                                 settings_.crack_friction});
@@ -227,7 +229,7 @@ Balance Contact::apply(grid::BlockGrid& grid, double dt, FirstTouches& touches, 
           const Surfaces::Gap gap = surfaces_.at(c, pair_index(of_a, of_b, at_node.bodies()), i);
           if (gap.normal.isZero(0.0)) continue;
           among_bodies = true;
-          const double open = distance(grid, gap.width);
+          const double open = distance(cell_size, gap.width);
           touches.see(field(a), field(b), open, gap.normal.dot(sides[a].after() - sides[b].after()));
           meetings.push_back({a, b, gap.normal, open,
                               Pressing::share(sides[a], sides[b], gap.normal, open, dt),

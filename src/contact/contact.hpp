@@ -61,9 +61,14 @@ class Contact {
   Balance apply(grid::BlockGrid& grid, double dt, FirstTouches& touches,
                 const Cracks* cracks = nullptr) const;
 
+  /// Returns a particle with functions of two cell sizes where bodies meet; BlockGrid::not_mixed: none. Requires surfaces.
+  [[nodiscard]] std::uint32_t mixed_particle(const grid::BlockGrid& grid) const {
+    return surfaces_.mixed_particle(grid);
+  }
+
  private:
   [[nodiscard]] double friction_between(unsigned first, unsigned second) const;
-  [[nodiscard]] double distance(const grid::BlockGrid& grid, double gap) const;
+  [[nodiscard]] double distance(double cell_size, double gap) const;
 
   Settings settings_;
   Surfaces surfaces_;

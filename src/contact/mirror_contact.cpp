@@ -103,7 +103,6 @@ void rub(const Rubbing& at_node, const Rubbing& at_mirror, bool on_plane, double
 void MirrorContact::lay_out(const BlockGrid& grid) {
   if (layout_ == grid.layout()) return;
   layout_ = grid.layout();
-  cell_size_ = grid.geometry().cell_size;
   friction_ = grid.geometry().friction;
   planes_.clear();
   first_of_block_.clear();
@@ -116,8 +115,8 @@ void MirrorContact::lay_out(const BlockGrid& grid) {
     plane.of.axis = mirror.axis;
     plane.of.kind = mirror.kind;
     const auto axis = static_cast<std::size_t>(mirror.axis);
-    const std::int32_t at = mirror.face % 2 == 0 ? 0 : grid.geometry().cells[axis];
     for (std::size_t s = 0; s < grid.slots(); ++s) {
+      const std::int32_t at = mirror.face % 2 == 0 ? 0 : grid.geometry(s).cells[axis];
       const int edge = grid.block_shape().along(axis);
       const std::int32_t first = grid.coordinate(s)[axis] * edge;
       if (first <= at + BlockGrid::mirror_reach && first + edge - 1 >= at - BlockGrid::mirror_reach) {
@@ -152,12 +151,15 @@ void MirrorContact::lay_out(const BlockGrid& grid) {
   };
   auto plane = planes_.begin();
   const auto mirrors = grid.mirror_planes();
+  const auto cell_size = [&](std::uint32_t node) { return grid.geometry_of_node(node).cell_size; };
   for (const grid::MirrorPlane& mirror : mirrors) {
     if (!grid.is_apart_at(static_cast<std::size_t>(mirror.face))) continue;
     for (const grid::MirrorPair& pair : mirror.pairs_apart) {
-      if (both_concern(pair)) plane->couples.push_back({pair.image, pair.outside});
+      if (both_concern(pair)) plane->couples.push_back({pair.image, pair.outside, cell_size(pair.image)});
     }
-    for (const std::uint32_t node : mirror.on_plane_apart) plane->couples.push_back({node, node});
+    for (const std::uint32_t node : mirror.on_plane_apart) {
+      plane->couples.push_back({node, node, cell_size(node)});
+    }
     for (const grid::MirrorPlane& opposite : mirrors) {
       if (opposite.face != (mirror.face ^ 1)) continue;
       plane->opposite = opposite.kind;
@@ -200,7 +202,7 @@ void MirrorContact::lay_out(const BlockGrid& grid) {
   }
   for (std::size_t n = mirrors.size(); n-- > 0;) {
     for (const grid::MirrorPair& pair : mirrors[n].pairs) {
-      if (both_concern(pair)) folded_.push_back({pair.outside, pair.image});
+      if (both_concern(pair)) folded_.push_back(pair);
     }
   }
 }
@@ -242,8 +244,8 @@ void MirrorContact::add_heat(grid::NodeMotion& motion, std::uint32_t node, doubl
   heat_[place(node) / lanes_per_node] += heat;
 }
 
-bool MirrorContact::sticks(const Plane& plane, double gap) const {
-  return plane.of.kind == grid::Boundary::no_slip && gap < sticking_gap * cell_size_;
+bool MirrorContact::sticks(const Plane& plane, const Couple& couple, double gap) {
+  return plane.of.kind == grid::Boundary::no_slip && gap < sticking_gap * couple.cell_size;
 }
 
 /// Returns, by component, the weight of a node in the common velocity with the image at it: 1 for the components held
@@ -312,7 +314,7 @@ double MirrorContact::meet(const Plane& plane, const Couple& couple, std::span<N
   const double w = n * (v_image - v)[plane.of.axis], e = n * (d_image - d)[plane.of.axis];
   const double beta = common_relaxation(mass, v[3], other_mass, v_image[3]);
   if (touches_ != nullptr) touches_->see_face(static_cast<std::size_t>(plane.of.face), open, -(w + e));
-  const bool held = sticks(plane, open);
+  const bool held = sticks(plane, couple, open);
   const double share = held ? 1.0 : share_in_touch(open, -(w + e), dt);
   if (!(share > 0.0)) return 0.0;
   const double before = loss(own[0], own[1], node) + loss(own_of_mirror[0], own_of_mirror[1], mirror);
@@ -360,9 +362,9 @@ void MirrorContact::apply(BlockGrid& grid, double dt, transfer::Nodes which) {
     });
     made_heat_ = made_heat_ || std::ranges::any_of(plane.share, [](double share) { return share > 0.0; });
   }
-  for (const Couple& pair : folded_) {
-    if (is_among(grid, pair.node, which))
-      heat_[place(pair.node) / lanes_per_node] = heat_[place(pair.mirror) / lanes_per_node];
+  for (const grid::MirrorPair& pair : folded_) {
+    if (is_among(grid, pair.outside, which))
+      heat_[place(pair.outside) / lanes_per_node] = heat_[place(pair.image) / lanes_per_node];
   }
   shares_known_ = true;
 }
@@ -383,7 +385,7 @@ void MirrorContact::apply_to_velocities(BlockGrid& grid, transfer::Nodes which) 
       if (!shares_known_) {
         const double open = gap(plane, couple);
         const double closing = plane.of.outward() * (v - v_image)[plane.of.axis];
-        share = sticks(plane, open) ? 1.0 : closing > 0.0 ? share_in_touch(open, closing, dt_) : 0.0;
+        share = sticks(plane, couple, open) ? 1.0 : closing > 0.0 ? share_in_touch(open, closing, dt_) : 0.0;
       }
       const Lanes to_common = share * mixed;
       const Lanes part = part_of_node(plane, couple, mass, other_mass);

@@ -61,6 +61,7 @@ class MirrorContact {
   /// Holds a node and its mirror node; both are the same node on the plane.
   struct Couple {
     std::uint32_t node, mirror;
+    double cell_size;  ///< of their level, m
     /// Whether the node is on the opposite plane with whose image the material is continuous: it does not move across
     /// that plane.
     bool is_held = false;
@@ -78,7 +79,7 @@ class MirrorContact {
   }
   [[nodiscard]] double gap(const Plane& plane, const Couple& couple) const;
   void add_heat(grid::NodeMotion& motion, std::uint32_t node, double heat);
-  [[nodiscard]] bool sticks(const Plane& plane, double gap) const;
+  [[nodiscard]] static bool sticks(const Plane& plane, const Couple& couple, double gap);
   [[nodiscard]] static Lanes part_of_node(const Plane& plane, const Couple& couple, double mass,
                                           double other_mass);
   void join_relaxation_at_corners(grid::BlockGrid& grid, transfer::Nodes which);
@@ -87,7 +88,6 @@ class MirrorContact {
   void extend(const Particles& particles, std::span<const Vector3> guests, grid::BlockGrid& grid);
 
   std::size_t layout_ = static_cast<std::size_t>(-1);  // of the grid
-  double cell_size_ = 0.0;                             // m
   double friction_ = 0.0;                              // of walls of kind `friction`
   std::vector<Plane> planes_;
   // Index of the values of the first node of each block of nodes
@@ -95,7 +95,7 @@ class MirrorContact {
   std::vector<std::uint8_t> coupled_;  // of each block of nodes: 1 if it contains couples
   std::vector<std::uint8_t> near_;     // of each slot: 1 if its points may reach such blocks
   // Nodes beyond planes with continuity, and their images: in the order in which they are copied back
-  std::vector<Couple> folded_;
+  std::vector<grid::MirrorPair> folded_;
   /// Extent (m) beyond the planes, along x, y, z, of the material that reaches each node (negative: in front of them):
   /// first for the lower faces, then for the upper ones.
   grid::SlotValues extent_;

@@ -41,10 +41,10 @@ void MirrorContact::extend(const Particles& particles, std::span<const Vector3> 
   const grid::Geometry& geometry = grid.geometry();
   const Lanes upper_corner = {geometry.upper(0), geometry.upper(1), geometry.upper(2), 0.0};
   const Lanes lower_corner = {geometry.lower[0], geometry.lower[1], geometry.lower[2], 0.0};
-  const auto is_near = [&](Lanes before_lower, Lanes before_upper) {
+  const auto is_near = [&](Lanes before_lower, Lanes before_upper, double cell_size) {
     return std::ranges::any_of(planes_, [&](const Plane& plane) {
       const Lanes& before = plane.of.face % 2 == 0 ? before_lower : before_upper;
-      return before[plane.of.axis] > -reach_of_points * cell_size_;
+      return before[plane.of.axis] > -reach_of_points * cell_size;
     });
   };
   /// Raises the extents of the nodes that the points of a slot and field reach.
@@ -63,15 +63,16 @@ void MirrorContact::extend(const Particles& particles, std::span<const Vector3> 
       first[n] = coupled_[block] != 0 ? first_of_block_[block] : nowhere;
     }
     if (std::ranges::all_of(first, [](std::uint32_t place) { return place == nowhere; })) return;
+    const double cell_size = grid.cell_size(slot);
     for (const std::uint32_t p : members) {
       const Lanes x = load_vector(points.position[p].data());
       Lanes beyond_lower = lower_corner - x, beyond_upper = x - upper_corner;
-      if (!is_near(beyond_lower, beyond_upper)) continue;
+      if (!is_near(beyond_lower, beyond_upper, cell_size)) continue;
       const Lanes half = thickness(p);
       beyond_lower += half;
       beyond_upper += half;
       const grid::PlaceInStencil& in_stencil = grid.places(kind)[p];
-      const Weights<count> w = weights_at<Shape>(points, p, in_stencil, cell_size_);
+      const Weights<count> w = weights_at<Shape>(points, p, in_stencil, cell_size);
       const std::array<int, 3> from = in_stencil.first_node(Shape::stencil);
       for (std::size_t i = 0; i < count; ++i) {
         for (std::size_t j = 0; j < count; ++j) {

@@ -6,7 +6,7 @@
 namespace whipple::contact {
 
 bool near_planes(const grid::BlockGrid& grid, std::uint32_t slot) {
-  const grid::Geometry& geometry = grid.geometry();
+  const grid::Geometry& geometry = grid.geometry(slot);
   constexpr int reach = 2;  // cells
   for (std::size_t a = 0; a < 3; ++a) {
     const int edge = grid.block_shape().along(a), first = grid.coordinate(slot)[a] * edge,

@@ -56,8 +56,7 @@ class Reach {
   template <class See>
   Reach(const grid::BlockGrid& grid, const grid::BlockCoordinate& block,
         const std::array<std::int32_t, 27>& neighbours, unsigned body, See&& see)
-      : axes_{folded(grid, 0, block[0], body), folded(grid, 1, block[1], body),
-              folded(grid, 2, block[2], body)} {
+      : axes_{folded(grid, 0, block, body), folded(grid, 1, block, body), folded(grid, 2, block, body)} {
     for (std::size_t n = 0; n < neighbours.size(); ++n) {
       if (neighbours[n] == grid::BlockGrid::no_slot) continue;
       slots_[n] = see(static_cast<std::size_t>(neighbours[n]));
@@ -139,13 +138,14 @@ class Reach {
     return layers;
   }
 
-  static FoldedAxis folded(const grid::BlockGrid& grid, std::size_t axis, int block, unsigned body) {
+  static FoldedAxis folded(const grid::BlockGrid& grid, std::size_t axis, const grid::BlockCoordinate& of,
+                           unsigned body) {
     static constexpr std::array<LayersOfNodes, 2> layers_by_shape = {layers_of_nodes(false),
                                                                      layers_of_nodes(true)};
     const auto& layers = layers_by_shape[grid.geometry().is_planar() ? 1 : 0][axis];
     static constexpr grid::ReachMap of_four = grid::reach_map(4), of_eight = grid::reach_map(8),
                                     of_one = grid::reach_map(1);
-    const int edge = grid.block_shape().along(axis), cells = grid.geometry().cells[axis];
+    const int edge = grid.block_shape().along(axis), cells = grid.geometry(of).cells[axis], block = of[axis];
     const grid::ReachMap& map = edge == 4 ? of_four : edge == 8 ? of_eight : of_one;
     const bool lower = grid.is_bonded_at(2 * axis, body), upper = grid.is_bonded_at(2 * axis + 1, body);
     FoldedAxis all;
@@ -221,7 +221,7 @@ void for_each_place(const Particles& particles, const grid::BlockGrid& grid, con
                             [&](std::size_t near) { return seen_at_contact(grid, near, body, matter); });
           if (!reach.any()) return;
           for (const std::uint32_t p : members) {
-            reach.for_each_place<Shape>(particles, p, grid.coordinate(slot), grid.geometry(), at_point);
+            reach.for_each_place<Shape>(particles, p, grid.coordinate(slot), grid.geometry(slot), at_point);
           }
         });
   });
@@ -240,7 +240,8 @@ void for_each_place(const PlacedPoints& placed, const grid::BlockGrid& grid, con
           const Reach reach(grid, block.coordinate, block.slots, body,
                             [&](std::size_t near) { return seen_at_contact(grid, near, body, matter); });
           if (!reach.any()) continue;
-          reach.for_each_place<Shape>(*placed.points, p, block.coordinate, grid.geometry(), at_point);
+          reach.for_each_place<Shape>(*placed.points, p, block.coordinate, grid.geometry(block.coordinate),
+                                      at_point);
         }
       });
     }

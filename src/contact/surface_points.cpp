@@ -17,7 +17,7 @@ BlocksAtContact::BlocksAtContact(const grid::BlockGrid& grid) : geometry_(grid.g
   for (const std::uint32_t slot : grid.contact_slots()) {
     const grid::BlockCoordinate& c = grid.coordinate(slot);
     for (int n = 0; n < 27; ++n)
-      blocks_.find_or_insert({c[0] + n / 9 - 1, c[1] + n / 3 % 3 - 1, c[2] + n % 3 - 1}, 1);
+      blocks_.find_or_insert({{c[0] + n / 9 - 1, c[1] + n / 3 % 3 - 1, c[2] + n % 3 - 1}, c.level}, 1);
   }
 }
 
@@ -26,11 +26,11 @@ bool BlocksAtContact::meet(const Vector3& lower, const Vector3& upper) const {
   const auto block_of = [&](const Vector3& x) {
     return floor_of_three(geometry_.in_cells(x) / geometry_.block().edges());
   };
-  const grid::BlockCoordinate first = block_of(lower), last = block_of(upper);
+  const std::array<std::int32_t, 3> first = block_of(lower), last = block_of(upper);
   for (std::int32_t i = first[0]; i <= last[0]; ++i) {
     for (std::int32_t j = first[1]; j <= last[1]; ++j) {
       for (std::int32_t k = first[2]; k <= last[2]; ++k) {
-        if (blocks_.find({i, j, k}) != grid::BlockTable::none) return true;
+        if (blocks_.find({{i, j, k}}) != grid::BlockTable::none) return true;
       }
     }
   }
@@ -159,8 +159,8 @@ PlacedPoints::PlacedPoints(const SurfacePoints& surface, const grid::BlockGrid& 
       Block added{.coordinate = *block, .slots = {}, .points = {}};
       bool meets = false;
       for (int n = 0; n < 27; ++n) {
-        const std::int32_t slot =
-            grid.slot_of({(*block)[0] + n / 9 - 1, (*block)[1] + n / 3 % 3 - 1, (*block)[2] + n % 3 - 1});
+        const std::int32_t slot = grid.slot_of(
+            {{(*block)[0] + n / 9 - 1, (*block)[1] + n / 3 % 3 - 1, (*block)[2] + n % 3 - 1}, block->level});
         const bool own = slot != grid::BlockGrid::no_slot &&
                          static_cast<std::size_t>(slot) < grid.owned_slots() &&
                          grid.contact_number(static_cast<std::size_t>(slot)) != grid::BlockGrid::no_slot;

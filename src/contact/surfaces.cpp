@@ -160,6 +160,44 @@ void set_normals(Lanes* to, std::span<const Vector3> normals) {
 
 }  // namespace
 
+std::uint32_t Surfaces::mixed_particle(const grid::BlockGrid& grid) const {
+  if (grid.mixed().empty() || grid.contact_slots().empty()) return BlockGrid::not_mixed;
+  const NodesThatMatter nodes = nodes_with_normals(grid, normal_);
+  const grid::Stencil stencil = grid.stencil();
+  const grid::BlockShape block = grid.block_shape();
+  const grid::ReachMap map = grid::reach_map(block.edge), map_z = grid::reach_map(block.edge_z);
+  const auto matters = [&](std::size_t slot,
+                           std::array<std::size_t, 3> place) {  // from the node before the block
+    const std::int32_t owner = grid.neighbours(slot)[static_cast<std::size_t>(
+        grid::neighbour_index(map.block[place[0]], map.block[place[1]], map_z.block[place[2]]))];
+    if (owner == BlockGrid::no_slot) return false;
+    const std::int32_t number = grid.contact_number(static_cast<std::size_t>(owner));
+    if (number == BlockGrid::no_slot) return false;
+    const int node = block.node(map.node[place[0]], map.node[place[1]], map_z.node[place[2]]);
+    return (nodes[static_cast<std::size_t>(number)] >> node & 1U) != 0;
+  };
+  const auto count = static_cast<std::size_t>(stencil.count), along_z = stencil.planar ? 1 : count;
+  const auto reaches = [&](std::size_t slot, std::uint32_t part) {
+    const std::array<int, 3> node = grid.places(BlockGrid::Points::parts)[part].first_node(stencil);
+    const auto first = [&](std::size_t a) { return static_cast<std::size_t>(node[a] + 1); };
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t j = 0; j < count; ++j) {
+        for (std::size_t k = 0; k < along_z; ++k) {
+          if (matters(slot, {first(0) + i, first(1) + j, first(2) + k})) return true;
+        }
+      }
+    }
+    return false;
+  };
+  for (std::size_t slot = 0; slot < grid.slots(); ++slot) {
+    if (!grid.meets_contact(slot)) continue;
+    for (const std::uint32_t part : grid.parts_in(slot)) {
+      if (reaches(slot, part)) return grid.mixed_of_part(part).particle;
+    }
+  }
+  return BlockGrid::not_mixed;
+}
+
 Surfaces::Gap Surfaces::at(std::size_t contact_slot, std::size_t pair, std::size_t node) const {
   const std::size_t place = pair * nodes_per_block + node;
   const Lanes* n = &normal_.values[normal_.begin[contact_slot] + lanes_of_normals * place];
@@ -184,12 +222,12 @@ struct Surfaces::Sources {
 template <class Shape>
 void Surfaces::fit_planes(const Sources& sources, grid::BlockGrid& grid) {
   lay_out(plane_, grid, broadcast(0.0), one_per_pair);
-  const double per_cell = 1.0 / grid.geometry().cell_size;
   for (int iteration = 0; iteration < regression::iterations; ++iteration) {
     lay_out(equations_, grid, broadcast(0.0),
             [](std::size_t bodies) { return regression::lanes_per_node * one_per_pair(bodies); });
     const auto add = [&](const Place& place) {
       // The normal at a node on a mirror plane lies in the plane: only the position along the plane is relevant.
+      const double per_cell = 1.0 / grid.cell_size(grid.contact_slots()[place.contact_slot]);
       const Vector3 cells = per_cell * place.distance.cwiseProduct(place.off_plane);
       place.for_each_pair([&](std::size_t pair, bool first) {
         const Lanes plane = plane_.values[place.in(plane_, pair)];
@@ -230,10 +268,10 @@ void Surfaces::sum_gradients(const Sources& sources, grid::BlockGrid& grid) {
           lanes(size * place.gradient.cwiseProduct(place.off_plane), size * place.weight);
     };
   });
-  const double cell_size = grid.geometry().cell_size;
   for_each_place<Shape>(sources.placed, grid, sources.several, [&](std::size_t p) {
     return [&, p](const Place& place) {  // (3.6)
       const Vector3 area = place.sign.cwiseProduct(sources.elements.area[p]).cwiseProduct(place.off_plane);
+      const double cell_size = grid.cell_size(grid.contact_slots()[place.contact_slot]);
       gradient_.values[place.in(gradient_, place.body)] +=
           place.weight * lanes(area, sources.elements.size[p] * cell_size);
     };
@@ -242,9 +280,9 @@ void Surfaces::sum_gradients(const Sources& sources, grid::BlockGrid& grid) {
 }
 
 void Surfaces::choose_normals(Normal kind, grid::BlockGrid& grid, double dt) {
-  const double cell_size = grid.geometry().cell_size;
   const bool knows_motion = dt > 0.0 && !grid.is_shared();
   for_each_owned_node(grid, [&](std::size_t c, std::size_t bodies, std::size_t node) {
+    const double cell_size = grid.cell_size(grid.contact_slots()[c]);
     const bool may_part = knows_motion && !near_planes(grid, grid.contact_slots()[c]);
     const auto at_node = [&](std::size_t body) {
       return gradient_.values[gradient_.begin[c] + body * nodes_per_block + node];

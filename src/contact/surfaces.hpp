@@ -46,6 +46,8 @@ class Surfaces {
   /// @param contact_slot  number of the slot among the contact slots
   /// @param pair          pair of its bodies (`pair_index`)
   /// @param node          number of the node in its block
+  /// Returns a mixed particle (docs/theory/levels.md) that reaches a node where bodies meet; `not_mixed` if there is none.
+  [[nodiscard]] std::uint32_t mixed_particle(const grid::BlockGrid& grid) const;
   [[nodiscard]] Gap at(std::size_t contact_slot, std::size_t pair, std::size_t node) const;
 
  private:

@@ -32,7 +32,7 @@ void BlockGrid::set_apart() {
   const int halved = slots() >= slots_for_cubes ? 1 : 0;
   const auto group_of = [&](std::uint32_t slot) {
     const BlockCoordinate& c = coordinate(slot);
-    return BlockCoordinate{(c[0] + 1) >> halved, (c[1] + 1) >> halved, (c[2] + 1) >> halved};
+    return BlockCoordinate{{(c[0] + 1) >> halved, (c[1] + 1) >> halved, (c[2] + 1) >> halved}, c.level};
   };
   apart_ = {};
   BlockTable group_number;  // of each region and colour

@@ -77,7 +77,7 @@ class BlockGrid : public NodeStore {
       parallel::for_each_uneven(colour.begin.size() - 1, [&](std::size_t group) {
         for (std::size_t i = colour.begin[group]; i < colour.begin[group + 1]; ++i) {
           const std::uint32_t slot = colour.slots[i];
-          if (!particles_in(slot).empty() || !guests_in(slot).empty()) f(slot);
+          if (!particles_in(slot).empty() || !guests_in(slot).empty() || !parts_in(slot).empty()) f(slot);
         }
       });
     }

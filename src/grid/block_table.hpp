@@ -43,10 +43,10 @@ class BlockTable {
  private:
   static constexpr std::uint64_t empty = ~std::uint64_t{0};
 
-  /// Packs 21 bits per direction, shifted so that the layer outside of the domain is not negative.
+  /// Packs 21 bits per direction, shifted so that the layer outside of the domain is not negative, and the level.
   static std::uint64_t key(const BlockCoordinate& b) {
     const auto part = [](std::int32_t c) { return static_cast<std::uint64_t>(c + 1) & 0x1fffff; };
-    return part(b[0]) << 42 | part(b[1]) << 21 | part(b[2]);
+    return static_cast<std::uint64_t>(b.level) << 63 | part(b[0]) << 42 | part(b[1]) << 21 | part(b[2]);
   }
 
   [[nodiscard]] std::size_t probe(std::uint64_t k) const {

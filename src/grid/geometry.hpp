@@ -9,6 +9,7 @@
 #include "src/core/base/tensor.hpp"
 #include "src/core/base/vector_math.hpp"
 #include "src/core/base/words.hpp"
+#include "src/grid/levels.hpp"
 
 namespace whipple::grid {
 
@@ -41,9 +42,17 @@ constexpr unsigned maximum_fields_with_cracks = 64;
 /// crack (docs/theory/cracks.md).
 constexpr unsigned crack_sectors(bool planar) { return planar ? 8 : 14; }
 
-/// Position of a block in units of blocks. Block (0, 0, 0) begins at the lower corner of the domain; one layer of
-/// blocks is outside of every face, since kernels are wider than a cell and mirror planes need nodes beyond them.
-using BlockCoordinate = std::array<std::int32_t, 3>;
+/// Position of a block in units of the blocks of its level. Block (0, 0, 0) begins at the lower corner of the domain; one
+/// layer of blocks is outside of every face, since kernels are wider than a cell and mirror planes need nodes beyond
+/// them.
+struct BlockCoordinate {
+  std::array<std::int32_t, 3> along{};
+  Level level = Level::fine;
+
+  std::int32_t& operator[](std::size_t axis) { return along[axis]; }
+  const std::int32_t& operator[](std::size_t axis) const { return along[axis]; }
+  auto operator<=>(const BlockCoordinate&) const = default;
+};
 
 /// Selects the boundary condition at a face of the domain.
 enum class Boundary : std::uint8_t {
@@ -76,7 +85,7 @@ constexpr std::array<Word<Dimension>, 3> words(Dimension) {
 }
 constexpr double unit_depth = 1.0;  ///< along z in plane strain, m
 
-/// Describes the uniform background grid of the domain: node i of a direction is at lower + i * cell_size.
+/// Describes the background grid of the domain, or one level of it: node i of a direction is at lower + i * cell_size.
 struct Geometry {
   Vector3 lower = Vector3::Zero();      ///< m
   std::array<std::int32_t, 3> cells{};  ///< number of cells
@@ -85,6 +94,26 @@ struct Geometry {
   std::array<Boundary, 6> boundary{};
   double friction = 0.0;  ///< Coulomb coefficient of the walls of kind `friction`
   Dimension dimension = Dimension::space;
+  Levels levels;  ///< where the cells are twice as large; their number along each axis is even then
+
+  /// Returns the grid of a level, which fills the domain.
+  [[nodiscard]] Geometry of_level(Level level) const {
+    Geometry of = *this;
+    if (level == Level::fine) return of;
+    of.cell_size = 2.0 * cell_size;
+    for (std::size_t a = 0; a < (is_planar() ? 2U : 3U); ++a) of.cells[a] = cells[a] / 2;
+    return of;
+  }
+  /// Returns the share of the fine functions at a position.
+  [[nodiscard]] Blend blend(const Vector3& position) const {
+    return levels.are_two() ? levels.at(in_cells(position), cell_size) : Blend{};
+  }
+  /// Returns the edge of a cell whose functions have the second moment of those at a position, m (3).
+  [[nodiscard]] double cell_size_at(const Blend& blend) const {
+    if (!blend.is_mixed()) return blend.fine > 0.0 ? cell_size : 2.0 * cell_size;
+    return cell_size * std::sqrt(blend.fine + 4.0 * (1.0 - blend.fine));
+  }
+  [[nodiscard]] double cell_size_at(const Vector3& position) const { return cell_size_at(blend(position)); }
 
   /// Returns a position in cells from the lower corner, directions in lanes. All computations of cell, block or stencil
   /// must use this function: different rounding would disagree about positions at the edge between two stencils.

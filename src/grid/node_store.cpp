@@ -56,6 +56,12 @@ void NodeStore::bond_at_planes(const std::array<FieldSet, 6>& fields) {
   lay_out_nodes();
 }
 
+Vector3 NodeStore::position_of_node(std::size_t node) const {
+  const std::array<std::int32_t, 3> place = place_of_node(node);
+  const Geometry& of_level = geometry_of_node(node);
+  return of_level.lower + of_level.cell_size * Vector3(place[0], place[1], place[2]);
+}
+
 std::array<std::int32_t, 3> NodeStore::place_of_node(std::size_t node) const {
   const BlockCoordinate& block = coordinate(slot_of_block(node / nodes_per_block));
   const std::array<int, 3> inside_block = block_shape().place(static_cast<int>(node % nodes_per_block));
@@ -71,10 +77,10 @@ void NodeStore::find_mirror_nodes() {
     for (auto* list : {&mirror.on_plane, &mirror.on_plane_apart, &mirror.near}) list->clear();
     for (auto* list : {&mirror.pairs, &mirror.pairs_apart}) list->clear();
     const auto axis = static_cast<std::size_t>(mirror.axis);
-    const std::int32_t at = mirror.face % 2 == 0 ? 0 : geometry().cells[axis];
     const std::int32_t outward = mirror.face % 2 == 0 ? -1 : 1, edge = block_shape().along(axis);
     for (std::size_t b = 0; b < nodes_.size() / nodes_per_block; ++b) {
       const BlockCoordinate& block = coordinate(slot_of_block(b));
+      const std::int32_t at = mirror.face % 2 == 0 ? 0 : geometry(block).cells[axis];
       const std::int32_t first = block[axis] * edge;
       const std::int32_t least_inside = std::min((at - first) * outward, (at - first - (edge - 1)) * outward);
       if (least_inside > mirror_reach) continue;  // far inside the domain
@@ -94,7 +100,7 @@ void NodeStore::find_mirror_nodes() {
         if (bonded) outside_[index] = 1;
         std::array<std::int32_t, 3> place = place_of_node(index);
         place[axis] = 2 * at - along;
-        const std::uint32_t image = active_node(place, field);
+        const std::uint32_t image = active_node(block.level, place, field);
         // Without an active image no particle reaches this far beyond the plane, since its stencil is symmetric.
         if (image != no_node) pairs.push_back({index, image});
       }
@@ -132,8 +138,8 @@ void NodeStore::find_border() {
 
 /// Returns the index of a field's node at a position of the grid; `no_node` if its block is not active or not reached
 /// by the field (-1: any field).
-std::uint32_t NodeStore::active_node(const std::array<std::int32_t, 3>& place, int field) const {
-  BlockCoordinate block{};
+std::uint32_t NodeStore::active_node(Level level, const std::array<std::int32_t, 3>& place, int field) const {
+  BlockCoordinate block{{}, level};
   for (std::size_t a = 0; a < 3; ++a) {
     const int edge = block_shape().along(a);
     if (place[a] < -edge) return no_node;

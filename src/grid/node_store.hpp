@@ -23,9 +23,14 @@ class NodeStore : public VelocityFields {
   }
   [[nodiscard]] std::span<Node> all_nodes() { return nodes_; }
   [[nodiscard]] std::span<const Node> all_nodes() const { return nodes_; }
-  /// Returns the number of a node along each direction, from the lower corner of the domain; its position is the corner
-  /// plus this times the cell size.
+  /// Returns the number of a node of its level along each direction, from the lower corner of the domain.
   [[nodiscard]] std::array<std::int32_t, 3> place_of_node(std::size_t node) const;
+  /// Returns the geometry of its level.
+  [[nodiscard]] const Geometry& geometry_of_node(std::size_t node) const {
+    return geometry(slot_of_block(node / nodes_per_block));
+  }
+  /// Returns its position: the corner plus these times the size of its cells.
+  [[nodiscard]] Vector3 position_of_node(std::size_t node) const;
   /// Sets every node to zero.
   void clear();
   /// Returns a number that changes whenever nodes change their position in all_nodes().
@@ -67,7 +72,8 @@ class NodeStore : public VelocityFields {
 
  private:
   void find_mirror_nodes();
-  [[nodiscard]] std::uint32_t active_node(const std::array<std::int32_t, 3>& place, int field) const;
+  [[nodiscard]] std::uint32_t active_node(Level level, const std::array<std::int32_t, 3>& place,
+                                          int field) const;
 
   std::vector<Node> nodes_;
   std::size_t layout_ = 0;

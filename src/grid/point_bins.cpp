@@ -17,7 +17,8 @@ namespace whipple::grid {
 bool PointBins::bin(std::span<const Vector3> position, Stencil stencil, std::span<const Vector3> guests) {
   stencil_ = stencil;
   const bool known = slot_of_particle_.size() == position.size() || (!is_shared() && look_up(position));
-  const bool complete = known && locate(position, stencil) && locate_guests(guests, stencil);
+  const bool complete =
+      known && locate(position, stencil) && locate_guests(guests, stencil) && locate_parts(position);
   if (parallel::any(communicator(), !complete)) {
     forget_runs();
     return false;
@@ -25,6 +26,7 @@ bool PointBins::bin(std::span<const Vector3> position, Stencil stencil, std::spa
   released_.clear();
   list_particles();
   list_guests();
+  list_parts();
   return true;
 }
 
@@ -37,8 +39,9 @@ bool PointBins::look_up(std::span<const Vector3> position) {
     std::int32_t slot = no_slot;
     for (std::size_t p = begin; p < end; ++p) {
       // Particles adjacent in memory are mostly in one block.
-      if (slot == no_slot ||
-          !is_inside(in_cells(position[p]) - corner(static_cast<std::size_t>(slot)), edges())) {
+      const auto last = static_cast<std::size_t>(slot);
+      if (slot == no_slot || has_two_levels() ||
+          !is_inside(in_cells(position[p], last) - corner(last), edges())) {
         slot = slot_at(position[p]);
       }
       if (slot == no_slot) complete = false;
@@ -77,7 +80,7 @@ bool PointBins::locate(std::span<const Vector3> position, Stencil stencil) {
     std::atomic_ref(reached_[run.slot]).fetch_or(touched, std::memory_order_relaxed);
     if ((touched & absent) == 0) return true;
     for (std::size_t p = run.begin; p < run.end; ++p) {
-      const Lanes local = position_in_block(in_cells(position[p]), corner(run.slot), edges());
+      const Lanes local = position_in_block(in_cells(position[p], run.slot), corner(run.slot), edges());
       if ((touched_neighbours(local, stencil) & absent) != 0) return false;
     }
     return true;
@@ -101,16 +104,19 @@ bool PointBins::locate(std::span<const Vector3> position, Stencil stencil) {
       }
       for (std::uint32_t p = before.begin; p < before.end; ++p) {
         auto slot = static_cast<std::uint32_t>(slot_of_particle_[p]);
-        const Lanes at = in_cells(position[p]);
+        Lanes at = in_cells(position[p], slot);
         Lanes local = at - corner(slot);
-        if (!is_inside(local, edges())) {
-          const std::int32_t moved = slot_of_neighbour(slot, at);
+        const bool changes_level =
+            has_two_levels() && geometry().blend(position[p]).level() != coordinate(slot).level;
+        if (changes_level || !is_inside(local, edges())) {
+          const std::int32_t moved = changes_level ? slot_at(position[p]) : slot_of_neighbour(slot, at);
           if (moved == no_slot) {
             complete = false;
             return;
           }
           slot = static_cast<std::uint32_t>(moved);
           slot_of_particle_[p] = moved;
+          if (changes_level) at = in_cells(position[p], slot);
           local = position_in_block(at, corner(slot), edges());
           // A block that a particle enters becomes active.
           std::atomic_ref(resting_[slot]).store(0, std::memory_order_relaxed);
@@ -158,7 +164,7 @@ bool PointBins::locate_guests(std::span<const Vector3> guests, Stencil stencil) 
     if (slot == no_slot) return false;
     slot_of_guest_[g] = slot;
     const auto at = static_cast<std::size_t>(slot);
-    const Lanes local = position_in_block(in_cells(guests[g]), corner(at), edges());
+    const Lanes local = position_in_block(in_cells(guests[g], at), corner(at), edges());
     place_of_guest_[g] = places(local);
     const std::uint32_t touched = touched_neighbours(local, stencil);
     reached_[at] |= touched;
@@ -258,6 +264,7 @@ void PointBins::release(std::span<const std::uint32_t> particles) {
   released_.assign(particles.begin(), particles.end());
   for (const std::uint32_t p : particles) resting_[static_cast<std::size_t>(slot_of_particle_[p])] = 0;
   list_particles();
+  list_parts();
 }
 
 std::size_t PointBins::let_rest_beyond(int layers, std::vector<std::uint64_t> awake) {
@@ -268,6 +275,7 @@ std::size_t PointBins::let_rest_beyond(int layers, std::vector<std::uint64_t> aw
   };
   for (const std::uint32_t p : released_) awake[static_cast<std::size_t>(slot_of_particle_[p])] = 1;
   join_bits_of_ranks(awake);
+  wake_both_levels(awake);
   for (int layer = 0; layer < layers; ++layer) {  // blocks that share nodes with active blocks become active
     std::vector<std::uint64_t> stirred(slots(), 0);
     parallel::for_each(slots(), [&](std::size_t s) {
@@ -281,6 +289,7 @@ std::size_t PointBins::let_rest_beyond(int layers, std::vector<std::uint64_t> aw
       if (awake[s] != 0) return;
       for_each_reached(s, [&](std::size_t reached) { awake[s] |= stirred[reached]; });
     });
+    wake_both_levels(awake);
   }
   bool changed = false;
   for (std::size_t s = 0; s < slots(); ++s) {
@@ -288,7 +297,10 @@ std::size_t PointBins::let_rest_beyond(int layers, std::vector<std::uint64_t> aw
     changed |= rests != resting_[s];
     resting_[s] = rests;
   }
-  if (changed) list_particles();
+  if (changed) {
+    list_particles();
+    list_parts();
+  }
   return slot_of_particle_.size() - released_.size() - particles_.points.size();
 }
 
@@ -296,6 +308,7 @@ void PointBins::wake() {
   if (std::ranges::find(resting_, 1) == resting_.end()) return;
   std::ranges::fill(resting_, std::uint8_t{0});
   list_particles();
+  list_parts();
 }
 
 bool PointBins::chunk_rests(std::size_t chunk) const {
@@ -306,7 +319,7 @@ bool PointBins::chunk_rests(std::size_t chunk) const {
 void PointBins::count_cells(std::span<const Vector3> position, std::span<const Vector3> guests) {
   cell_count_.assign(slots() * nodes_per_block, 0);
   const auto count = [&](std::size_t slot, const Vector3& point) {
-    const std::array<int, 3> cell = floor_of_three(in_cells(point) - corner(slot));
+    const std::array<int, 3> cell = floor_of_three(in_cells(point, slot) - corner(slot));
     ++cell_count_[slot * nodes_per_block +
                   static_cast<std::size_t>(block_shape().node(cell[0], cell[1], cell[2]))];
   };
@@ -326,16 +339,22 @@ void PointBins::count_cells(std::span<const Vector3> position, std::span<const V
 
 bool PointBins::is_alone(std::uint32_t particle, const Vector3& position) const {
   constexpr int ring = 2;
-  const Lanes place = in_cells(position);
+  const auto slot = static_cast<std::size_t>(slot_of_particle_[particle]);
+  const Geometry& geometry = this->geometry(slot);
+  const Lanes place = geometry.in_cells(position);
   for (std::size_t face = 0; face < 6; ++face) {
-    if (geometry().boundary[face] == Boundary::outflow) continue;
+    if (geometry.boundary[face] == Boundary::outflow) continue;
     const std::size_t axis = face / 2;
-    const double depth = face % 2 == 0 ? place[axis] : geometry().cells[axis] - place[axis];
+    const double depth = face % 2 == 0 ? place[axis] : geometry.cells[axis] - place[axis];
     if (depth < ring) return false;
   }
-  const auto slot = static_cast<std::size_t>(slot_of_particle_[particle]);
+  if (has_two_levels()) {  // cells of the other level count their own points
+    const Lanes fine = this->geometry().in_cells(position), around = broadcast(2.0 * ring + 1.0);
+    const Level other = coordinate(slot).level == Level::fine ? Level::coarse : Level::fine;
+    if (geometry.levels.may_need(other, fine, around)) return false;
+  }
   const std::array<int, 3> cell = floor_of_three(place - corner(slot));
-  const int ring_z = geometry().is_planar() ? 0 : ring;
+  const int ring_z = geometry.is_planar() ? 0 : ring;
   const auto place_along = [&](int c, std::size_t axis) {  // block (0 to 2) and cell in it
     const int edge = block_shape().along(axis);
     return std::pair{c < 0 ? 0 : c < edge ? 1 : 2, (c + edge) % edge};

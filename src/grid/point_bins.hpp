@@ -22,6 +22,12 @@ struct PointList {
   }
 };
 
+/// Describes a particle with functions of both levels.
+struct MixedParticle {
+  std::uint32_t particle;
+  Blend blend;
+};
+
 /// Locates the particles and off-grid points of a rank: the block of each, its place there, the lists of the blocks,
 /// and the inactive blocks (docs/theory/mpm.md, section 8). Guests are off-grid points that use the nodes (nodes of
 /// finite elements); they are listed separately.
@@ -79,16 +85,50 @@ class PointBins : public Topology {
   /// Lists the particles block by block, those of a block ordered by the first node of their stencils; all particles
   /// only after `wake`.
   void list_by_stencil(std::vector<std::uint32_t>& order) const;
-  enum class Points { particles, guests };
+  /// Particles by their own level, off-grid points, and the parts of mixed particles.
+  enum class Points { particles, guests, parts };
   [[nodiscard]] std::span<const std::uint32_t> members(Points points, std::size_t slot) const {
-    return points == Points::particles ? particles_in(slot) : guests_in(slot);
+    switch (points) {
+      case Points::guests:
+        return guests_in(slot);
+      case Points::parts:
+        return parts_in(slot);
+      default:
+        return particles_in(slot);
+    }
   }
   /// Returns the stencil of the last `bin`.
   [[nodiscard]] Stencil stencil() const { return stencil_; }
   /// Returns the position of each point in its stencil at the last `bin`: the transfers of a step use it even if the
   /// points have moved since.
   [[nodiscard]] std::span<const PlaceInStencil> places(Points points) const {
-    return points == Points::particles ? place_of_particle_ : place_of_guest_;
+    switch (points) {
+      case Points::guests:
+        return place_of_guest_;
+      case Points::parts:
+        return place_of_part_;
+      default:
+        return place_of_particle_;
+    }
+  }
+
+  /// Particles with functions of both levels at the last `bin` (docs/theory/levels.md): each has a part on the fine level
+  /// and one on the coarse level, 2 k and 2 k + 1 for the mixed particle k.
+  [[nodiscard]] const std::vector<MixedParticle>& mixed() const { return mixed_; }
+  /// Returns the number k of each particle, `not_mixed` of others; nothing if no particle is mixed.
+  [[nodiscard]] std::span<const std::uint32_t> mixed_number() const { return mixed_number_; }
+  static constexpr std::uint32_t not_mixed = ~std::uint32_t{0};
+  /// Returns the parts in a block, ascending, of particles in active blocks.
+  [[nodiscard]] std::span<const std::uint32_t> parts_in(std::size_t slot) const {
+    return mixed_.empty() ? std::span<const std::uint32_t>() : parts_.in(slot);
+  }
+  /// Returns the mixed particle of a part, and the level of the part.
+  [[nodiscard]] const MixedParticle& mixed_of_part(std::uint32_t part) const { return mixed_[part / 2]; }
+  [[nodiscard]] std::size_t slot_of_part(std::uint32_t part) const {
+    return static_cast<std::size_t>(slot_of_part_[part]);
+  }
+  [[nodiscard]] static Level level_of_part(std::uint32_t part) {
+    return part % 2 == 0 ? Level::fine : Level::coarse;
   }
   /// Returns the distance of a particle from the lower face along y at the last `bin` (m): the radius of a ring.
   [[nodiscard]] double radius_at_bin(std::size_t p) const {
@@ -120,9 +160,12 @@ class PointBins : public Topology {
   bool locate(std::span<const Vector3> position, Stencil stencil);
   [[nodiscard]] std::int32_t slot_of_neighbour(std::size_t slot, Lanes in_cells) const;
   bool locate_guests(std::span<const Vector3> guests, Stencil stencil);
+  bool locate_parts(std::span<const Vector3> position);
   std::size_t let_rest_beyond(int layers, std::vector<std::uint64_t> awake);
   void list_particles();
   void list_guests();
+  void list_parts();
+  void wake_both_levels(std::vector<std::uint64_t>& awake);
 
   Stencil stencil_;
   std::vector<std::int32_t> slot_of_particle_, reordered_;  // the latter: memory for the next reordering
@@ -134,7 +177,11 @@ class PointBins : public Topology {
   std::vector<std::uint8_t> resting_;      // of each slot, while `runs_known_`
   std::vector<std::int32_t> slot_of_guest_;
   std::vector<PlaceInStencil> place_of_particle_, place_of_guest_;
-  PointList particles_, guests_;
+  std::vector<MixedParticle> mixed_;
+  std::vector<std::uint32_t> mixed_number_;  // of each particle; empty: none is mixed
+  std::vector<std::int32_t> slot_of_part_;
+  std::vector<PlaceInStencil> place_of_part_;
+  PointList particles_, guests_, parts_;
   /// Describes particles of one block that are contiguous in memory.
   struct Run {
     std::uint32_t slot = 0;

@@ -34,7 +34,8 @@ struct Work {
 };
 
 /// Manages the active blocks of a rank and their neighbours. Slots number them: owned blocks in the order of the
-/// forest's space-filling curve, then ghost blocks of other ranks that its particles reach.
+/// forest's space-filling curve, those of the fine level first, then ghost blocks of other ranks that its particles
+/// reach. A level has a forest, and its blocks have neighbours of their level only.
 class Topology {
  public:
   static constexpr std::int32_t no_slot = BlockTable::none;
@@ -47,12 +48,23 @@ class Topology {
   /// position outside of the domain and its outer layer.
   void owners_reached(const Vector3& position, Stencil stencil, std::vector<int>& ranks) const;
 
-  /// Returns the geometry, including the shift of the nodes.
-  [[nodiscard]] const Geometry& geometry() const { return geometry_; }
+  /// Returns the geometry of the finest level, including the shift of the nodes.
+  [[nodiscard]] const Geometry& geometry() const { return geometries_.front(); }
   [[nodiscard]] BlockShape block_shape() const { return block_; }
+  /// Return whether there are two levels of cells, and the levels.
+  [[nodiscard]] bool has_two_levels() const { return geometries_.size() > 1; }
+  [[nodiscard]] std::span<const Level> levels() const {
+    static constexpr std::array<Level, 2> all = {Level::fine, Level::coarse};
+    return std::span(all).first(geometries_.size());
+  }
   [[nodiscard]] MPI_Comm communicator() const { return communicator_; }
   /// Returns the edge of the cells of a slot, m.
-  [[nodiscard]] double cell_size(std::size_t /*slot*/) const { return geometry_.cell_size; }
+  [[nodiscard]] double cell_size(std::size_t slot) const { return geometry(slot).cell_size; }
+  /// Returns the geometry of the level of a slot, or of a block.
+  [[nodiscard]] const Geometry& geometry(std::size_t slot) const { return geometry(coordinate(slot)); }
+  [[nodiscard]] const Geometry& geometry(const BlockCoordinate& block) const {
+    return geometries_[number(block.level)];
+  }
   [[nodiscard]] std::size_t slots() const { return blocks_.coordinate.size(); }
   /// Returns the number of blocks that this rank owns; they have the first slots, the others are ghost blocks.
   [[nodiscard]] std::size_t owned_slots() const { return blocks_.owned; }
@@ -74,10 +86,15 @@ class Topology {
     return block ? table_.find(*block) : no_slot;
   }
   [[nodiscard]] std::int32_t slot_of(const BlockCoordinate& block) const { return table_.find(block); }
-  /// Returns the block around a position; none for a position beyond the outer layer, or NaN.
-  [[nodiscard]] std::optional<BlockCoordinate> block_of(const Vector3& position) const;
+  /// Returns the block around a position, of the finest level that has functions there; none for a position beyond the
+  /// outer layer, or NaN.
+  [[nodiscard]] std::optional<BlockCoordinate> block_of(const Vector3& position) const {
+    return block_of(position, geometry().blend(position).level());
+  }
+  /// Returns the block of a level around a position.
+  [[nodiscard]] std::optional<BlockCoordinate> block_of(const Vector3& position, Level level) const;
 
-  [[nodiscard]] std::size_t forest_leaves() const { return forest_.leaves(); }
+  [[nodiscard]] std::size_t forest_leaves() const;
   [[nodiscard]] std::size_t adaptations() const { return adaptations_; }
 
  protected:
@@ -91,7 +108,10 @@ class Topology {
   /// Sets whether any field may be in contact with its image at a face.
   void set_apart_at(std::size_t face, bool apart) { apart_at_[face] = apart; }
 
-  [[nodiscard]] Lanes in_cells(const Vector3& position) const { return geometry_.in_cells(position); }
+  /// Returns a position in cells of the level of a slot.
+  [[nodiscard]] Lanes in_cells(const Vector3& position, std::size_t slot) const {
+    return geometry(slot).in_cells(position);
+  }
   /// Returns the lower corner of the block of a slot, in cells.
   [[nodiscard]] Lanes corner(std::size_t slot) const { return corner_[slot]; }
   /// Returns the edges of a block, in cells.
@@ -102,22 +122,31 @@ class Topology {
   [[nodiscard]] std::span<const BlockCoordinate> coordinates() const { return blocks_.coordinate; }
 
  private:
-  [[nodiscard]] std::vector<WantedBlock> wanted_blocks(std::span<const Vector3> position,
+  [[nodiscard]] std::vector<WantedBlock> wanted_blocks(Level level, std::span<const Vector3> position,
                                                        std::span<const Vector3> velocity, double lookahead,
                                                        Stencil stencil, const Work& work) const;
+  /// Describes a block with particles, and the neighbours that they reach.
+  struct Home {
+    WantedBlock block;
+    std::uint32_t wanted = 0;  ///< one bit per neighbour; 0 without points on the grid
+  };
+  [[nodiscard]] std::vector<Home> homes(Level level, std::span<const Vector3> position,
+                                        std::span<const Vector3> velocity, double lookahead, Stencil stencil,
+                                        const Work& work) const;
+  [[nodiscard]] bool contains(const BlockCoordinate& block) const;
   template <class Function>
   void for_each_mirror_block(const BlockCoordinate& block, Function&& f) const;
 
   MPI_Comm communicator_;
-  Geometry geometry_;  // including the shift
-  Vector3 origin_;     // its lower corner without the shift
+  std::vector<Geometry> geometries_;  // of each level, including the shift
+  Vector3 origin_;                    // their lower corner without the shift
   BlockShape block_;
   Lanes edges_;             // of the block, in cells
   double foresight_ = 0.0;  // maximum motion of a stencil by shifts, cells
   std::array<bool, 6> apart_at_{};
-  Forest forest_;
+  std::vector<Forest> forests_;  // of each level
   BlockTable table_;
-  std::vector<WantedBlock> wanted_;  // by the last adaptation
+  std::vector<std::vector<WantedBlock>> wanted_;  // by the last adaptation, of each level
   BlockSet blocks_;
   std::vector<std::array<std::int32_t, 27>> neighbours_;
   std::vector<std::uint32_t> existing_;

@@ -36,6 +36,7 @@ std::vector<FieldSet> VelocityFields::fields_that_reach(Stencil stencil, const F
   parallel::for_each(slots(), [&](std::size_t s) {
     for (const std::uint32_t p : particles_in(s)) inside[s].insert(particles.field[p]);
     for (const std::uint32_t p : guests_in(s)) inside[s].insert(guests.field[p]);
+    for (const std::uint32_t part : parts_in(s)) inside[s].insert(field_[mixed_of_part(part).particle]);
   });
   parallel::for_each(slots(), [&](std::size_t s) {
     for (const std::int32_t n : neighbours(s)) {
@@ -48,14 +49,13 @@ std::vector<FieldSet> VelocityFields::fields_that_reach(Stencil stencil, const F
   parallel::for_each_uneven(slots(), [&](std::size_t s) {
     const auto counts = [&](std::int32_t n) { return n != no_slot && may_meet(static_cast<std::size_t>(n)); };
     if (!std::ranges::any_of(neighbours(s), counts)) return;
-    const auto reach = [&](std::span<const std::uint32_t> members, const FieldPoints& points) {
-      for (const std::uint32_t p : members) {
-        const std::uint32_t touched = touched_neighbours(in_cells(points.position[p]) - corner(s), stencil);
-        for_each_bit(touched, [&](unsigned n) { reached[s][n].insert(points.field[p]); });
-      }
+    const auto reach = [&](const FieldPoints& points, std::uint32_t p) {
+      const std::uint32_t touched = touched_neighbours(in_cells(points.position[p], s) - corner(s), stencil);
+      for_each_bit(touched, [&](unsigned n) { reached[s][n].insert(points.field[p]); });
     };
-    reach(particles_in(s), particles);
-    reach(guests_in(s), guests);
+    for (const std::uint32_t p : particles_in(s)) reach(particles, p);
+    for (const std::uint32_t p : guests_in(s)) reach(guests, p);
+    for (const std::uint32_t part : parts_in(s)) reach(particles, mixed_of_part(part).particle);
   });
   std::vector<FieldSet> present(slots());
   parallel::for_each(slots(), [&](std::size_t s) {

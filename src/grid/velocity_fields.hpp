@@ -88,6 +88,10 @@ class VelocityFields : public PointBins {
   [[nodiscard]] unsigned whole_of_block(std::size_t block) const {
     return whole(static_cast<unsigned>(std::max(field_of_block(block), 0)));
   }
+  /// Returns the field whose nodes a part of a mixed particle has.
+  [[nodiscard]] unsigned field_of_part(std::uint32_t part) const {
+    return meets_contact(slot_of_part(part)) ? field_[mixed_of_part(part).particle] : 0U;
+  }
   /// Returns the fields that reach a slot, since `separate_fields`.
   [[nodiscard]] const FieldSet& fields(std::size_t slot) const { return fields_[slot]; }
 

@@ -174,7 +174,7 @@ UnstructuredGrid ElementSeries::grid(std::span<const fem::Mesh> meshes, std::spa
                                             : flat     ? vtk_quad
                                                        : vtk_hexahedron; },
       Array::From::row_number);
-  grid.cell_data = arrays_of(fields_, {all->elements, options_.material_of_body}, of_cells);
+  grid.cell_data = arrays_of(fields_, source_of(options_, all->elements), of_cells);
   grid.point_data.emplace_back("velocity", of_nodes, [all](std::size_t i) { return all->velocity[i]; });
   grid.point_data.back().set_attribute("unit", "m/s");
   grid.point_data.emplace_back("node_id", of_nodes, [all](std::size_t i) { return all->id[i]; });

@@ -31,6 +31,12 @@ double von_mises_stress(const Source& s, std::size_t i) {
   return std::sqrt(1.5 * std::max(t.squared_norm() - 3.0 * mean * mean, 0.0));
 }
 
+double cell_size(const Source& s, std::size_t i) {
+  if (s.geometry == nullptr) return 0.0;
+  return s.particles.position.empty() ? s.geometry->cell_size
+                                      : s.geometry->cell_size_at(s.particles.position[i]);
+}
+
 double void_fraction(const Source& s, std::size_t i) {
   const double opened = s.particles.void_volume[i];
   return opened / (s.particles.volume[i] + opened);
@@ -92,6 +98,7 @@ const auto table_of_state = std::to_array<OutputField>({
      [](const Source& s, std::size_t i) { return s.particles.sound_speed[i]; }},
     {"volume", "m^3", "volume of material", false,
      [](const Source& s, std::size_t i) { return s.particles.volume[i]; }},
+    {"cell_size", "m", "edge of the cells around the particle; between two sizes where it has functions of both", false, cell_size},
     {"body", "", "number of the body in the case, from 0", true,
      [](const Source& s, std::size_t i) { return static_cast<std::uint16_t>(s.particles.body[i]); }},
     {"material", "", "number of the material in the case, from 0", false,

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "src/core/base/vector_math.hpp"
+#include "src/grid/geometry.hpp"
 #include "src/particles/particles.hpp"
 #include "src/particles/phases.hpp"
 
@@ -28,6 +29,7 @@ inline std::array<LanesMask, 4> phases(Lanes melted_fraction, Lanes vaporised_fr
 struct FieldSource {
   const Particles& particles;
   std::span<const std::uint16_t> material_of_body;  ///< index of the material of every body of the case
+  const grid::Geometry* geometry = nullptr;         ///< of the finest cells; null: not known
 };
 
 /// Defines the value of a field, with one alternative per component type and width in the file: reals are written as

@@ -44,7 +44,7 @@ UnstructuredGrid ParticleSeries::grid(const Particles& particles, double time) c
   grid.geometry.emplace_back("Offsets", bounds, row_number, Array::From::row_number);
   grid.geometry.emplace_back(
       "Types", points, [](std::size_t) { return vtk_vertex; }, Array::From::row_number);
-  grid.point_data = arrays_of(fields_, {particles, options_.material_of_body}, points);
+  grid.point_data = arrays_of(fields_, source_of(options_, particles), points);
   return grid;
 }
 

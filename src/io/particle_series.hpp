@@ -26,7 +26,13 @@ struct SeriesOptions {
   std::vector<std::uint16_t> material_of_body;  ///< index of the material of every body
   std::map<std::string, std::string> provenance;  ///< attributes of /run: version, input text, machine, ...
   int deflate = 1;                                ///< compression level, 0 to 9
+  grid::Geometry geometry = {};                   ///< of the finest cells; without cells: not known
 };
+
+/// Returns what fields of points are computed from.
+inline FieldSource source_of(const SeriesOptions& options, const Particles& points) {
+  return {points, options.material_of_body, options.geometry.cell_size > 0.0 ? &options.geometry : nullptr};
+}
 
 /// Writes snapshots of the particles for ParaView: one file RUN.particles.NNNNNN.hdf per snapshot (VTKHDF 1.0
 /// UnstructuredGrid, one vertex cell per particle, point data in single precision) and their index (`Series`).

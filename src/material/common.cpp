@@ -96,10 +96,18 @@ WHIPPLE_KERNEL void find_heating_viscosity(const Step& step, Chunk& chunk) {
   const UpdateSettings& settings = step.settings;
   const double per_initial = 1.0 / settings.initial_density;
   const double per_range = 1.0 / settings.affine_compression;
-  for (std::size_t k = 0; k < chunk.size; ++k) {
-    chunk.heating_viscosity[k] = formulas::heating_viscosity(
-        settings, chunk.motion.divergence[k], step.affine_divergence[k], chunk.density[k],
-        chunk.sound_speed[k], chunk.intact[k] != 0.0, chunk.artificial_viscosity[k], per_initial, per_range);
+  const auto find = [&](const auto& length) {
+    for (std::size_t k = 0; k < chunk.size; ++k) {
+      chunk.heating_viscosity[k] = formulas::heating_viscosity(
+          settings, length(k), chunk.motion.divergence[k], step.affine_divergence[k], chunk.density[k],
+          chunk.sound_speed[k], chunk.intact[k] != 0.0, chunk.artificial_viscosity[k], per_initial,
+          per_range);
+    }
+  };
+  if (settings.lengths.empty()) {
+    find([&](std::size_t) { return settings.cell_size; });
+  } else {
+    find([&](std::size_t k) { return settings.lengths[chunk.index[k]]; });
   }
 }
 

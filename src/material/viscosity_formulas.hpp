@@ -40,13 +40,14 @@ WHIPPLE_POINT inline T heating_closing_speed(const Settings& settings, T of_grid
 /// Returns the part of the artificial viscosity whose work is heat (dissipation, eq. 5 and 6), Pa: all of it in a shock,
 /// whose rate the affine field of the particle follows; at first contact the part of the jump that the affine field
 /// represents; all of it in fragmented material, which collides.
-/// @param whole  artificial viscosity, Pa
+/// @param length  l, m
+/// @param whole   artificial viscosity, Pa
 template <class Settings, class T>
-WHIPPLE_POINT inline T heating_viscosity(const Settings& settings, T divergence, T affine_divergence,
-                                         T density, T sound_speed, bool intact, T whole, double per_initial,
-                                         double per_range) {
-  const T of_grid = std::max(-divergence, 0.0) * settings.cell_size;
-  const T of_field = std::max(-affine_divergence, 0.0) * settings.cell_size;
+WHIPPLE_POINT inline T heating_viscosity(const Settings& settings, T length, T divergence,
+                                         T affine_divergence, T density, T sound_speed, bool intact, T whole,
+                                         double per_initial, double per_range) {
+  const T of_grid = std::max(-divergence, 0.0) * length;
+  const T of_field = std::max(-affine_divergence, 0.0) * length;
   const T compression = density * per_initial - 1.0;
   const T closing = heating_closing_speed(settings, of_grid, of_field, compression, per_range);
   const T viscosity = artificial_viscosity(settings, density, closing, sound_speed);

@@ -88,6 +88,30 @@ std::vector<std::string> account_of(const cases::Case& setup, std::size_t body) 
   return lines;
 }
 
+/// Counts what is on the levels of the cells, over all ranks.
+std::vector<CaseCheck::OfLevel> of_levels(const solver::Simulation& simulation, MPI_Comm communicator) {
+  const grid::BlockGrid& grid = simulation.grid();
+  if (!grid.has_two_levels()) return {};
+  std::array<double, 5> counts{};  // particles and active cells of either level, mixed particles
+  for (const Vector3& x : simulation.particles().position) {
+    const grid::Blend blend = grid.geometry().blend(x);
+    counts[grid::number(blend.level())] += 1.0;
+    counts[4] += blend.is_mixed() ? 1.0 : 0.0;
+  }
+  for (std::size_t slot = 0; slot < grid.owned_slots(); ++slot) {
+    counts[2 + grid::number(grid.coordinate(slot).level)] += grid::nodes_per_block;
+  }
+  parallel::sum(communicator, counts);
+  std::vector<CaseCheck::OfLevel> levels;
+  for (const std::size_t level : {0U, 1U}) {
+    levels.push_back({.cell_size = grid.geometry().cell_size * (level == 0 ? 1.0 : 2.0),
+                      .particles = static_cast<std::size_t>(counts[level]),
+                      .mixed = static_cast<std::size_t>(counts[4]),
+                      .cells = static_cast<std::size_t>(counts[2 + level])});
+  }
+  return levels;
+}
+
 }  // namespace
 
 CaseCheck examine_case(const RunOptions& options, bool with_forecast, MPI_Comm communicator,
@@ -120,6 +144,7 @@ CaseCheck examine_case(const RunOptions& options, bool with_forecast, MPI_Comm c
   if (with_forecast) found.cost = forecast(simulation);
   if (found.device && found.cost) set_time(*found.device, *found.cost);
   found.blocks = simulation.grid().slots();  // active after the first step
+  if (with_forecast) found.levels = of_levels(simulation, communicator);
   found.bytes = static_cast<double>(simulation.bytes());
   return found;
 }
@@ -155,6 +180,12 @@ nlohmann::json check_json(const CaseCheck& found) {
     text["seconds"] = {found.cost->least_time, found.cost->most_time};
   }
   if (found.device) text["device"] = device_json(*found.device);
+  for (const CaseCheck::OfLevel& level : found.levels) {
+    text["levels"].push_back({{"cell_size", level.cell_size},
+                              {"particles", level.particles},
+                              {"mixed_particles", level.mixed},
+                              {"active_cells", level.cells}});
+  }
   return text;
 }
 
@@ -182,6 +213,12 @@ std::string check_text(const CaseCheck& found) {
   text += fmt::format("particles: {}{}, memory: {} now\n", found.particles,
                       found.cost ? fmt::format(", active blocks: {}", found.blocks) : "",
                       format_bytes(found.bytes));
+  for (const CaseCheck::OfLevel& level : found.levels) {
+    text += fmt::format("  cells of {:.6g} mm: {} particles, {} active cells\n", 1e3 * level.cell_size,
+                        level.particles, level.cells);
+  }
+  if (!found.levels.empty())
+    text += fmt::format("  {} particles have functions of both sizes\n", found.levels.front().mixed);
   text += found.splitting;
   if (found.device) text += device_text(*found.device);
   if (!found.cost) return text;

@@ -30,6 +30,13 @@ struct CaseCheck {
   std::size_t particles = 0, blocks = 0;
   double bytes = 0.0, expected_memory = 0.0;  ///< now; of all particles at most
   std::string splitting;                      ///< lines
+  /// Holds what is on one of two levels of cells, small ones first; empty with one size.
+  struct OfLevel {
+    double cell_size = 0.0;  ///< m
+    std::size_t particles = 0, mixed = 0,
+                cells = 0;  ///< mixed: also with functions of the other size; active cells
+  };
+  std::vector<OfLevel> levels;
   int threads = 1;
   std::optional<Forecast> cost;
   std::optional<DeviceEstimate> device;

@@ -17,8 +17,12 @@ enum class Shown {
   always,       ///< a column of history.csv
   of_elements,  ///< a column of history.csv in cases with elements
   of_damping,   ///< a column of history.csv in cases with local damping
+  of_levels,    ///< the same in cases with two cell sizes
   limiter       ///< a column of history.csv: how often a bound of the material or the time step took effect
 };
+
+/// Returns whether a sum counts how often a bound or a warning took effect.
+constexpr bool is_limiter(Shown shown) { return shown == Shown::limiter || shown == Shown::of_levels; }
 
 /// Describes a sum that a run accumulates: one entry for the ledger, checkpoints, history.csv, the end of the log, the
 /// report and the manual (docs/manual/output.md).
@@ -103,6 +107,9 @@ inline constexpr auto accounts = [] {
     {"held_time_steps", "1", &S::held_time_steps, limiter,
      "time step kept longer than `time.compression_limit` asks for, at least an eighth of the stable one", {}, {},
      "a few compressed particles must not govern a run"},
+    {"shocks_at_change", "1", &S::shocks_at_change, of_levels,
+     "particle with functions of two cell sizes under a pressure above a tenth of rho0 c0^2", {}, {},
+     "a strong shock that crosses a change of the cell size leaves wrong heat: `domain.refinement` should hold it"},
   });
 }();
 // clang-format on

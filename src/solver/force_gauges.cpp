@@ -30,11 +30,12 @@ struct Acting {
 
 /// Returns the faces that act on each component (3.6b): the nearest of those that hold it. A plane that slides along
 /// takes the components along it only where no other face is near: they cancel between a node and its image.
-std::array<Acting, 3> acting_at(const grid::BlockGrid& grid, const std::array<std::int32_t, 3>& place) {
+std::array<Acting, 3> acting_at(const grid::BlockGrid& grid, const grid::Geometry& geometry,
+                                const std::array<std::int32_t, 3>& place) {
   std::array<Acting, 3> normal, holding, any;
   for (const grid::MirrorPlane& plane : grid.mirror_planes()) {
     const auto axis = static_cast<std::size_t>(plane.axis);
-    const std::int32_t at = plane.face % 2 == 0 ? 0 : grid.geometry().cells[axis];
+    const std::int32_t at = plane.face % 2 == 0 ? 0 : geometry.cells[axis];
     const int distance = std::abs(place[axis] - at);
     if (distance > grid::BlockGrid::mirror_reach) continue;
     const bool holds = plane.kind == grid::Boundary::no_slip || plane.kind == grid::Boundary::friction;
@@ -90,8 +91,8 @@ bool ForceGauges::any_of_body() const {
 }
 
 /// Returns the part of the cell around a node that is in the patch of a gauge (3.6c).
-double ForceGauges::share(const Gauge& gauge, const Vector3& position) const {
-  const double half = 0.5 * geometry_.cell_size;
+double ForceGauges::share(const Gauge& gauge, const Vector3& position, double cell_size) const {
+  const double half = 0.5 * cell_size;
   double share = 1.0;
   for (std::size_t a = 0; a < 3; ++a) {
     const double x = position[static_cast<Eigen::Index>(a)];
@@ -111,18 +112,17 @@ void ForceGauges::add(std::size_t gauge, const Vector3& position, const Vector3&
 
 void ForceGauges::book_node(const grid::BlockGrid& grid, std::uint32_t node, const Vector3& impulse) {
   if (impulse.isZero(0.0)) return;
-  const std::array<std::int32_t, 3> place = grid.place_of_node(node);
-  const Vector3 position =
-      grid.geometry().lower + grid.geometry().cell_size * Vector3(place[0], place[1], place[2]);
+  const grid::Geometry& geometry = grid.geometry_of_node(node);
+  const Vector3 position = grid.position_of_node(node);
   const unsigned field = grid.whole_of_block(node / grid::nodes_per_block);
-  const std::array<Acting, 3> acting = acting_at(grid, place);
+  const std::array<Acting, 3> acting = acting_at(grid, geometry, grid.place_of_node(node));
   for (std::size_t g = 0; g < gauges_.size(); ++g) {
     const Gauge& gauge = gauges_[g];
     const bool is_of_piece = field >= gauge.first_piece && field < gauge.first_piece + gauge.pieces;
     if (gauge.face < 0 && gauge.field != field && !is_of_piece) continue;
     Vector3 part = impulse;
     if (gauge.face >= 0) {
-      const double of_patch = share(gauge, position);
+      const double of_patch = share(gauge, position, geometry.cell_size);
       for (int c = 0; c < 3; ++c) part[c] *= -of_patch * acting[static_cast<std::size_t>(c)].part(gauge.face);
     }
     add(g, position, part);
@@ -141,7 +141,7 @@ void ForceGauges::book_point(std::size_t body, std::size_t face, const Vector3& 
     if (gauge.face < 0) {
       if (gauge.body != body) continue;
     } else if (gauge.face == static_cast<int>(face)) {
-      part *= -share(gauge, position);
+      part *= -share(gauge, position, geometry_.cell_size);
     } else {
       continue;
     }

@@ -56,7 +56,7 @@ class ForceGauges {
   };
 
   void add(std::size_t gauge, const Vector3& position, const Vector3& impulse);
-  [[nodiscard]] double share(const Gauge& gauge, const Vector3& position) const;
+  [[nodiscard]] double share(const Gauge& gauge, const Vector3& position, double cell_size) const;
 
   grid::Geometry geometry_;
   std::vector<Gauge> gauges_;

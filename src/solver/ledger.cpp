@@ -11,7 +11,8 @@
 
 namespace whipple::solver {
 
-Totals totals_of(const Particles& particles, std::size_t p, double affine_inertia) {
+Totals totals_of(const Particles& particles, std::size_t p, const AffineInertia& of_field) {
+  const double affine_inertia = of_field.at(particles.position[p]);
   const double m = particles.mass[p];
   const Vector3& v = particles.velocity[p];
   const double speed2 = v.squaredNorm();
@@ -39,12 +40,13 @@ struct AffineSum {
 };
 
 /// Sums the affine fields of a range of particles one after the other, in a few registers.
-AffineSum affine_sum(const Particles& particles, std::size_t begin, std::size_t end) {
+AffineSum affine_sum(const Particles& particles, std::size_t begin, std::size_t end,
+                     const AffineInertia& of_field) {
   Lanes sum{};
   double rest = 0.0;
   Vector3 rotation = Vector3::Zero();
   for (std::size_t p = begin; p < end; ++p) {
-    const double m = particles.mass[p];
+    const double m = particles.mass[p] * of_field.relative(particles.position[p]);
     const double* c = particles.affine_velocity[p].data();
     const Lanes first = load(c), second = load(c + 4);
     sum += m * (first * first + second * second);
@@ -56,7 +58,7 @@ AffineSum affine_sum(const Particles& particles, std::size_t begin, std::size_t 
 
 /// Sums the totals of a range of particles, four at a time.
 Totals totals_of_range(const Particles& particles, std::size_t begin, std::size_t end,
-                       double affine_inertia) {
+                       const AffineInertia& of_field) {
   Lanes mass{}, x{}, y{}, z{}, scale{}, twice_kinetic{}, internal{};
   Lanes about_x{}, about_y{}, about_z{};
   std::size_t p = begin;
@@ -90,8 +92,8 @@ Totals totals_of_range(const Particles& particles, std::size_t begin, std::size_
     }
     sum.unresolved_energy += sum4(unresolved);
   }
-  if (affine_inertia > 0.0) {
-    const AffineSum fields = affine_sum(particles, begin, end);
+  if (const double affine_inertia = of_field.of_fine(); affine_inertia > 0.0) {
+    const AffineSum fields = affine_sum(particles, begin, end, of_field);
     sum.affine_kinetic_energy = 0.5 * affine_inertia * fields.square;
     sum.angular_momentum += affine_inertia * fields.rotation;
   }
@@ -100,22 +102,20 @@ Totals totals_of_range(const Particles& particles, std::size_t begin, std::size_
 
 }  // namespace
 
-Totals totals_of(const Particles& particles, double affine_inertia, std::vector<Totals>& of_chunk,
+Totals totals_of(const Particles& particles, const AffineInertia& of_field, std::vector<Totals>& of_chunk,
                  std::span<const std::uint8_t> stays) {
   parallel::update_chunks(
       particles.size(), of_chunk, [&](std::size_t chunk) { return stays[chunk] != 0; },
-      [&](std::size_t begin, std::size_t end) {
-        return totals_of_range(particles, begin, end, affine_inertia);
-      });
+      [&](std::size_t begin, std::size_t end) { return totals_of_range(particles, begin, end, of_field); });
   Totals sum;
   for (const Totals& part : of_chunk) sum += part;
   return sum;
 }
 
-Totals totals_of(const Particles& particles, double affine_inertia) {
+Totals totals_of(const Particles& particles, const AffineInertia& of_field) {
   std::vector<Totals> of_chunk;
   const std::vector<std::uint8_t> none(parallel::chunk_count(particles.size()), 0);
-  return totals_of(particles, affine_inertia, of_chunk, none);
+  return totals_of(particles, of_field, of_chunk, none);
 }
 
 void Ledger::add(const Ledger& step) {

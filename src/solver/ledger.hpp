@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "src/core/parallel/mpi.hpp"
+#include "src/grid/geometry.hpp"
 #include "src/particles/particles.hpp"
 
 /// Accounts of the conserved quantities: their sums and all contributions to their change.
@@ -89,15 +90,39 @@ inline Vector3 rotation_of(const Matrix3& gradient) {
   return {gradient(2, 1) - gradient(1, 2), gradient(0, 2) - gradient(2, 0), gradient(1, 0) - gradient(0, 1)};
 }
 
+/// Holds the inertia per mass (m^2) of affine fields (`transfer::affine_inertia`): one number, or, on a grid of two
+/// levels, by the place of the particle.
+class AffineInertia {
+ public:
+  AffineInertia(double everywhere)
+      : of_fine_(everywhere) {}  // NOLINT(google-explicit-constructor): a number is one
+  /// @param of_fine   in the finest cells
+  /// @param geometry  of these; must outlive the object
+  AffineInertia(double of_fine, const grid::Geometry& geometry)
+      : of_fine_(of_fine), geometry_(geometry.levels.are_two() ? &geometry : nullptr) {}
+
+  [[nodiscard]] double of_fine() const { return of_fine_; }
+  /// Returns the ratio of the inertia at a position to that in the finest cells.
+  [[nodiscard]] double relative(const Vector3& position) const {
+    if (geometry_ == nullptr) return 1.0;
+    const double edges = geometry_->cell_size_at(position) / geometry_->cell_size;
+    return edges * edges;
+  }
+  [[nodiscard]] double at(const Vector3& position) const { return of_fine_ * relative(position); }
+
+ private:
+  double of_fine_;
+  const grid::Geometry* geometry_ = nullptr;
+};
+
 /// Returns the totals of one particle.
-/// @param affine_inertia  inertia per mass of the affine field, m^2 (`transfer::affine_inertia`)
-Totals totals_of(const Particles& particles, std::size_t p, double affine_inertia);
+Totals totals_of(const Particles& particles, std::size_t p, const AffineInertia& of_field);
 /// Sums over all particles of this rank; bitwise independent of the number of threads.
-Totals totals_of(const Particles& particles, double affine_inertia);
+Totals totals_of(const Particles& particles, const AffineInertia& of_field);
 /// Sums over the particles, with the former sums for unchanged chunks.
 /// @param of_chunk  sums of each chunk of particles, from the last call
 /// @param stays     of each chunk: 1 if its particles have not changed since
-Totals totals_of(const Particles& particles, double affine_inertia, std::vector<Totals>& of_chunk,
+Totals totals_of(const Particles& particles, const AffineInertia& of_field, std::vector<Totals>& of_chunk,
                  std::span<const std::uint8_t> stays);
 
 /// Accumulates all contributions that enter and leave, so that at any time energy = initial - outflow + external work
@@ -118,7 +143,7 @@ struct Ledger {
   double below_cold_curve = 0.0, at_pressure_floor = 0.0, limited_volume_changes = 0.0;
   double limited_densities = 0.0, limited_compressions = 0.0, limited_void_steps = 0.0;
   double limited_bulking = 0.0, limited_domains = 0.0, limited_hourglass = 0.0, elements_beyond_range = 0.0;
-  double held_pressures = 0.0, refused_divisions = 0.0, held_time_steps = 0.0;
+  double held_pressures = 0.0, refused_divisions = 0.0, held_time_steps = 0.0, shocks_at_change = 0.0;
 
   /// Maximum over the ends of all steps so far, with affine, unresolved and hourglass energies, J.
   double largest_kinetic_energy = 0.0;

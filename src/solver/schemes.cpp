@@ -4,6 +4,7 @@
 
 #include "src/solver/carriers/domains.hpp"
 #include "src/solver/stages.hpp"
+#include "src/solver/stages/levels.hpp"
 
 /// The time steps, one function per scheme. Numbers are equations of docs/theory/mpm.md; superscripts give the time
 /// level of a quantity after the call. Particles are processed by region (grid::BlockGrid::Region): those of a rank's
@@ -278,6 +279,7 @@ void bin_particles(Stages& s) {
     s.partition.bin_particles();
     s.activity.find();
     s.contact.separate_fields();
+    if (s.state.grid.has_two_levels()) watch_levels(s.state);
     s.transfers.find_shared_cells();
     s.transfers.evaluate_loads();
   });

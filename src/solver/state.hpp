@@ -131,10 +131,19 @@ struct State {
 
   /// Returns the shape functions of forces, velocities and their gradients.
   [[nodiscard]] transfer::ShapeFunctions functions() const { return {shape, setup.transfer.slope_smoothing}; }
-  /// Returns the inertia per mass (m^2) of affine fields with this shape function; 0 if it does not support them.
+  /// Returns the inertia per mass (m^2) of affine fields with this shape function in the finest cells; 0 if it does not
+  /// support them.
   [[nodiscard]] double affine_inertia() const;
   /// Returns the inertia per mass (m^2) of the affine fields that particles of this case carry; 0 without such fields.
   [[nodiscard]] double particle_affine_inertia() const;
+  /// Returns that of a particle by its place.
+  [[nodiscard]] AffineInertia inertia_of_particles() const {
+    return {particle_affine_inertia(), grid.geometry()};
+  }
+  /// Returns the edge of the cells around a particle, m.
+  [[nodiscard]] double cell_size_at(std::size_t particle) const {
+    return grid.geometry().cell_size_at(particles.position[particle]);
+  }
   /// Returns whether particles of this case carry affine fields.
   [[nodiscard]] bool carries_affine_fields() const {
     return cases::is_affine(setup.transfer.particle_update);

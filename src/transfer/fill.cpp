@@ -8,16 +8,33 @@
 
 namespace whipple::transfer {
 
+namespace {
+
+/// Returns whether nodes that a particle reaches may be those of cells that the other level fills too.
+bool is_near_change(const grid::Geometry& fine, const Vector3& position) {
+  const Lanes cells = fine.in_cells(position), around = broadcast(6.0);
+  return fine.levels.may_need(grid::Level::fine, cells, around) &&
+         fine.levels.may_need(grid::Level::coarse, cells, around);
+}
+
+}  // namespace
+
 std::vector<double> fill_of_cells(const Particles& particles, const TransitionNodes& elements,
                                   grid::BlockGrid& grid) {
   using grid::BlockGrid;
   using grid::Node;
   grid.clear();
-  const double dx = grid.geometry().cell_size, per_area = 1.0 / (dx * dx);
+  const bool two_levels = grid.has_two_levels();
+  const grid::Geometry &fine = grid.geometry(), coarse = fine.of_level(grid::Level::coarse);
+  const auto geometry_at = [&](const Vector3& x) -> const grid::Geometry& {
+    return two_levels && fine.blend(x).level() == grid::Level::coarse ? coarse : fine;
+  };
   scalars::scatter(BlockGrid::Points::particles, grid,
                    [&](Node& node, std::size_t p, double n, const Vector3&) {
                      const double volume = particles.volume[p] + particles.void_volume[p];
-                     const double per_cell = per_area / grid.geometry().depth(particles.position[p]);
+                     const grid::Geometry& geometry = geometry_at(particles.position[p]);
+                     const double dx = geometry.cell_size,
+                                  per_cell = 1.0 / (dx * dx) / geometry.depth(particles.position[p]);
                      node.scalars.sums += Lanes{n * volume * per_cell, 0.0, 0.0, 0.0};
                    });
   if (elements.size() > 0) {
@@ -47,7 +64,7 @@ std::vector<double> fill_of_cells(const Particles& particles, const TransitionNo
       filled += n * node.scalars.sums[0];
       of_elements += n * node.scalars.sums[1];
     });
-    if (of_elements == 0.0) fill[p] = filled;
+    if (of_elements == 0.0 && !(two_levels && is_near_change(fine, particles.position[p]))) fill[p] = filled;
   });
   return fill;
 }

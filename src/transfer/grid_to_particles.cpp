@@ -9,6 +9,7 @@
 #include "src/core/base/error.hpp"
 #include "src/core/parallel/threads.hpp"
 #include "src/transfer/kernels.hpp"
+#include "src/transfer/mixed_kernels.hpp"
 #include "src/transfer/shape_function.hpp"
 #include "src/transfer/stress_columns.hpp"
 #include "src/transfer/transition_nodes.hpp"
@@ -152,11 +153,50 @@ void for_each_slot(const BlockGrid& grid, const Stretch& stretch, Gather&& gathe
   });
 }
 
+/// Gives a point the affine field that fits the cells at its new position: one of larger cells has more inertia, and the
+/// field is weaker by as much; one of smaller cells has less, and the rest of its energy is lost (8).
+/// @param before, after  edges of the cells at the positions before and after the step, m
+template <class Shape>
+void fit_affine_field(Advance<>& advance, double before, double after) {
+  if (before == after) return;
+  if (after > before) {
+    for (Lanes& column : advance.affine) column *= before / after;
+  } else {
+    advance.heat +=
+        0.5 * Shape::second_moment * (before * before - after * after) * squared_norm(advance.affine);
+  }
+}
+
+/// Updates a particle of a grid of two levels, whose cells may change on its way.
+/// @param of_level  sums over the nodes of its own level, which are all that it reaches unless it is mixed
+template <class Shape, bool affine>
+[[gnu::noinline]] TransferBalance update_between_levels(const ExactUpdate& update, Particles& particles,
+                                                        BlockGrid& grid, std::size_t p,
+                                                        const Advance<>& of_level, Matrix3& gradient,
+                                                        double& volume_rate, double radius) {
+  const grid::Geometry& geometry = grid.geometry();
+  const bool mixed = is_mixed(grid, p);
+  Advance<> advance = mixed
+                          ? advance_mixed<Shape, affine>(particles, grid, p, update.functions.slope_smoothing,
+                                                         update.affine, update.dt)
+                          : of_level;
+  const double before = geometry.cell_size_at(particles.position[p]);
+  if constexpr (affine) {
+    const Vector3 moved = particles.position[p] + update.dt * vector(advance.grid_velocity.value);
+    fit_affine_field<Shape>(advance, before, geometry.cell_size_at(moved));
+  }
+  Losses losses = update.losses;
+  losses.allowance_length *= before / geometry.cell_size;
+  return update_particle<affine, Planar<Shape>>(particles, p, update.dt, advance, update.affine, gradient,
+                                                volume_rate, losses, update.acceleration, radius);
+}
+
 template <class Shape, bool affine>
 void update_exactly(const ExactUpdate& update, Particles& particles, BlockGrid& grid,
                     const Stretch& stretch) {
   const auto& [functions, dt, field, losses, acceleration] = update;
   const bool radial = Planar<Shape> && grid.geometry().is_axisymmetric();
+  const bool two_levels = grid.has_two_levels();
   for_each_slot<Shape, Widest::wide>(
       grid, stretch,
       [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance& balance, std::size_t first) {
@@ -170,6 +210,12 @@ void update_exactly(const ExactUpdate& update, Particles& particles, BlockGrid& 
             }
           }
           const double radius = radial ? particles.position[p][1] : 0.0;
+          if (two_levels) {
+            balance += update_between_levels<Shape, affine>(update, particles, grid, p, advance,
+                                                            stretch.gradients[first + place],
+                                                            stretch.volume_rates[first + place], radius);
+            return;
+          }
           balance += update_particle<affine, Planar<Shape>>(
               particles, p, dt, advance, field, stretch.gradients[first + place],
               stretch.volume_rates[first + place], losses, acceleration, radius);
@@ -188,7 +234,12 @@ void update_velocities(const RelaxedUpdate& update, Particles& particles, BlockG
   for_each_slot<Shape, widest_of_sums<Shape>>(
       grid, stretch,
       [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance& balance, std::size_t first) {
-        const auto take = [&](std::size_t place, std::size_t p, const VelocityUpdate<>& sums) WHIPPLE_INLINE {
+        const auto take = [&](std::size_t place, std::size_t p,
+                              const VelocityUpdate<>& of_level) WHIPPLE_INLINE {
+          const VelocityUpdate<> sums =
+              is_mixed(grid, p)
+                  ? sums_of_mixed<Shape>(particles, grid, p, functions.slope_smoothing, plain::Update{})
+                  : of_level;
           const Lanes after = sums.after.value, increment = sums.increment, before = after - increment;
           double* const velocity = particles.velocity[p].data();
           const Lanes old = load_vector(velocity), updated = old + increment - relaxation * (old - before);
@@ -294,15 +345,18 @@ void gather_first(Wanted wanted, const ShapeFunctions& functions, const Particle
   with_shape(functions.kind, [&]<class Shape>(Shape) {
     for_each_slot<Shape, widest_of_sums<Shape>>(
         grid, stretch, [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance&, std::size_t first) {
-          const auto take = [&](std::size_t place, std::size_t p, const ValueAndGradient<>& sums)
-                                WHIPPLE_INLINE {
-                                  if (wanted == Wanted::velocity)
-                                    return store_vector(velocity[p].data(), sums.value);
-                                  if (prefetches(p)) prefetch_state(particles, p);  // for the material
-                                  std::array<Lanes, 3> l = sums.gradient;
-                                  if (radial) add_hoop_rate(l, sums.value[1], grid.radius_at_bin(p));
-                                  stretch.gradients[first + place] = matrix(l);
-                                };
+          const auto take = [&](std::size_t place, std::size_t p,
+                                const ValueAndGradient<>& of_level) WHIPPLE_INLINE {
+            const ValueAndGradient<> sums =
+                is_mixed(grid, p)
+                    ? sums_of_mixed<Shape>(particles, grid, p, functions.slope_smoothing, plain::First{})
+                    : of_level;
+            if (wanted == Wanted::velocity) return store_vector(velocity[p].data(), sums.value);
+            if (prefetches(p)) prefetch_state(particles, p);  // for the material
+            std::array<Lanes, 3> l = sums.gradient;
+            if (radial) add_hoop_rate(l, sums.value[1], grid.radius_at_bin(p));
+            stretch.gradients[first + place] = matrix(l);
+          };
           Kernels::template gather<Shape>(particles, grid, particle_kind, slot, functions.slope_smoothing,
                                           typename Kernels::First{}, take);
         });

@@ -21,11 +21,12 @@ struct AtPlanes {
   bool apart = false;  // its material may be in contact with its image
 };
 
-AtPlanes at_planes(const BlockGrid& grid, const std::array<std::int32_t, 3>& place, unsigned field) {
+AtPlanes at_planes(const BlockGrid& grid, std::size_t node, unsigned field) {
+  const std::array<std::int32_t, 3> place = grid.place_of_node(node);
   AtPlanes at;
   for (const grid::MirrorPlane& plane : grid.mirror_planes()) {
     const auto axis = static_cast<std::size_t>(plane.axis);
-    const std::int32_t position = plane.face % 2 == 0 ? 0 : grid.geometry().cells[axis];
+    const std::int32_t position = plane.face % 2 == 0 ? 0 : grid.geometry_of_node(node).cells[axis];
     if (std::abs(place[axis] - position) > BlockGrid::mirror_reach) continue;
     at.near = true;
     at.apart = at.apart || !grid.is_bonded_at(static_cast<std::size_t>(plane.face), field);
@@ -49,7 +50,7 @@ void LocalDamping::damp_slot(const BlockGrid& grid, std::size_t slot, double alp
       const grid::NodeSums& sums = nodes[n].sums;
       const double mass = sums.mass();
       if (mass < no_mass || grid.is_image(n)) continue;
-      const AtPlanes at = at_planes(grid, grid.place_of_node(n), grid.whole_of_block(block));
+      const AtPlanes at = at_planes(grid, n, grid.whole_of_block(block));
       if (at.apart) continue;
       const Lanes velocity = sums.mass_and_momentum / mass, increment = sums.sound_and_force * (dt / mass);
       const Lanes damping = (damping_factor(alpha, velocity, increment) - 1.0) * increment;

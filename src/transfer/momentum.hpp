@@ -36,11 +36,11 @@ template <class KeepsMass>
 void solve_momentum(grid::BlockGrid& grid, double dt, const Relaxation& relaxation,
                     const KeepsMass& keeps_mass) {
   const std::span<grid::Node> nodes = grid.all_nodes();
-  const double rate = relaxation.kappa * dt / grid.geometry().cell_size;
   parallel::for_each(grid.owned_blocks(), [&](std::size_t b) {
     const std::size_t block = grid.owned_block(b);
     const std::size_t first = block * grid::nodes_per_block;
     const double mass_kept = keeps_mass(block) ? 1.0 : 0.0;
+    const double rate = relaxation.kappa * dt / grid.geometry_of_node(first).cell_size;
     const std::array<double, grid::nodes_per_block> betas = relaxation_of(&nodes[first], relaxation, rate);
     for (std::size_t i = first; i < first + grid::nodes_per_block; ++i) {
       grid::Node& node = nodes[i];

@@ -4,6 +4,7 @@
 #include "src/core/base/prefetch.hpp"
 #include "src/core/parallel/threads.hpp"
 #include "src/transfer/kernels.hpp"
+#include "src/transfer/mixed_kernels.hpp"
 #include "src/transfer/shape_function.hpp"
 #include "src/transfer/stress_columns.hpp"
 #include "src/transfer/transition_nodes.hpp"
@@ -54,6 +55,7 @@ template <bool affine, class Points>
 /// element nodes.
 struct OfParticles {
   const Particles& points;
+  const grid::BlockGrid& grid;
   static constexpr auto kind = grid::BlockGrid::Points::particles;
 };
 template <bool planar>
@@ -71,6 +73,10 @@ struct Everything : OfParticles {
   /// -V sigma_zz N_i / r towards the axis.
   template <bool affine>
   [[nodiscard, gnu::always_inline]] Payload load(std::size_t p) const {
+    return is_mixed(grid, p) ? Payload{} : payload<affine>(p);
+  }
+  template <bool affine>
+  [[nodiscard, gnu::always_inline]] Payload payload(std::size_t p) const {
     const double mean = mean_stress_of(points, p, mean_stress);
     const std::array<Lanes, 3> stress = stress_columns<1>(points.deviatoric_stress[p], mean);
     const Lanes minus_volume = -points.volume[p] * Lanes{0.0, 1.0, 1.0, 1.0};
@@ -108,9 +114,23 @@ struct Momentum : OfParticles {
   WHIPPLE_INLINE void prefetch_from(std::size_t p) const { prefetch(p, points.mass, velocity); }
   template <bool affine>
   [[nodiscard, gnu::always_inline]] Lanes load(std::size_t p) const {
+    return is_mixed(grid, p) ? Lanes{} : payload<affine>(p);
+  }
+  template <bool affine>
+  [[nodiscard, gnu::always_inline]] Lanes payload(std::size_t p) const {
     return with_momentum(points.mass[p], velocity[p].data());
   }
 };
+
+/// Adds the contributions of the parts of mixed particles in a region to the nodes.
+template <class Shape, class What>
+void scatter_parts(const What& what, const Particles& particles, grid::BlockGrid& grid, Region region,
+                   double slope_smoothing) {
+  for_each_part_apart(grid, region, [&](std::uint32_t part) {
+    const auto load = what.template payload<CarriesAffineField<Shape>>(grid.mixed_of_part(part).particle);
+    add_part<Shape>(particles, grid, part, slope_smoothing, load);
+  });
+}
 
 /// Adds the contributions of the points of a region to the nodes.
 template <class Shape, class What>
@@ -130,8 +150,9 @@ void particles_to_grid(const ShapeFunctions& functions, const Particles& particl
                        std::span<const double> mean_stress) {
   with_shape(functions.kind, [&]<class Shape>(Shape) {
     const bool rings = grid.geometry().is_axisymmetric();
-    scatter_region<Shape>(Everything<Planar<Shape>>{{particles}, acceleration, mean_stress, rings}, grid,
-                          region, functions.slope_smoothing);
+    const Everything<Planar<Shape>> everything{{particles, grid}, acceleration, mean_stress, rings};
+    scatter_region<Shape>(everything, grid, region, functions.slope_smoothing);
+    scatter_parts<Shape>(everything, particles, grid, region, functions.slope_smoothing);
   });
 }
 
@@ -159,7 +180,9 @@ void clear_momentum(grid::BlockGrid& grid) {
 void momentum_to_grid(ShapeFunction shape, const Particles& particles, std::span<const Vector3> velocity,
                       grid::BlockGrid& grid, Region region) {
   with_shape(shape, [&]<class Shape>(Shape) {
-    scatter_region<Shape>(Momentum{{particles}, velocity}, grid, region, no_slopes);
+    const Momentum momentum{{particles, grid}, velocity};
+    scatter_region<Shape>(momentum, grid, region, no_slopes);
+    scatter_parts<Shape>(momentum, particles, grid, region, no_slopes);
   });
 }
 

@@ -156,6 +156,16 @@ struct Kernels {
     add_slot<CarriesAffineField<Shape>>(functions<Shape>(), what, grid, slot, slope_smoothing);
   }
 
+  /// Adds mass, momentum, sound speed and force of a point to a node (3.1
+  /// to 3.3).
+  static void add(const Payload& load, const AtNode& at, grid::Node& node) {
+    node.registers.first += at.n * (load.a0 + at.r[0] * load.ax + at.r[1] * load.ay + at.r[2] * load.az);
+    node.registers.second +=
+        at.n * load.b0 + at.gradient[0] * load.bx + at.gradient[1] * load.by + at.gradient[2] * load.bz;
+  }
+  /// Adds mass and momentum only.
+  static void add(Lanes load, const AtNode& at, grid::Node& node) { node.registers.first += at.n * load; }
+
  private:
   /// Returns the results of the points of a slot.
   template <class Sums, class Points>
@@ -193,15 +203,6 @@ struct Kernels {
       }
     });
   }
-  /// Adds mass, momentum, sound speed and force of a point to a node (3.1
-  /// to 3.3).
-  static void add(const Payload& load, const AtNode& at, grid::Node& node) {
-    node.registers.first += at.n * (load.a0 + at.r[0] * load.ax + at.r[1] * load.ay + at.r[2] * load.az);
-    node.registers.second +=
-        at.n * load.b0 + at.gradient[0] * load.bx + at.gradient[1] * load.by + at.gradient[2] * load.bz;
-  }
-  /// Adds mass and momentum only.
-  static void add(Lanes load, const AtNode& at, grid::Node& node) { node.registers.first += at.n * load; }
 };
 
 }  // namespace whipple::transfer::plain

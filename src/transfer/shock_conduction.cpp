@@ -9,6 +9,7 @@
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/parallel/threads.hpp"
 #include "src/transfer/kernels.hpp"
+#include "src/transfer/mixed.hpp"
 #include "src/transfer/scalar_fields.hpp"
 #include "src/transfer/shape_function.hpp"
 
@@ -26,24 +27,26 @@ constexpr double largest_share = 0.9;
 /// Exchange of a particle with its nodes.
 class Exchange {
  public:
-  Exchange(const Particles& particles, double cell_size, double dt, double per_inertia,
+  Exchange(const Particles& particles, const grid::Geometry& geometry, double dt, double per_inertia,
            const ShockConduction& conduction)
       : particles_(particles),
         conduction_(conduction),
-        cell_size_(cell_size),
-        per_rate_(per_inertia * dt / cell_size) {}
+        geometry_(geometry),
+        two_levels_(geometry.levels.are_two()),
+        rate_(per_inertia * dt) {}
 
   [[nodiscard]] double heat_capacity(std::size_t p) const { return of_body(p).heat_capacity; }
 
   /// Fraction chi of its difference to the nodes that a particle loses in the step (eq. 8).
   [[nodiscard]] double share(std::size_t p) const {
-    const double closing = particles_.closing_rate[p] * cell_size_, sound_speed = particles_.sound_speed[p];
+    const double edge = two_levels_ ? geometry_.cell_size_at(particles_.position[p]) : geometry_.cell_size;
+    const double closing = particles_.closing_rate[p] * edge, sound_speed = particles_.sound_speed[p];
     const double above = closing - conduction_.onset * sound_speed;
     if (!(above > 0.0)) return 0.0;
     const double grown = std::min(1.0, above / (conduction_.rise * sound_speed));
     const ShockConductivity& body = of_body(p);
     const double speed = body.quadratic_viscosity * closing + body.linear_viscosity * sound_speed;
-    return std::min(largest_share, conduction_.scale * per_rate_ * grown * speed);
+    return std::min(largest_share, conduction_.scale * (rate_ / edge) * grown * speed);
   }
   [[nodiscard]] bool conducts(std::size_t p) const { return share(p) > 0.0 && heat_capacity(p) > 0.0; }
 
@@ -53,8 +56,9 @@ class Exchange {
   }
   const Particles& particles_;
   const ShockConduction& conduction_;
-  double cell_size_;
-  double per_rate_;  // s/m
+  const grid::Geometry& geometry_;
+  bool two_levels_;
+  double rate_;  // s
 };
 
 /// Contribution of a particle to its nodes: heat capacity C, C T, C chi.
@@ -62,12 +66,16 @@ struct Capacity {
   using Content = Lanes;
   static constexpr auto kind = BlockGrid::Points::particles;
   const Particles& points;
+  const BlockGrid& grid;
   const Exchange& exchange;
   WHIPPLE_INLINE void prefetch_from(std::size_t p) const {
     prefetch(p, points.mass, points.temperature, points.closing_rate, points.sound_speed);
   }
   template <bool affine>
   [[nodiscard, gnu::always_inline]] Lanes load(std::size_t p) const {
+    return is_mixed(grid, p) ? Lanes{} : payload(p);
+  }
+  [[nodiscard]] Lanes payload(std::size_t p) const {
     const double capacity = points.mass[p] * exchange.heat_capacity(p);
     return capacity * Lanes{1.0, points.temperature[p], exchange.share(p), 0.0};
   }
@@ -122,6 +130,12 @@ std::optional<std::vector<std::uint64_t>> slots_at_shocks(BlockGrid& grid, const
   const bool any = std::ranges::find(marked, 1U) != marked.end();
   if (!parallel::any(grid.communicator(), any)) return std::nullopt;
   marked = around(grid, marked);
+  if (grid.has_two_levels()) {  // the sums of a mixed particle want all that its nodes have
+    if (grid.is_shared()) grid.join_bits_of_ranks(marked);
+    for (std::size_t slot = 0; slot < marked.size(); ++slot)
+      marked[slot] |= grid.parts_in(slot).empty() ? 0U : 1U;
+    marked = around(grid, marked);
+  }
   if (!grid.is_shared()) return marked;
   // A particle of one rank may reach, in a block of another, nodes that a conducting one of a third reaches.
   grid.join_bits_of_ranks(marked);
@@ -137,7 +151,7 @@ double conduct_in_shocks(ShapeFunction shape, Particles& particles, BlockGrid& g
       if constexpr (CarriesAffineField<Shape>) return 1.0 / Shape::second_moment;
       return 4.0;  // of a hat over two cells, about as wide as those
     }();
-    const Exchange exchange(particles, grid.geometry().cell_size, dt, per_inertia, conduction);
+    const Exchange exchange(particles, grid.geometry(), dt, per_inertia, conduction);
     const std::optional<std::vector<std::uint64_t>> found = slots_at_shocks(grid, exchange);
     if (!found) return 0.0;
     const std::vector<std::uint64_t>& taking_part = *found;
@@ -146,12 +160,20 @@ double conduct_in_shocks(ShapeFunction shape, Particles& particles, BlockGrid& g
     for_each_node(grid, reached, grid.slots(), [](Node& node) { node.scalars.sums = broadcast(0.0); });
     clear_beyond_planes(grid);
 
+    const Capacity capacity{particles, grid, exchange};
     grid.for_each_apart([&](std::size_t slot) {
       if (taking_part[slot] == 0 || grid.particles_in(slot).empty()) return;
-      with_kernels<Shape>([&]<class Kernels>(Kernels) {
-        Kernels::template scatter<Shape>(Capacity{particles, exchange}, grid, slot, no_slopes);
-      });
+      with_kernels<Shape>(
+          [&]<class Kernels>(Kernels) { Kernels::template scatter<Shape>(capacity, grid, slot, no_slopes); });
     });
+    for (const BlockGrid::Region region : {BlockGrid::Region::border, BlockGrid::Region::interior}) {
+      for_each_part_apart(grid, region, [&](std::uint32_t part) {
+        const Lanes load = capacity.payload(grid.mixed_of_part(part).particle);
+        for_each_node_of_part(
+            plain::functions<Shape>(), particles, grid, part, no_slopes,
+            [&](Node& node, const plain::AtNode& at) { plain::Kernels::add(load, at, node); });
+      });
+    }
     scalars::fold_and_sum(grid, false);
     for_each_node(grid, reached, grid.owned_slots(), [](Node& node) {  // chi T, chi
       const double capacity = node.scalars.sums[0];
@@ -169,7 +191,10 @@ double conduct_in_shocks(ShapeFunction shape, Particles& particles, BlockGrid& g
       if (taking_part[slot] == 0 || grid.particles_in(slot).empty()) return;
       double sum = 0.0;
       with_kernels<Shape>([&]<class Kernels>(Kernels) {
-        const auto take = [&](std::size_t, std::size_t p, const ValueAndGradient<>& sums) WHIPPLE_INLINE {
+        const auto take = [&](std::size_t, std::size_t p, const ValueAndGradient<>& of_level) WHIPPLE_INLINE {
+          const ValueAndGradient<> sums =
+              is_mixed(grid, p) ? sums_of_mixed<Shape>(particles, grid, p, no_slopes, plain::First{})
+                                : of_level;
           const double gain =
               exchange.heat_capacity(p) * (sums.value[0] - sums.value[1] * particles.temperature[p]);
           particles.specific_internal_energy[p] += gain;

@@ -33,7 +33,9 @@ Sweep::Sweep(grid::BlockGrid& grid, const SharedCells& shared) : grid_(grid), of
     }
     ++range.slots;
     points += of_slot;
-    if (of_slot > 0 && (grid.region(slot) == Region::border || shared.divide(slot))) region = Region::border;
+    const bool awaits =
+        grid.region(slot) == Region::border || shared.divide(slot) || !grid.parts_in(slot).empty();
+    if (of_slot > 0 && awaits) region = Region::border;
   }
   close();
 }

@@ -13,6 +13,7 @@
 
 #include "src/transfer/shape_function.hpp"
 #include "tests/folders.hpp"
+#include "tests/verification/every_method.hpp"
 #include "tests/verification/solver_problems.hpp"
 
 namespace whipple::verification {
@@ -58,28 +59,6 @@ TEST(ComparisonSchemes, RunASmallImpactWithoutFurtherKeysAndObeyALimitOfTheEnerg
   const cases::OutputControl defaults;
   EXPECT_EQ(defaults.energy_error_limit(cases::Scheme::symplectic), 0.01);
 }
-
-std::vector<Method> all_methods() {
-  std::vector<Method> methods;
-  for (const char* scheme : {"symplectic", "usf", "usl", "musl"}) {
-    const bool exact = std::string(scheme) == "symplectic";
-    for (const char* shape : {"linear", "gimp", "convected_gimp", "quadratic_bspline", "cubic_bspline"}) {
-      for (const char* update : {"flip", "pic", "blend", "fmpm", "relaxed_affine", "apic"}) {
-        const bool affine = std::string(update) == "relaxed_affine" || std::string(update) == "apic";
-        if (affine && (!exact || !std::string(shape).ends_with("bspline"))) continue;
-        if (exact && std::string(update) == "fmpm") continue;
-        Method method;
-        method.scheme = scheme;
-        method.shape_function = shape;
-        method.particle_update = update;
-        methods.push_back(method);
-      }
-    }
-  }
-  return methods;
-}
-
-std::string name_of(const Method& m) { return m.scheme + " " + m.shape_function + " " + m.particle_update; }
 
 // Bodies that touch at the start meet in small steps, and no step compresses material by more than the limit, at the
 // rate of the previous step.

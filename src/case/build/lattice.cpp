@@ -70,8 +70,20 @@ bool is_mirror(const Case& setup, int face) {
   return setup.geometry.boundary[static_cast<std::size_t>(face)] != grid::Boundary::outflow;
 }
 
+/// Returns whether all of a body is in regions of small cells.
+static bool is_all_refined(const Case& setup, const Body& body) {
+  const grid::Geometry& geometry = setup.geometry;
+  if (!geometry.levels.are_two() || body.shape == nullptr) return true;
+  const Shape::Bounds box = body.shape->bounds();
+  Lanes around = 0.5 * geometry.in_cells(box.upper) - 0.5 * geometry.in_cells(box.lower);
+  Lanes middle = geometry.in_cells(box.lower) + around;
+  if (geometry.is_planar()) around[2] = middle[2] = 0.0;
+  return !geometry.levels.may_need(grid::Level::coarse, middle, around);
+}
+
 double wanted_spacing(const Case& setup, const Body& body) {
-  return setup.geometry.cell_size / std::cbrt(static_cast<double>(body.discretization.per_cell));
+  const double edge = is_all_refined(setup, body) ? setup.geometry.cell_size : 2.0 * setup.geometry.cell_size;
+  return edge / std::cbrt(static_cast<double>(body.discretization.per_cell));
 }
 
 Shape::Bounds bounds_of(const Case& setup, const Body& body) {
@@ -105,6 +117,7 @@ Lattice lattice_of(const Case& setup, const Body& body) {
   const Shape::Bounds bounds = bounds_of(setup, body);
   const double wanted = wanted_spacing(setup, body);
   Lattice lattice;
+  lattice.is_divided = !is_all_refined(setup, body);
   lattice.lower = bounds.lower;
   if (const auto given = body.shape->particles(); !given.empty()) {
     lattice.spacing = Vector3::Constant(mean_edge(given, setup.geometry.is_planar()));
@@ -141,6 +154,11 @@ Vector3 place_of_particle(const Case& setup, const Body& body, const Lattice& la
   const bool is_given = !body.shape->particles().empty();
   if (is_given || body.discretization.lattice == Arrangement::regular || site.fraction < 1.0)
     return site.position;
+  if (site.part < 1.0) {
+    Site whole = site;
+    whole.part = 1.0;
+    return place_of_particle(setup, body, lattice.of_parts(setup.geometry.is_planar()), whole);
+  }
   const bool planar = setup.geometry.is_planar();
   const int axes = planar ? 2 : 3;
   std::size_t part = 0;

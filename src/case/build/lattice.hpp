@@ -18,7 +18,19 @@ struct Lattice {
   Vector3 lower;
   Vector3 spacing;
   std::array<long, 3> count{};
-  int halvings = 0;  ///< number of mirror planes through the middle of the body
+  int halvings = 0;         ///< number of mirror planes through the middle of the body
+  bool is_divided = false;  ///< cells in regions of refinement are four in a plane, eight in space
+
+  /// Returns the lattice of these parts.
+  [[nodiscard]] Lattice of_parts(bool planar) const {
+    Lattice parts = *this;
+    parts.is_divided = false;
+    for (std::size_t a = 0; a < (planar ? 2U : 3U); ++a) {
+      parts.spacing[static_cast<Eigen::Index>(a)] *= 0.5;
+      parts.count[a] *= 2;
+    }
+    return parts;
+  }
 
   [[nodiscard]] Vector3 point(long i, long j, long k) const {
     return lower +
@@ -32,12 +44,17 @@ struct Site {
   Vector3 position;
   double fraction = 1.0;   ///< of the volume of the cell
   SymmetricTensor extent;  ///< defined as in Particles
+  double part = 1.0;       ///< of a cell of the lattice that the cell is
+
+  /// Returns the volume in cells of the lattice.
+  [[nodiscard]] double volume() const { return fraction * part; }
 };
 
 /// Returns whether a face of the domain mirrors or stops material.
 bool is_mirror(const Case& setup, int face);
 
-/// Returns the edge (m) of the cube occupied by one particle at the requested number per cell.
+/// Returns the edge (m) of the cube occupied by one particle at the requested number per cell; that in the largest cells
+/// that the body lies in.
 double wanted_spacing(const Case& setup, const Body& body);
 
 /// Returns the bounding box of a body; in two dimensions that of its section, one particle thick.
@@ -102,10 +119,27 @@ bool any_site(const Case& setup, const Body& body, const Lattice& lattice, const
     first[a] = cell(part.lower[axis], -1.0);
     end[a] = cell(part.upper[axis], 2.0);
   }
+  const bool planar = setup.geometry.is_planar();
+  const Lattice parts = lattice.of_parts(planar);
+  const auto any_part = [&](long i, long j, long k) {
+    for (int n = 0; n < 8; n += planar ? 2 : 1) {  // z last
+      const Vector3 point = parts.point(2 * i + n / 4, 2 * j + n / 2 % 2, planar ? k : 2 * k + n % 2);
+      std::optional<Site> site = site_at(setup, body, parts, point);
+      if (!site) continue;
+      site->part = planar ? 0.25 : 0.125;
+      if (f(*site)) return true;
+    }
+    return false;
+  };
   for (long i = first[0]; i < end[0]; ++i) {
     for (long j = first[1]; j < end[1]; ++j) {
       for (long k = first[2]; k < end[2]; ++k) {
-        const std::optional<Site> site = site_at(setup, body, lattice, lattice.point(i, j, k));
+        const Vector3 point = lattice.point(i, j, k);
+        if (lattice.is_divided && setup.geometry.levels.is_refined(setup.geometry.in_cells(point))) {
+          if (any_part(i, j, k)) return true;
+          continue;
+        }
+        const std::optional<Site> site = site_at(setup, body, lattice, point);
         if (site && f(*site)) return true;
       }
     }

@@ -61,7 +61,7 @@ double excess_volume(const Case& setup, const Body& body) {
   }
   if (cuts != lattice.halvings) return 0.0;
   double sites = 0.0;
-  for_each_site(setup, body, lattice, [&](const Site& site) { sites += site.fraction; });
+  for_each_site(setup, body, lattice, [&](const Site& site) { sites += site.volume(); });
   return std::ldexp(sites * lattice.spacing.prod(), cuts) / body.shape->volume() - 1.0;
 }
 

@@ -31,8 +31,8 @@ struct Allotment {
   bool is_given = false;  // by a file, with their volumes
 
   [[nodiscard]] bool takes(const Site& site) const { return site.fraction >= least; }
-  [[nodiscard]] double fraction(const Site& site) const {
-    return site.fraction < 1.0 ? enlarged * site.fraction : site.fraction;
+  [[nodiscard]] double volume_of(const Site& site) const {
+    return site.fraction < 1.0 ? enlarged * site.volume() : site.volume();
   }
 };
 
@@ -44,8 +44,8 @@ Allotment allotment_of(const Case& setup, const Body& body, const Lattice& latti
     const bool is_small = site.fraction < least_fraction;
     ++sites;
     small_sites += is_small ? 1 : 0;
-    volume += site.fraction;
-    if (site.fraction < 1.0) (is_small ? small : cut) += site.fraction;
+    volume += site.volume();
+    if (site.fraction < 1.0) (is_small ? small : cut) += site.volume();
   });
   if (!body.shape->particles().empty()) return {.particles = sites, .volume = volume, .is_given = true};
   if (small > 0.25 * cut) return {.particles = sites, .volume = volume};
@@ -103,14 +103,14 @@ Seeding seed(const Case& setup, int rank, int ranks) {
       // The volume of a ring is its area times the path of the centroid of its section (Pappus).
       const double depth = setup.geometry.depth(site.position);
       const double mass_of_site = planar ? density * area * depth : mass;
-      if (planar) summary.mass += mass_of_site * site.fraction;
+      if (planar) summary.mass += mass_of_site * site.volume();
       if (!allotment.takes(site)) return;
       const std::size_t number = index++;
       if (number < begin || number >= behind) return;
       const std::size_t p = summary.first + number - begin;
       particles.id[p] = first_id + number;
       particles.body[p] = static_cast<std::uint32_t>(b);
-      particles.mass[p] = mass_of_site * allotment.fraction(site);
+      particles.mass[p] = mass_of_site * allotment.volume_of(site);
       const Vector3 place = place_of_particle(setup, body, lattice, site);
       particles.position[p] =
           setup.geometry.is_axisymmetric() && !allotment.is_given ? centre_of_mass(site) : place;
@@ -120,9 +120,9 @@ Seeding seed(const Case& setup, int rank, int ranks) {
       particles.generation[p] = 0;
       if (body.varies_failure()) {
         const double whole = planar ? area * depth : volume;
-        threshold_factor.push_back(body.failure_factor(particles.id[p],
-                                                       allotment.is_given ? site.fraction * whole : whole,
-                                                       particles.position[p], setup.geometry));
+        threshold_factor.push_back(body.failure_factor(
+            particles.id[p], allotment.is_given ? site.fraction * whole : site.part * whole,
+            particles.position[p], setup.geometry));
       }
     });
     initialise(material, particles, summary.first, end, state);

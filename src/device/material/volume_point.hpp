@@ -65,8 +65,8 @@ WHIPPLE_POINT inline void advance_viscosity(const MaterialConstants& material, c
   if (material.heating == HeatingViscosity::whole) state.heating_viscosity = viscosity;
   if (material.heating != HeatingViscosity::of_affine_field) return;
   state.heating_viscosity = formulas::heating_viscosity(
-      material, motion.divergence, motion.affine_divergence, density, state.sound_speed, state.intact(),
-      viscosity, 1.0 / material.initial_density, 1.0 / material.affine_compression);
+      material, material.cell_size, motion.divergence, motion.affine_divergence, density, state.sound_speed,
+      state.intact(), viscosity, 1.0 / material.initial_density, 1.0 / material.affine_compression);
 }
 
 }  // namespace whipple::device

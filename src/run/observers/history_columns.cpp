@@ -196,7 +196,7 @@ constexpr std::string_view limits_are =
 /// Holds the components of a run that determine the columns of its file.
 struct Parts {
   bool elements = false, cold_work = false, explosives = false, retired = false, bars = false,
-       damping = false, load_steps = false;
+       damping = false, load_steps = false, levels = false;
   std::vector<std::string> bodies;
 };
 
@@ -220,7 +220,7 @@ std::vector<HistoryColumn> columns_of(const Parts& parts) {
       if (account.shown != shown) continue;
       columns.push_back(
           {account.name, account.unit,
-           (shown == solver::Shown::limiter ? std::string("times: ") : std::string()) + account.meaning,
+           (solver::is_limiter(shown) ? std::string("times: ") : std::string()) + account.meaning,
            [sum = account.sum](const Source& s) { return s.ledger.*sum; }});
     }
   };
@@ -230,6 +230,7 @@ std::vector<HistoryColumn> columns_of(const Parts& parts) {
   if (parts.damping) add_accounts(solver::Shown::of_damping);
   add(of_border_and_phases);
   add_accounts(solver::Shown::limiter);
+  if (parts.levels) add_accounts(solver::Shown::of_levels);
   if (parts.elements) {
     add(of_elements);
     add_accounts(solver::Shown::of_elements);
@@ -283,6 +284,7 @@ std::vector<HistoryColumn> history_columns(const cases::Case& setup) {
               .bars = setup.has_bars(),
               .damping = setup.damping.coefficient > 0.0,
               .load_steps = !cases::has_inertia(setup.time.scheme),
+              .levels = !setup.domain.refinement.empty(),
               .bodies = {}};
   for (const cases::Body& body : setup.bodies) parts.bodies.push_back(body.name);
   return columns_of(parts);
@@ -290,7 +292,7 @@ std::vector<HistoryColumn> history_columns(const cases::Case& setup) {
 
 std::string history_columns_as_markdown() {
   std::string text;
-  for (const HistoryColumn& column : columns_of({true, true, true, true, true, true, true, {"BODY"}})) {
+  for (const HistoryColumn& column : columns_of({true, true, true, true, true, true, true, true, {"BODY"}})) {
     text += fmt::format("| `{}` | {} | {} |\n", column.name, column.unit, column.meaning);
   }
   return text;
@@ -301,7 +303,7 @@ std::string accounts_as_markdown() {
   std::string limits = "| column | counts | reason of the limit |\n| --- | --- | --- |\n";
   for (const solver::Account& a : solver::accounts) {
     if (!a.taken_by.empty()) energies += fmt::format("| `{}` | {} | {} |\n", a.name, a.taken_by, a.taken_to);
-    if (a.shown == solver::Shown::limiter)
+    if (solver::is_limiter(a.shown))
       limits += fmt::format("| `{}` | {} | {} |\n", a.name, a.meaning, a.reason);
   }
   return fmt::format("{}\n{}\n{}", energies, limits_are, limits);
@@ -314,7 +316,7 @@ std::string columns_as_json(std::span<const HistoryColumn> columns) {
     list.push_back({{"name", column.name}, {"unit", column.unit}, {"meaning", column.meaning}});
     const auto account = std::ranges::find(solver::accounts, column.name, &solver::Account::name);
     if (account == solver::accounts.end()) continue;
-    if (account->shown == solver::Shown::limiter) list.back()["limiter"] = account->meaning;
+    if (solver::is_limiter(account->shown)) list.back()["limiter"] = account->meaning;
     if (account->taken_by.empty()) continue;
     list.back()["taken_by"] = account->taken_by;
     list.back()["taken_to"] = account->taken_to;

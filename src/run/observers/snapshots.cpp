@@ -36,7 +36,8 @@ io::SeriesOptions series_options(const cases::Case& setup, const io::RunDirector
                             .name = directory.name(),
                             .fields = setup.output.fields,
                             .material_of_body = {},
-                            .provenance = {{"input", input_without_start(directory.input_file())}}};
+                            .provenance = {{"input", input_without_start(directory.input_file())}},
+                            .geometry = setup.geometry};
   // Bodies of one material share its number: that of the first such body.
   for (const auto& material : setup.materials) {
     const auto first = std::ranges::find(setup.materials, material);

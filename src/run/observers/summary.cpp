@@ -74,7 +74,7 @@ void tell(const Moment& moment, double expanded) {
             ledger.momentum_error(totals), ledger.outflow.mass);
   for (const solver::Account& account : solver::accounts) {
     const double count = ledger.*account.sum;
-    if (account.shown == solver::Shown::limiter && count > 0.0)
+    if (solver::is_limiter(account.shown) && count > 0.0)
       log::info("{}: {:.0f} times", account.meaning, count);
   }
   // For bodies that have come to rest, the remaining unresolved energy is not motion of fragments.

@@ -118,7 +118,7 @@ void ParticleCarrier::retire_products() {
     return explosives.is_burnt(p) && q.pressure[p] + q.artificial_viscosity[p] < least;
   });
   for (const std::uint32_t p : spent) {
-    const Totals own = totals_of(q, p, state_.particle_affine_inertia());
+    const Totals own = totals_of(q, p, state_.inertia_of_particles());
     state_.booked.retired += {own.mass, own.momentum, own.energy()};
   }
   remove_as_outflow(spent);
@@ -128,7 +128,7 @@ void ParticleCarrier::remove_as_outflow(const std::vector<std::uint32_t>& leavin
   if (leaving.empty()) return;
   for (const std::uint32_t p : leaving) {
     state_.book_outflow(state_.particles.body[p],
-                        totals_of(state_.particles, p, state_.particle_affine_inertia()));
+                        totals_of(state_.particles, p, state_.inertia_of_particles()));
   }
   const std::vector<Move> moves = moves_into_gaps(state_.particles.body, leaving);
   const std::size_t size = state_.particles.size() - leaving.size();

@@ -45,34 +45,71 @@ bool may_be_divided(const Particles& particles, std::size_t p, const cases::Spli
          (splitting.of == Divided::all && particles.failed[p] == failure::intact);
 }
 
+/// Returns whether both parts of a particle are inside the domain; excludes rings of radius 0.
+bool fits(const grid::Geometry& geometry, const Vector3& position, const Vector3& half_edge) {
+  for (int a = 0; a < (geometry.is_planar() ? 2 : 3); ++a) {
+    const double reach = 0.5 * std::abs(half_edge[a]);
+    if (!(position[a] - reach > geometry.lower[a] && position[a] + reach < geometry.upper(a))) return false;
+  }
+  return true;
+}
+
 /// Longest half-edges of the particles to split, in ascending order of the particles.
 using Divisions = std::vector<std::pair<std::uint32_t, Vector3>>;
+
+/// Finds the particles in regions of small cells that are larger than those want them (docs/theory/levels.md, section 4):
+/// they came from large cells.
+Divisions find_entries(const State& state) {
+  constexpr double too_large = 1.5;  // between one and two particles of a small cell
+  const Particles& particles = state.particles;
+  const grid::Geometry& geometry = state.setup.geometry;
+  Divisions divisions;
+  for (std::size_t b = 0; b < state.bodies.size(); ++b) {
+    const double edge =
+        geometry.cell_size / std::cbrt(static_cast<double>(state.setup.bodies[b].discretization.per_cell));
+    const double most = too_large * edge * edge * (geometry.is_planar() ? 1.0 : edge);
+    const std::size_t first = state.bodies[b].first;
+    const std::vector<std::uint32_t> large = parallel::where(state.bodies[b].count, [&](std::size_t i) {
+      const std::size_t p = first + i;
+      const double volume = particles.mass[p] / state.initial_density[b];
+      return geometry.size_in_section(volume, particles.position[p]) > most &&
+             geometry.levels.is_refined(geometry.in_cells(particles.position[p]));
+    });
+    for (const std::uint32_t i : large) {
+      const std::size_t p = first + i;
+      const auto principal = principal_directions(particles.extent[p], geometry.is_planar());
+      const Vector3 half_edge = std::sqrt(principal.eigenvalues()[2]) * principal.eigenvectors().col(2);
+      if (fits(geometry, particles.position[p], half_edge))
+        divisions.emplace_back(static_cast<std::uint32_t>(p), half_edge);
+    }
+  }
+  return divisions;
+}
+
 Divisions find_divisions(const State& state) {
   const Particles& particles = state.particles;
   const cases::Splitting& splitting = state.setup.splitting;
   const grid::Geometry& geometry = state.setup.geometry;
-  const double half = 0.5 * splitting.length * state.setup.domain.cell_size, limit = half * half;
+  const auto limit_at = [&](std::size_t p) {
+    const double half = 0.5 * splitting.length * state.cell_size_at(p);
+    return half * half;
+  };
   Divisions divisions;
   for (std::size_t b = 0; b < state.bodies.size(); ++b) {
     if (!follow_deformation(state, b)) continue;
     const std::size_t first = state.bodies[b].first;
     const Fluidity fluid = fluidity_of(state, b);
     const std::vector<std::uint32_t> long_ones = parallel::where(state.bodies[b].count, [&](std::size_t i) {
-      return largest_at_most(particles.extent[first + i]) > limit &&
+      return largest_at_most(particles.extent[first + i]) > limit_at(first + i) &&
              may_be_divided(particles, first + i, splitting, fluid);
     });
     for (const std::uint32_t i : long_ones) {
       const std::size_t p = first + i;
       const auto principal = principal_directions(particles.extent[p], geometry.is_planar());
-      if (principal.eigenvalues()[2] <= limit) continue;
+      if (principal.eigenvalues()[2] <= limit_at(p)) continue;
       const Vector3 half_edge = std::sqrt(principal.eigenvalues()[2]) * principal.eigenvectors().col(2);
-      bool inside = true;
-      for (int a = 0; a < (geometry.is_planar() ? 2 : 3); ++a) {  // excludes rings of radius 0
-        const double reach = 0.5 * std::abs(half_edge[a]);
-        inside = inside && particles.position[p][a] - reach > geometry.lower[a] &&
-                 particles.position[p][a] + reach < geometry.upper(a);
-      }
-      if (inside) divisions.emplace_back(static_cast<std::uint32_t>(p), half_edge);
+      if (fits(geometry, particles.position[p], half_edge))
+        divisions.emplace_back(static_cast<std::uint32_t>(p), half_edge);
     }
   }
   return divisions;
@@ -90,21 +127,23 @@ bool may_divide(const cases::Case& setup, std::size_t body) {
 }
 
 bool follow_deformation(const State& state, std::size_t body) {
-  return state.setup.transfer.shape_function == transfer::ShapeFunction::convected_gimp ||
-         may_divide(state.setup, body);
+  using enum transfer::ShapeFunction;
+  const transfer::ShapeFunction kind = state.setup.transfer.shape_function;
+  return kind == convected_gimp || may_divide(state.setup, body) ||
+         (kind != gimp && state.setup.geometry.levels.are_two());
 }
 
 bool are_needed(const State& state, bool may_meet_images) {
   bool any = state.setup.transfer.shape_function == transfer::ShapeFunction::gimp ||
-             state.setup.contact_fields.several() || !state.setup.contact_fields.cracked.empty() ||
-             may_meet_images;
+             state.setup.contact_fields.several() || state.setup.geometry.levels.are_two() ||
+             !state.setup.contact_fields.cracked.empty() || may_meet_images;
   for (std::size_t b = 0; b < state.setup.bodies.size(); ++b) any = any || follow_deformation(state, b);
   return any;
 }
 
 std::size_t deform(State& state, std::span<const std::uint32_t> particles,
                    std::span<const Matrix3> gradients) {
-  const double dt = state.run.time_step, dx = state.setup.domain.cell_size;
+  const double dt = state.run.time_step;
   const bool counted = state.setup.transfer.shape_function == transfer::ShapeFunction::convected_gimp;
   std::size_t larger = 0;
   for (std::size_t k = 0; k < particles.size(); ++k) {
@@ -120,14 +159,14 @@ std::size_t deform(State& state, std::span<const std::uint32_t> particles,
                 third = x[2] * of_x + y[2] * of_y + z[2] * of_z;
     e = {first[0], second[1], third[2], first[1], second[2], first[2]};
     if (!counted) continue;
-    const double largest = transfer::half_sizes(e, dx).maxCoeff();
+    const double largest = transfer::half_sizes(e, state.cell_size_at(particles[k])).maxCoeff();
     larger += largest > transfer::ConvectedGimp::largest_half_size ? 1 : 0;
   }
   return larger;
 }
 
-double parted_square(const cases::Case& setup) {
-  const double dx = setup.domain.cell_size, length = setup.splitting.length;
+double parted_square(const cases::Case& setup, double cell_size) {
+  const double dx = cell_size, length = setup.splitting.length;
   return std::max(0.75, 0.25 * length * length) * dx * dx;
 }
 
@@ -135,9 +174,9 @@ std::size_t hold_back_pressure(Particles& particles, std::span<const std::uint32
                                std::size_t body) {
   const Fluidity fluid = fluidity_of(state, body);
   if (!may_divide(state.setup) || fluid == Fluidity::never) return 0;
-  const double parted = parted_square(state.setup);
   std::size_t held = 0;
   for (const std::uint32_t p : list) {
+    const double parted = parted_square(state.setup, state.cell_size_at(p));
     if (largest_at_most(particles.extent[p]) <= parted ||
         !has_thinned(particles, p, state.initial_density[body]) || !is_filling_fluid(fluid, particles, p)) {
       continue;
@@ -190,40 +229,83 @@ double divide(Particles& particles, std::size_t p, std::size_t other, const Vect
   return 2.0 * particles.mass[p] * heat;
 }
 
+namespace {
+
+/// Whether a division counts as one of the generations of a particle.
+enum class Generation { next, same };
+
+/// Gives a particle the affine field that fits the cells around it (docs/theory/levels.md, 8).
+/// @param before, after  inertia per mass there and where the particle was, m^2
+/// @returns its loss of kinetic energy, J, which it keeps as unresolved or internal energy
+double fit_affine_field(Particles& particles, std::size_t p, double before, double after) {
+  if (before == after) return 0.0;
+  Matrix3& c = particles.affine_velocity[p];
+  if (after > before) {
+    c *= std::sqrt(before / after);
+    return 0.0;
+  }
+  const double loss = 0.5 * (before - after) * c.squaredNorm();
+  (particles.unresolved_energy.empty() ? particles.specific_internal_energy
+                                       : particles.unresolved_energy)[p] += loss;
+  return particles.mass[p] * loss;
+}
+
+/// Splits particles in two. Collective.
+/// @returns whether there were any, on any rank, and memory for them
+bool perform(State& state, const Carriers& carriers, ParticleCarrier& of_particles,
+             const Divisions& divisions, Generation generation) {
+  if (!parallel::any(state.communicator, !divisions.empty())) return false;
+
+  // New particles are numbered above all existing ones, rank by rank.
+  std::uint64_t largest = 0;
+  for (const Carrier* carrier : carriers) largest = std::max(largest, carrier->largest_particle_id());
+  largest = static_cast<std::uint64_t>(parallel::maximum(state.communicator, static_cast<double>(largest)));
+  std::vector<double> count(static_cast<std::size_t>(parallel::size(state.communicator)), 0.0);
+  const auto rank = static_cast<std::size_t>(parallel::rank(state.communicator));
+  count[rank] = static_cast<double>(divisions.size());
+  parallel::sum(state.communicator, count);
+  std::uint64_t next = largest + 1;
+  for (std::size_t r = 0; r < rank; ++r) next += static_cast<std::uint64_t>(count[r]);
+  std::size_t after = state.particle_count;
+  for (const double n : count) after += static_cast<std::size_t>(n);
+  if (after > static_cast<std::size_t>(state.setup.splitting.maximum_particles)) {
+    state.booked.refused_divisions += static_cast<double>(divisions.size());
+    return false;
+  }
+  state.particle_count = after;
+
+  const AffineInertia inertia = state.inertia_of_particles();
+  const std::size_t before = state.particles.size();
+  resize(state.particles, before + divisions.size());
+  for (std::size_t i = 0; i < divisions.size(); ++i) {
+    const auto& [p, half_edge] = divisions[i];
+    const std::uint8_t generations = state.particles.generation[p];
+    const double whole = inertia.at(state.particles.position[p]);
+    double loss = divide(state.particles, p, before + i, half_edge, whole);
+    for (const std::size_t part : {std::size_t{p}, before + i}) {
+      loss += fit_affine_field(state.particles, part, whole, inertia.at(state.particles.position[part]));
+    }
+    (state.keeps_losses() ? state.booked.unresolved_kept : state.booked.transfer_heat) += loss;
+    state.particles.id[before + i] = next++;
+    if (generation == Generation::same)
+      state.particles.generation[p] = state.particles.generation[before + i] = generations;
+  }
+  of_particles.reallocated();
+  return true;
+}
+
+}  // namespace
+
 void split(State& state, const Carriers& carriers, ParticleCarrier& of_particles) {
+  if (state.setup.geometry.levels.are_two()) {
+    state.profile.time("split", [&] {
+      while (perform(state, carriers, of_particles, find_entries(state), Generation::same)) {
+      }
+    });
+  }
   if (!may_divide(state.setup)) return;
-  state.profile.time("split", [&] {
-    const Divisions divisions = find_divisions(state);
-    if (!parallel::any(state.communicator, !divisions.empty())) return;
-
-    // New particles are numbered above all existing ones, rank by rank.
-    std::uint64_t largest = 0;
-    for (const Carrier* carrier : carriers) largest = std::max(largest, carrier->largest_particle_id());
-    largest = static_cast<std::uint64_t>(parallel::maximum(state.communicator, static_cast<double>(largest)));
-    std::vector<double> count(static_cast<std::size_t>(parallel::size(state.communicator)), 0.0);
-    const auto rank = static_cast<std::size_t>(parallel::rank(state.communicator));
-    count[rank] = static_cast<double>(divisions.size());
-    parallel::sum(state.communicator, count);
-    std::uint64_t next = largest + 1;
-    for (std::size_t r = 0; r < rank; ++r) next += static_cast<std::uint64_t>(count[r]);
-    std::size_t after = state.particle_count;
-    for (const double n : count) after += static_cast<std::size_t>(n);
-    if (after > static_cast<std::size_t>(state.setup.splitting.maximum_particles)) {
-      state.booked.refused_divisions += static_cast<double>(divisions.size());
-      return;
-    }
-    state.particle_count = after;
-
-    const std::size_t before = state.particles.size();
-    resize(state.particles, before + divisions.size());
-    for (std::size_t i = 0; i < divisions.size(); ++i) {
-      (state.keeps_losses() ? state.booked.unresolved_kept : state.booked.transfer_heat) +=
-          divide(state.particles, divisions[i].first, before + i, divisions[i].second,
-                 state.particle_affine_inertia());
-      state.particles.id[before + i] = next++;
-    }
-    of_particles.reallocated();
-  });
+  state.profile.time(
+      "split", [&] { perform(state, carriers, of_particles, find_divisions(state), Generation::next); });
 }
 
 }  // namespace whipple::solver::domains

@@ -30,7 +30,7 @@ std::size_t deform(State& state, std::span<const std::uint32_t> particles,
 
 /// Returns the square of the half-edge beyond which a particle of a fluid has parted from its neighbours, lambda of (2.8),
 /// m^2.
-double parted_square(const cases::Case& setup);
+double parted_square(const cases::Case& setup, double cell_size);
 
 /// Removes the pressure of fluid particles of a body along the directions in which they are separated from their
 /// neighbours (2.8). Call after the material update, which sets the stress.
@@ -46,7 +46,8 @@ std::size_t hold_back_pressure(Particles& particles, std::span<const std::uint32
 double divide(Particles& particles, std::size_t p, std::size_t other, const Vector3& half_edge,
               double inertia);
 
-/// Splits particles that are longer than the limit of the case along their longest direction (Ma, Zhang & Huang, CMES
+/// Splits particles that entered a region of small cells until they are as small as those want them, and particles that
+/// are longer than the limit of the case along their longest direction (Ma, Zhang & Huang, CMES
 /// 54 (2009) 61: L = (1 + eps) V0^(1/3) > alpha dx), except where a half would leave the domain. If the maximum number
 /// of particles would be exceeded, none is split and the divisions are counted as refused. Collective.
 void split(State& state, const Carriers& carriers, ParticleCarrier& of_particles);

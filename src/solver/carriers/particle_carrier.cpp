@@ -58,13 +58,19 @@ double ParticleCarrier::fastest() {
   if (state_.device != nullptr) return state_.device->fastest();
   const Particles& particles = state_.particles;
   const Explosives explosives(state_);
+  const grid::Geometry& geometry = state_.grid.geometry();
+  const bool two_levels = geometry.levels.are_two();
   const std::vector<std::uint8_t> stays = stays_since(fastest_.arrangement);
   parallel::update_chunks(
       particles.size(), fastest_.values, [&](std::size_t chunk) { return stays[chunk] != 0; },
       [&](std::size_t begin, std::size_t end) {
         double fastest = 0.0;
         for (std::size_t p = begin; p < end; ++p) {
-          fastest = std::max(fastest, particles.sound_speed[p] + particles.velocity[p].cwiseAbs().maxCoeff());
+          const double speed = particles.sound_speed[p] + particles.velocity[p].cwiseAbs().maxCoeff();
+          // In coarse cells, twice as fast is as far.
+          const bool coarse =
+              two_levels && geometry.blend(particles.position[p]).level() == grid::Level::coarse;
+          fastest = std::max(fastest, coarse ? 0.5 * speed : speed);
         }
         if (explosives.any()) fastest = std::max(fastest, explosives.fastest(begin, end));
         return fastest;
@@ -95,7 +101,7 @@ void ParticleCarrier::add_totals(Totals& sum) {
     sum += state_.device->totals();
     return;
   }
-  sum += totals_of(state_.particles, state_.particle_affine_inertia(), totals_.values,
+  sum += totals_of(state_.particles, state_.inertia_of_particles(), totals_.values,
                    stays_since(totals_.arrangement));
 }
 

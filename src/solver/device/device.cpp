@@ -34,6 +34,7 @@ void check_scheme(const cases::Case& setup, const Faults& faults) {
   refuse_if(transfer.affine_field != cases::AffineTransport::deformed, faults, "transfer.affine_field",
             "an affine field that is only turned");
   refuse_if(transfer.random_shift, faults, "transfer.random_shift", "a grid that is shifted");
+  refuse_if(!setup.domain.refinement.empty(), faults, "domain.refinement", "a grid of two cell sizes");
   refuse_if(transfer.free_flight, faults, "transfer.free_flight", "free flight of single particles");
   refuse_if(!setup.dissipation.keeps_losses(), faults, "dissipation.losses",
             "losses that become heat at once");

@@ -76,7 +76,7 @@ device::Problem device_problem(const State& state, const ContactStage& contact) 
   problem.conduction_rise = dissipation.conduction_rise;
   const double size = geometry.cell_size, length = setup.splitting.length;
   problem.domain_limits = {.longest = 0.25 * length * length * size * size,
-                           .parted = domains::parted_square(setup),
+                           .parted = domains::parted_square(setup, setup.domain.cell_size),
                            .generations = static_cast<double>(setup.splitting.maximum_generations),
                            .divides_all = setup.splitting.of == cases::Divided::all,
                            .planar = geometry.is_planar()};

@@ -80,7 +80,7 @@ bool Activity::is_restless(std::size_t p) const {
   // The negations also catch NaN.
   if (!(state_.particles.velocity[p].cwiseAbs().maxCoeff() <= speed)) return true;
   if (state_.carries_affine_fields() &&
-      !(state_.setup.domain.cell_size * state_.particles.affine_velocity[p].cwiseAbs().maxCoeff() <= speed)) {
+      !(state_.cell_size_at(p) * state_.particles.affine_velocity[p].cwiseAbs().maxCoeff() <= speed)) {
     return true;
   }
   const SymmetricTensor& s = state_.particles.deviatoric_stress[p];

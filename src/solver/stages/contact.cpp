@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "src/solver/stages/levels.hpp"
 #include "src/transfer/shape_function.hpp"
 
 namespace whipple::solver {
@@ -125,6 +126,8 @@ void ContactStage::find_surfaces(bool after_transfer) {
     contact_->find_surfaces(state_.shape, state_.particles, surface_points_, state_.grid,
                             after_transfer ? state_.run.time_step : 0.0);
   });
+  if (state_.grid.has_two_levels())
+    stop_at_mixed(state_, contact_->mixed_particle(state_.grid), "bodies meet");
 }
 
 transfer::TouchAtNode ContactStage::touch_at_node() const {

@@ -109,9 +109,11 @@ MaterialStage::MaterialStage(State& state, const Activity& activity) : state_(st
 void MaterialStage::begin(Energy energy, std::size_t stretches) {
   energy_ = energy;
   of_body_.clear();
+  if (state_.grid.has_two_levels()) lengths_.resize(state_.particles.size());
   for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
     UpdateSettings settings = update_settings(state_, b);
     settings.heating = heating_viscosity(state_);
+    settings.lengths = lengths_;
     of_body_.push_back({.settings = settings, .deforms_domains = domains::follow_deformation(state_, b)});
   }
   sums_ = {};
@@ -144,6 +146,9 @@ double MaterialStage::update(std::span<const std::uint32_t> particles, std::span
     const bool deforms_domains = of_body_[body].deforms_domains;
     if (deforms_domains) limited += domains::deform(state_, list, of_list);
     UpdateSettings settings = of_body_[body].settings;
+    if (!lengths_.empty()) {
+      for (const std::uint32_t p : list) lengths_[p] = state_.cell_size_at(p);
+    }
     if (settings.heating == HeatingViscosity::of_affine_field) {
       settings.affine_divergence = affine_divergence(state_.particles, list);
     }

@@ -98,6 +98,7 @@ class MaterialStage {
   const Activity& activity_;
   Energy energy_ = Energy::by_work_identity;
   std::vector<OfBody> of_body_;
+  std::vector<double> lengths_;  // m, of the viscosity of each particle; empty: that of the finest cells
   Sums sums_;
   std::mutex mutex_;  // protects `sums_`
 };

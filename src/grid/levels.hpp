@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "src/core/base/registers.hpp"
+#include "src/core/base/tensor.hpp"
+
+/// Two sizes of cells in one domain (docs/theory/levels.md).
+namespace whipple::grid {
+
+/// Level of cells: the finest is that of `Geometry::cell_size`, cells of the coarse level are twice as large.
+enum class Level : std::uint8_t { fine, coarse };
+constexpr std::size_t number(Level level) { return static_cast<std::size_t>(level); }
+
+/// Describes a box of the domain with fine cells, in cells of the coarse level; whole numbers, but for directions in
+/// which it has no end.
+struct RefinedBox {
+  /// Of a side that has no end: the box continues beyond a face of the domain.
+  static constexpr double no_end = 1e12;
+  /// Number of coarse cells of an edge below which no point has fine functions only.
+  static constexpr double least_edge = 5.0;
+  std::array<double, 3> from, to;
+};
+
+/// Share of the fine functions at a point, w of (1), with its gradient.
+struct Blend {
+  double fine = 1.0;
+  Vector3 gradient = Vector3::Zero();  ///< 1/m
+
+  [[nodiscard]] Level level() const { return fine > 0.0 ? Level::fine : Level::coarse; }
+  [[nodiscard]] bool is_mixed() const { return fine > 0.0 && fine < 1.0; }
+  /// Returns the share of the functions of a level.
+  [[nodiscard]] double share(Level of) const { return of == Level::fine ? fine : 1.0 - fine; }
+  /// Returns its gradient, 1/m.
+  [[nodiscard]] Vector3 slope(Level of) const { return of == Level::fine ? gradient : Vector3(-gradient); }
+};
+
+/// Tells where the functions of the particles are those of the fine level, of the coarse one, or of both: the weights
+/// (1) of the union of the boxes. Without a box all of the domain is fine.
+class Levels {
+ public:
+  Levels() = default;
+  explicit Levels(std::vector<RefinedBox> boxes) : boxes_(std::move(boxes)) {}
+
+  [[nodiscard]] bool are_two() const { return !boxes_.empty(); }
+  [[nodiscard]] const std::vector<RefinedBox>& boxes() const { return boxes_; }
+  /// Returns the weight at a point.
+  /// @param fine_cells  its position in fine cells from the lower corner of the domain
+  /// @param fine_cell   m
+  [[nodiscard]] Blend at(Lanes fine_cells, double fine_cell) const;
+  /// Returns whether points within a distance (fine cells, along each axis) may have functions of a level.
+  [[nodiscard]] bool may_need(Level level, Lanes fine_cells, Lanes within) const;
+  /// Returns whether a point is in a box: particles there are as small as the fine cells want them.
+  [[nodiscard]] bool is_refined(Lanes fine_cells) const;
+
+ private:
+  std::vector<RefinedBox> boxes_;
+};
+
+}  // namespace whipple::grid
