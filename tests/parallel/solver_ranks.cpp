@@ -95,7 +95,7 @@ TEST_F(SolverRanks, GiveTheSameBitsEveryTime) {
 // Particles with three times the work on one side: the ranks balance the work, not the number of particles.
 TEST_F(SolverRanks, ShareOutTheWork) {
   const grid::Geometry geometry{
-      .lower = Vector3::Zero(), .cells = {128, 32, 32}, .cell_size = 1.0, .boundary = {}};
+      .lower = Vector3::Zero(), .cells = {128, 32, 32}, .cell_size = 1.0, .boundary = {}, .levels = {}};
   std::vector<Vector3> x;
   std::vector<double> work;
   for (int i = ranks_.rank(); i < 128 * 32 * 32; i += ranks_.count()) {

@@ -224,8 +224,11 @@ TEST(Thresholds, EachOfThemFindsItsElement) {
 }
 
 TEST(Transition, NodesNearParticlesAndOtherBodiesMoveWithTheGrid) {
-  const grid::Geometry geometry{
-      .lower = Vector3::Constant(-10 * dx), .cells = {40, 40, 40}, .cell_size = dx, .boundary = {}};
+  const grid::Geometry geometry{.lower = Vector3::Constant(-10 * dx),
+                                .cells = {40, 40, 40},
+                                .cell_size = dx,
+                                .boundary = {},
+                                .levels = {}};
   std::vector<fem::Mesh> meshes;
   meshes.push_back(random_mesh(fem::Quadrature::one_point, dx, 0.0, 3));
   fem::Hexahedra other = fem::make_box(Vector3(0, 0, 6.5) * dx, Vector3(4, 3, 8) * dx, dx);

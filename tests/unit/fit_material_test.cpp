@@ -12,6 +12,7 @@
 #include "eos/model_equation_of_state.hpp"
 #include "eos/models/gray.hpp"
 #include "md_fitting/elements/element_defaults.hpp"
+#include "md_fitting/fit/constant_list.hpp"
 #include "md_fitting/fit/fit_report.hpp"
 #include "md_fitting/fit/fit_samples.hpp"
 #include "md_fitting/fit/gray_fit.hpp"
@@ -91,9 +92,8 @@ class FitMaterial : public ::testing::Test {
                          folder.path() / "template.toml");
   }
   [[nodiscard]] int run(const std::string& arguments) const {
-    const int status = std::system(fmt::format("'{}' {} > '{}' 2>&1", whipple::tests::program("whipple-fit"),
-                                               arguments, (folder.path() / "output.txt").string())
-                                       .c_str());
+    const std::string program = tests::program("whipple-fit"), out = (folder.path() / "output.txt").string();
+    const int status = std::system(fmt::format("'{}' {} > '{}' 2>&1", program, arguments, out).c_str());
     return WEXITSTATUS(status);
   }
   [[nodiscard]] std::string output() const { return read_text(folder.path() / "output.txt"); }
