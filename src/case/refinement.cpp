@@ -115,7 +115,7 @@ void check_two_levels(const Case& setup, const Faults& faults) {
   refuse(setup.transfer.particle_update == ParticleUpdate::fmpm,
          "full mass matrix: particle_update = \"fmpm\" wants one size");
   refuse(setup.transfer.random_shift, "random shift: it would move the regions");
-  refuse(setup.heat.conduction, "conduction of heat, [heat] conduction");
+  refuse(setup.heat.conduction, "heat conduction, [heat] conduction");
   refuse(any_body([](const Body& body) { return !body.discretization.has_particles(); }),
          "finite elements or bars: expected method = \"particles\"");
   refuse(any_body([](const Body& body) { return body.volumetric == Volumetric::cell; }),

@@ -65,7 +65,7 @@ void for_each_place_of(unsigned body, std::span<const std::uint8_t> body_of, con
           return SeenSlot{.nodes = matter[near], .contact_slot = static_cast<std::uint32_t>(near)};
         });
       }
-      reach->for_each_place<Shape>(points, p, grid.coordinate(slot), grid.geometry(slot), at_point);
+      reach->for_each_place<Shape>(points, p, at_point);
     }
   });
 }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "src/core/base/vector_math.hpp"
 #include "src/grid/block_grid.hpp"
@@ -41,5 +43,29 @@ struct Place {
     return values.begin[contact_slot] + lanes * (array * grid::nodes_per_block + node);
   }
 };
+
+/// Relevant nodes of each contact slot, one bit each.
+using NodesThatMatter = std::vector<std::uint64_t>;
+static_assert(grid::nodes_per_block == 64);
+
+/// Describes a slot from the point of view of the points of a body near it.
+struct SeenSlot {
+  std::uint64_t nodes = 0;            ///< one bit per relevant node
+  std::uint32_t contact_slot = 0;     ///< its number among the contact slots
+  std::uint8_t bodies = 1, body = 0;  ///< as in Place
+};
+
+/// Returns a contact slot from the point of view of the points of a body.
+inline SeenSlot seen_at_contact(const grid::BlockGrid& grid, std::size_t slot, unsigned body,
+                                const NodesThatMatter& matter) {
+  const std::int32_t number = grid.contact_number(slot);
+  if (number == grid::BlockGrid::no_slot) return {};
+  const grid::FieldSet bodies = grid.wholes(slot);
+  if (!bodies.contains(body)) return {};
+  return {.nodes = matter[static_cast<std::size_t>(number)],
+          .contact_slot = static_cast<std::uint32_t>(number),
+          .bodies = static_cast<std::uint8_t>(bodies.count()),
+          .body = static_cast<std::uint8_t>(bodies.count_below(body))};
+}
 
 }  // namespace whipple::contact

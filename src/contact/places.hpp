@@ -21,30 +21,6 @@
 /// Nodes of contact slots that points reach, mirror planes included.
 namespace whipple::contact {
 
-/// Relevant nodes of each contact slot, one bit each.
-using NodesThatMatter = std::vector<std::uint64_t>;
-static_assert(grid::nodes_per_block == 64);
-
-/// Describes a slot from the point of view of the points of a body near it.
-struct SeenSlot {
-  std::uint64_t nodes = 0;            ///< one bit per relevant node
-  std::uint32_t contact_slot = 0;     ///< its number among the contact slots
-  std::uint8_t bodies = 1, body = 0;  ///< as in Place
-};
-
-/// Returns a contact slot from the point of view of the points of a body.
-inline SeenSlot seen_at_contact(const grid::BlockGrid& grid, std::size_t slot, unsigned body,
-                                const NodesThatMatter& matter) {
-  const std::int32_t number = grid.contact_number(slot);
-  if (number == grid::BlockGrid::no_slot) return {};
-  const grid::FieldSet bodies = grid.wholes(slot);
-  if (!bodies.contains(body)) return {};
-  return {.nodes = matter[static_cast<std::size_t>(number)],
-          .contact_slot = static_cast<std::uint32_t>(number),
-          .bodies = static_cast<std::uint8_t>(bodies.count()),
-          .body = static_cast<std::uint8_t>(bodies.count_below(body))};
-}
-
 /// Enumerates the relevant nodes that the points of one body in a block reach. A node beyond a mirror plane is replaced
 /// by its image, which the image of the point reaches.
 class Reach {
@@ -56,7 +32,9 @@ class Reach {
   template <class See>
   Reach(const grid::BlockGrid& grid, const grid::BlockCoordinate& block,
         const std::array<std::int32_t, 27>& neighbours, unsigned body, See&& see)
-      : axes_{folded(grid, 0, block, body), folded(grid, 1, block, body), folded(grid, 2, block, body)} {
+      : geometry_(grid.geometry(block)),
+        block_(block),
+        axes_{folded(grid, 0, block, body), folded(grid, 1, block, body), folded(grid, 2, block, body)} {
     for (std::size_t n = 0; n < neighbours.size(); ++n) {
       if (neighbours[n] == grid::BlockGrid::no_slot) continue;
       slots_[n] = see(static_cast<std::size_t>(neighbours[n]));
@@ -68,12 +46,11 @@ class Reach {
   /// Calls f(place) for the relevant nodes that point `p` reaches.
   /// @param at_point  at_point(p) returns f; called only if there are such nodes
   template <class Shape, class Points, class AtPoint>
-  void for_each_place(const Points& points, std::uint32_t p, const grid::BlockCoordinate& block,
-                      const grid::Geometry& geometry, AtPoint&& at_point) const {
+  void for_each_place(const Points& points, std::uint32_t p, AtPoint&& at_point) const {
     constexpr int count = Shape::count;
     constexpr grid::BlockShape shape = Shape::stencil.block();
     const grid::PlaceInStencil in_stencil = grid::StencilPlaces(Shape::stencil)(grid::position_in_block(
-        geometry.in_cells(points.position[p]), grid::corner_of(block, shape), shape.edges()));
+        geometry_.in_cells(points.position[p]), grid::corner_of(block_, shape), shape.edges()));
     const std::array<int, 3> node = in_stencil.first_node(Shape::stencil);
     const std::array<std::size_t, 3> first = {static_cast<std::size_t>(node[0] + 1),
                                               static_cast<std::size_t>(node[1] + 1),
@@ -81,7 +58,8 @@ class Reach {
     std::array<std::uint64_t, 27> reached{};
     constexpr auto along_z = static_cast<int>(transfer::count_z<Shape>);
     if (!reaches(first, {count, count, along_z}, reached)) return;
-    const transfer::Weights<count> w = transfer::weights_at<Shape>(points, p, in_stencil, geometry.cell_size);
+    const transfer::Weights<count> w =
+        transfer::weights_at<Shape>(points, p, in_stencil, geometry_.cell_size);
     const auto f = at_point(p);
     for (std::size_t i = 0; i < count; ++i) {
       const Folded& x = axes_[0][first[0] + i];
@@ -195,6 +173,8 @@ class Reach {
     return some != 0;
   }
 
+  const grid::Geometry& geometry_;  // of the level of the block
+  grid::BlockCoordinate block_;
   std::array<FoldedAxis, 3> axes_;
   std::array<SeenSlot, 27> slots_{};  // of the 27 blocks
   bool any_ = false;
@@ -213,17 +193,17 @@ void for_each_place(const Particles& particles, const grid::BlockGrid& grid, con
       return number != grid::BlockGrid::no_slot && matter[static_cast<std::size_t>(number)] != 0;
     });
     if (!reaches_some) return;
-    grid.for_each_field(
-        grid::BlockGrid::Points::particles, slot,
-        [&](std::span<const std::uint32_t> members, unsigned field) {
-          const unsigned body = grid.whole(field);
-          const Reach reach(grid, grid.coordinate(slot), grid.neighbours(slot), body,
-                            [&](std::size_t near) { return seen_at_contact(grid, near, body, matter); });
-          if (!reach.any()) return;
-          for (const std::uint32_t p : members) {
-            reach.for_each_place<Shape>(particles, p, grid.coordinate(slot), grid.geometry(slot), at_point);
-          }
-        });
+    grid.for_each_field(grid::BlockGrid::Points::particles, slot,
+                        [&](std::span<const std::uint32_t> members, unsigned field) {
+                          const unsigned body = grid.whole(field);
+                          const Reach reach(
+                              grid, grid.coordinate(slot), grid.neighbours(slot), body,
+                              [&](std::size_t near) { return seen_at_contact(grid, near, body, matter); });
+                          if (!reach.any()) return;
+                          for (const std::uint32_t p : members) {
+                            reach.for_each_place<Shape>(particles, p, at_point);
+                          }
+                        });
   });
 }
 
@@ -240,8 +220,7 @@ void for_each_place(const PlacedPoints& placed, const grid::BlockGrid& grid, con
           const Reach reach(grid, block.coordinate, block.slots, body,
                             [&](std::size_t near) { return seen_at_contact(grid, near, body, matter); });
           if (!reach.any()) continue;
-          reach.for_each_place<Shape>(*placed.points, p, block.coordinate, grid.geometry(block.coordinate),
-                                      at_point);
+          reach.for_each_place<Shape>(*placed.points, p, at_point);
         }
       });
     }

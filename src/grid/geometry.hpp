@@ -104,7 +104,7 @@ struct Geometry {
     for (std::size_t a = 0; a < (is_planar() ? 2U : 3U); ++a) of.cells[a] = cells[a] / 2;
     return of;
   }
-  /// Returns the share of the fine functions at a position.
+  /// Returns the fraction of the fine functions at a position.
   [[nodiscard]] Blend blend(const Vector3& position) const {
     return levels.are_two() ? levels.at(in_cells(position), cell_size) : Blend{};
   }

@@ -30,8 +30,20 @@ Ramp between(double x, double from, double to) {
 
 }  // namespace
 
-Blend Levels::at(Lanes fine_cells, double fine_cell) const {
-  if (boxes_.empty()) return {};
+Levels::Levels(std::vector<RefinedBox> boxes) : boxes_(std::move(boxes)) {
+  for (const RefinedBox& box : boxes_) {
+    const auto moved = [](const std::array<double, 3>& face, double by, double fourth) {
+      return Lanes{2.0 * (face[0] + by), 2.0 * (face[1] + by), 2.0 * (face[2] + by), fourth};
+    };
+    const double any = RefinedBox::no_end;  // lane 3 is no direction
+    limits_.push_back({.inner_lower = moved(box.from, inner_margin, -any),
+                       .inner_upper = moved(box.to, -inner_margin, any),
+                       .outer_lower = moved(box.from, outer_margin, -any),
+                       .outer_upper = moved(box.to, -outer_margin, any)});
+  }
+}
+
+Blend Levels::mixed_at(Lanes fine_cells, double fine_cell) const {
   const Lanes x = 0.5 * fine_cells;
   const double per_cell = 0.5 / fine_cell;
   Blend blend{0.0, Vector3::Zero()};

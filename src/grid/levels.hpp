@@ -27,14 +27,14 @@ struct RefinedBox {
   std::array<double, 3> from, to;
 };
 
-/// Share of the fine functions at a point, w of (1), with its gradient.
+/// Fraction of the fine functions at a point, w of (1), with its gradient.
 struct Blend {
   double fine = 1.0;
   Vector3 gradient = Vector3::Zero();  ///< 1/m
 
   [[nodiscard]] Level level() const { return fine > 0.0 ? Level::fine : Level::coarse; }
   [[nodiscard]] bool is_mixed() const { return fine > 0.0 && fine < 1.0; }
-  /// Returns the share of the functions of a level.
+  /// Returns the fraction of the functions of a level.
   [[nodiscard]] double share(Level of) const { return of == Level::fine ? fine : 1.0 - fine; }
   /// Returns its gradient, 1/m.
   [[nodiscard]] Vector3 slope(Level of) const { return of == Level::fine ? gradient : Vector3(-gradient); }
@@ -45,21 +45,40 @@ struct Blend {
 class Levels {
  public:
   Levels() = default;
-  explicit Levels(std::vector<RefinedBox> boxes) : boxes_(std::move(boxes)) {}
+  explicit Levels(std::vector<RefinedBox> boxes);
 
   [[nodiscard]] bool are_two() const { return !boxes_.empty(); }
   [[nodiscard]] const std::vector<RefinedBox>& boxes() const { return boxes_; }
   /// Returns the weight at a point.
   /// @param fine_cells  its position in fine cells from the lower corner of the domain
   /// @param fine_cell   m
-  [[nodiscard]] Blend at(Lanes fine_cells, double fine_cell) const;
+  [[nodiscard]] Blend at(Lanes fine_cells, double fine_cell) const {
+    if (boxes_.empty()) return {};
+    bool outside = true;
+    for (const Limits& box : limits_) {  // most points have functions of one level
+      if (is_within(fine_cells, box.inner_lower, box.inner_upper)) return {};
+      outside = outside && !is_within(fine_cells, box.outer_lower, box.outer_upper);
+    }
+    if (outside) return {0.0, Vector3::Zero()};
+    return mixed_at(fine_cells, fine_cell);
+  }
   /// Returns whether points within a distance (fine cells, along each axis) may have functions of a level.
   [[nodiscard]] bool may_need(Level level, Lanes fine_cells, Lanes within) const;
   /// Returns whether a point is in a box: particles there are as small as the fine cells want them.
   [[nodiscard]] bool is_refined(Lanes fine_cells) const;
 
  private:
+  /// Where the weight of a box is 1, and where it is not 0, in fine cells.
+  struct Limits {
+    Lanes inner_lower, inner_upper, outer_lower, outer_upper;
+  };
+  static bool is_within(Lanes x, Lanes lower, Lanes upper) {
+    return bits((x >= lower) & (x <= upper)) == all_lanes;
+  }
+  [[nodiscard]] Blend mixed_at(Lanes fine_cells, double fine_cell) const;
+
   std::vector<RefinedBox> boxes_;
+  std::vector<Limits> limits_;  // of the boxes
 };
 
 }  // namespace whipple::grid

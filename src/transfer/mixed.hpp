@@ -8,7 +8,7 @@
 #include "src/particles/particles.hpp"
 #include "src/transfer/plain_nodes.hpp"
 
-/// Particles with functions of both levels (docs/theory/levels.md): a small share of all, by plain loops.
+/// Particles with functions of both levels (docs/theory/levels.md): a small fraction of all, by plain loops.
 namespace whipple::transfer {
 
 /// Returns whether a particle has functions of both levels; the kernels of one level pass it over.
@@ -17,7 +17,7 @@ namespace whipple::transfer {
   return !number.empty() && number[p] != grid::BlockGrid::not_mixed;
 }
 
-/// Calls f(node, AtNode) for the nodes of a part of a mixed particle, with its share of the functions (1).
+/// Calls f(node, AtNode) for the nodes of a part of a mixed particle, with its fraction of the functions (1).
 template <class Function>
 void for_each_node_of_part(const plain::Functions& functions, const Particles& particles,
                            grid::BlockGrid& grid, std::uint32_t part, double slope_smoothing, Function&& f) {

@@ -39,6 +39,7 @@ class Exchange {
 
   /// Fraction chi of its difference to the nodes that a particle loses in the step (eq. 8).
   [[nodiscard]] double share(std::size_t p) const {
+    if (!(particles_.closing_rate[p] > 0.0)) return 0.0;
     const double edge = two_levels_ ? geometry_.cell_size_at(particles_.position[p]) : geometry_.cell_size;
     const double closing = particles_.closing_rate[p] * edge, sound_speed = particles_.sound_speed[p];
     const double above = closing - conduction_.onset * sound_speed;
@@ -127,19 +128,21 @@ std::optional<std::vector<std::uint64_t>> slots_at_shocks(BlockGrid& grid, const
     const auto conducts = [&](std::uint32_t p) { return exchange.conducts(p); };
     marked[slot] = std::ranges::any_of(grid.particles_in(slot), conducts) ? 1 : 0;
   });
+  for (std::uint32_t k = 0; k < grid.mixed().size(); ++k) {  // to the nodes of the other level, too
+    if (exchange.conducts(grid.mixed()[k].particle)) marked[grid.slot_of_part(2 * k + 1)] = 1;
+  }
   const bool any = std::ranges::find(marked, 1U) != marked.end();
   if (!parallel::any(grid.communicator(), any)) return std::nullopt;
   marked = around(grid, marked);
-  if (grid.has_two_levels()) {  // the sums of a mixed particle want all that its nodes have
-    if (grid.is_shared()) grid.join_bits_of_ranks(marked);
-    for (std::size_t slot = 0; slot < marked.size(); ++slot)
-      marked[slot] |= grid.parts_in(slot).empty() ? 0U : 1U;
+  if (grid.is_shared()) {
+    // A particle of one rank may reach, in a block of another, nodes that a conducting one of a third reaches.
+    grid.join_bits_of_ranks(marked);
     marked = around(grid, marked);
   }
-  if (!grid.is_shared()) return marked;
-  // A particle of one rank may reach, in a block of another, nodes that a conducting one of a third reaches.
-  grid.join_bits_of_ranks(marked);
-  return around(grid, marked);
+  for (std::uint32_t k = 0; k < grid.mixed().size(); ++k) {  // by what they reach on the other level
+    if (marked[grid.slot_of_part(2 * k + 1)] != 0) marked[grid.slot_of_part(2 * k)] = 1;
+  }
+  return marked;
 }
 
 }  // namespace
@@ -155,7 +158,11 @@ double conduct_in_shocks(ShapeFunction shape, Particles& particles, BlockGrid& g
     const std::optional<std::vector<std::uint64_t>> found = slots_at_shocks(grid, exchange);
     if (!found) return 0.0;
     const std::vector<std::uint64_t>& taking_part = *found;
-    std::vector<std::uint64_t> reached = around(grid, taking_part);
+    std::vector<std::uint64_t> reached = taking_part;
+    for (std::uint32_t k = 0; k < grid.mixed().size(); ++k) {
+      if (taking_part[grid.slot_of_part(2 * k)] != 0) reached[grid.slot_of_part(2 * k + 1)] = 1;
+    }
+    reached = around(grid, reached);
     if (grid.is_shared()) std::ranges::fill(reached, 1U);  // contributions of other ranks are added to zero
     for_each_node(grid, reached, grid.slots(), [](Node& node) { node.scalars.sums = broadcast(0.0); });
     clear_beyond_planes(grid);
@@ -168,6 +175,7 @@ double conduct_in_shocks(ShapeFunction shape, Particles& particles, BlockGrid& g
     });
     for (const BlockGrid::Region region : {BlockGrid::Region::border, BlockGrid::Region::interior}) {
       for_each_part_apart(grid, region, [&](std::uint32_t part) {
+        if (taking_part[grid.slot_of_part(part)] == 0) return;
         const Lanes load = capacity.payload(grid.mixed_of_part(part).particle);
         for_each_node_of_part(
             plain::functions<Shape>(), particles, grid, part, no_slopes,

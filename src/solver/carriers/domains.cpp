@@ -72,6 +72,7 @@ Divisions find_entries(const State& state) {
     const std::vector<std::uint32_t> large = parallel::where(state.bodies[b].count, [&](std::size_t i) {
       const std::size_t p = first + i;
       const double volume = particles.mass[p] / state.initial_density[b];
+      if (!geometry.is_planar() && volume <= most) return false;
       return geometry.size_in_section(volume, particles.position[p]) > most &&
              geometry.levels.is_refined(geometry.in_cells(particles.position[p]));
     });
