@@ -17,7 +17,7 @@ from report.files import write_whole
 from report.run import Run
 from report.views import PHASES, Picture, Views
 
-BACKGROUND = np.ones(3)  # as the paper of a journal
+BACKGROUND = 255  # white, as the paper of a journal
 # Of the light, what colours of a scale take: they must be read, not admired.
 SHADING_OF_SCALES = 0.55
 SMALL_END = 0.05  # of the other end of a scale: a sign that is no part of the picture
@@ -29,11 +29,11 @@ LEAST_PIXELS = 20  # of a cloud whose radiograph has a scale of its own
 
 def paint(picture: Picture, colours: np.ndarray, shading: float = 1.0) -> np.ndarray:
     """Makes the RGB image (8 bit) of a picture; `colours` has one RGB row per item."""
-    image = np.broadcast_to(BACKGROUND, (*picture.seen.shape, 3)).copy()
+    image = np.full((*picture.seen.shape, 3), BACKGROUND, np.uint8)
     hit = picture.seen >= 0
     light = 1 - shading * (1 - np.clip(1.12 * picture.light[hit], 0, 1))
-    image[hit] = colours[picture.seen[hit]] * light[:, None]
-    return np.round(255 * image).astype(np.uint8)
+    image[hit] = np.rint(255 * (colours[picture.seen[hit]] * light[:, None]))
+    return image
 
 
 def scale_colours(values: np.ndarray, norm: Normalize, colours: Colormap) -> np.ndarray:

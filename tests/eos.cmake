@@ -26,7 +26,6 @@ target_link_libraries(eos_benchmark PRIVATE whipple_eos benchmark::benchmark)
 
 whipple_test(eos_command_test SOURCES unit/eos_command_test.cpp DEPENDS whipple_base GTest::gmock fmt::fmt LABELS fast)
 add_dependencies(eos_command_test whipple)
-target_compile_definitions(eos_command_test PRIVATE WHIPPLE_EXECUTABLE="$<TARGET_FILE:whipple>")
 
 # The command: figures of the library's copper through the executable, exit codes, files.
 set(eos_csv ${CMAKE_CURRENT_BINARY_DIR}/eos_hugoniot.csv)

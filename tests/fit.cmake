@@ -7,9 +7,7 @@ whipple_test(fit_test OPTIMIZED
 whipple_test(fit_error_statistics_test SOURCES property/fit_error_statistics_test.cpp property/fit_correction_samples_test.cpp DEPENDS whipple_fit LABELS long)
 whipple_test(fit_material_test SOURCES unit/fit_material_test.cpp unit/fit_measured_test.cpp unit/fit_needs_test.cpp unit/fit_tiers_test.cpp DEPENDS whipple_fit whipple_material GTest::gmock LABELS fast)
 add_dependencies(fit_material_test whipple-fit)
-target_compile_definitions(fit_material_test PRIVATE WHIPPLE_FIT_EXECUTABLE="$<TARGET_FILE:whipple-fit>")
 whipple_test(fit_compare_test SOURCES validation/fit_compare_test.cpp property/fit_calibration_test.cpp
              DEPENDS whipple_material whipple_eos_experiments GTest::gmock LABELS fast)
 whipple_test(fit_compare_command_test SOURCES unit/fit_compare_command_test.cpp unit/eos_md_command_test.cpp DEPENDS whipple_base GTest::gmock fmt::fmt LABELS fast)
 add_dependencies(fit_compare_command_test whipple whipple-md whipple-fit)
-target_compile_definitions(fit_compare_command_test PRIVATE WHIPPLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" WHIPPLE_EXECUTABLE="$<TARGET_FILE:whipple>")

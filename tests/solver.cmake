@@ -32,8 +32,7 @@ whipple_test(test_contact_sweep STARTS_MPI SOURCES verification/solver_gap_sweep
 # Files alone, for many trials with sanitizers (scripts/fuzz.py); other executables hold the same tests.
 add_executable(fuzz EXCLUDE_FROM_ALL fuzz/case_fuzz.cpp fuzz/input_fuzz.cpp fuzz/io_checkpoint_damage.cpp fuzz/foreign_files.cpp
                fuzz/md_potential_fuzz.cpp)
-target_link_libraries(fuzz PRIVATE whipple_flags whipple_app whipple_md_lammps GTest::gmock GTest::gtest_main)
-target_compile_definitions(fuzz PRIVATE WHIPPLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+target_link_libraries(fuzz PRIVATE whipple_flags whipple_test_folders whipple_app whipple_md_lammps GTest::gmock GTest::gtest_main)
 whipple_test(test_rotation STARTS_MPI SOURCES verification/solver_rotation_test.cpp verification/solver_rubber_test.cpp verification/solver_finest_orders_test.cpp verification/solver_fine_plate_test.cpp DEPENDS whipple_solver LABELS long)
 # Writes docs/generated/orders_of_convergence.md; a program of its own, as it takes minutes.
 add_executable(orders_of_convergence EXCLUDE_FROM_ALL verification/solver_orders.cpp)
@@ -56,7 +55,6 @@ add_executable(test_solver_ranks parallel/solver_ranks.cpp parallel/solver_wall_
                parallel/solver_burn_ranks.cpp parallel/solver_average_ranks.cpp parallel/solver_tool_ranks.cpp)
 target_link_libraries(test_solver_ranks PRIVATE whipple_run whipple_analysis GTest::gtest)
 whipple_test_flags(test_solver_ranks)
-target_compile_definitions(test_solver_ranks PRIVATE WHIPPLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 foreach(ranks 1 2 4 8)
   if(ranks EQUAL 1 OR ranks GREATER 4)  # one rank agrees with itself
     set(label long)
@@ -131,7 +129,6 @@ add_library(whipple_exact STATIC EXCLUDE_FROM_ALL
   verification/exact/advected_block.cpp)
 target_link_libraries(whipple_exact PUBLIC whipple_flags whipple_solver)
 whipple_test_flags(whipple_exact OPTIMIZED)
-target_compile_definitions(whipple_exact PRIVATE WHIPPLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 add_executable(exact_suite EXCLUDE_FROM_ALL verification/exact_suite.cpp)
 target_link_libraries(exact_suite PRIVATE whipple_exact)
 whipple_test(test_exact STARTS_MPI

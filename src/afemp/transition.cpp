@@ -222,16 +222,26 @@ void mark_surface(fem::Mesh& mesh, const grid::Geometry& geometry) {
   }
 }
 
-double mark_transition(std::vector<fem::Mesh>& meshes, const Particles& particles,
+double mark_transition(std::vector<fem::Mesh>& meshes, const Parts& parts, const Particles& particles,
                        const grid::Geometry& geometry, double affine_inertia, MPI_Comm communicator) {
   Neighbourhood of_particles(geometry);
   for (const Vector3& position : particles.position) of_particles.add(position);
-  std::vector<Neighbourhood> of_surfaces(meshes.size() > 1 ? meshes.size() : 0, Neighbourhood(geometry));
-  for (std::size_t m = 0; m < of_surfaces.size(); ++m) {
+  std::vector<std::size_t> first;  // of the parts of each mesh
+  std::size_t count = 0;
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    first.push_back(count);
+    count += parts.count.empty() ? 1 : parts.count[m];
+  }
+  const auto part_of = [&](std::size_t m, std::size_t a) {
+    const bool parted = !parts.of_node.empty() && !parts.of_node[m].empty();
+    return first[m] + (parted ? parts.of_node[m][a] : std::size_t{0});
+  };
+  std::vector<Neighbourhood> of_surfaces(count > 1 ? count : 0, Neighbourhood(geometry));
+  for (std::size_t m = 0; m < meshes.size() && count > 1; ++m) {
     const fem::Nodes& nodes = meshes[m].nodes;
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       if (nodes.on_surface[a] != 0 && inside(geometry, nodes.position[a]))
-        of_surfaces[m].add(nodes.position[a]);
+        of_surfaces[part_of(m, a)].add(nodes.position[a]);
     }
   }
   std::vector<Neighbourhood*> sets = {&of_particles};
@@ -240,10 +250,10 @@ double mark_transition(std::vector<fem::Mesh>& meshes, const Particles& particle
   for (Neighbourhood* set : sets) set->widen();
   const bool alone =
       std::ranges::all_of(sets, [](const Neighbourhood* set) { return set->blocks().empty(); });
-  const auto meets = [&](std::size_t body, const Vector3& position) {
+  const auto meets = [&](std::size_t part, const Vector3& position) {
     if (of_particles.contains(position)) return true;
-    for (std::size_t m = 0; m < of_surfaces.size(); ++m) {
-      if (m != body && of_surfaces[m].contains(position)) return true;
+    for (std::size_t other = 0; other < of_surfaces.size(); ++other) {
+      if (other != part && of_surfaces[other].contains(position)) return true;
     }
     return false;
   };
@@ -252,7 +262,8 @@ double mark_transition(std::vector<fem::Mesh>& meshes, const Particles& particle
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     fem::Nodes& nodes = meshes[m].nodes;
     const auto belongs = [&](std::size_t a) {
-      return nodes.on_surface[a] != 0 && inside(geometry, nodes.position[a]) && meets(m, nodes.position[a]) &&
+      return nodes.on_surface[a] != 0 && inside(geometry, nodes.position[a]) &&
+             meets(part_of(m, a), nodes.position[a]) &&
              (nodes.constrained[a] == fem::constraint::none || is_of_tool(meshes[m], a) ||
               keeps_to_planes_only(nodes, a, geometry));
     };

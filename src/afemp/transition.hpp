@@ -25,14 +25,21 @@ std::vector<fem::Facet> free_facets(const fem::Mesh& mesh, const grid::Geometry&
 /// Marks the nodes of the free faces (`Nodes::on_surface`), searching among all nodes.
 void mark_surface(fem::Mesh& mesh, const grid::Geometry& geometry);
 
+/// Tells apart what meets each other within the meshes.
+struct Parts {
+  std::span<const std::vector<std::uint8_t>> of_node;  ///< of each mesh: part of each node; empty: one part
+  std::span<const std::size_t> count;                  ///< of each mesh: parts over all ranks; empty: one
+};
+
 /// Marks the interface nodes (`Nodes::in_transition`), which move with the grid: nodes on the surface of a mesh, inside
-/// of the domain, in or next to a cell that contains a particle or a surface node of another body, on any rank. Nodes
+/// of the domain, in or next to a cell that contains a particle or a surface node of another mesh or of another part of
+/// the same one, on any rank. Nodes
 /// that cease to be interface nodes lose their affine field: its energy becomes heat of their elements. Nodes with a
 /// prescribed velocity are excluded, unless they are only constrained to a mirror plane or are nodes of a tool
 /// (`is_of_tool`). Collective.
 /// @param affine_inertia of the affine field per mass, m^2
 /// @returns that heat on this rank, J
-double mark_transition(std::vector<fem::Mesh>& meshes, const Particles& particles,
+double mark_transition(std::vector<fem::Mesh>& meshes, const Parts& parts, const Particles& particles,
                        const grid::Geometry& geometry, double affine_inertia, MPI_Comm communicator);
 
 /// Factor by which the nodes of tools on the grid are heavier than they are: what meets them does not move them. Forces

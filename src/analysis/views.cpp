@@ -116,6 +116,9 @@ struct Projection {
   }
 };
 
+// Taller pictures have coarser pixels: nobody sees more on a page, and their number would have no bound.
+constexpr double most_rows_per_column = 2.0;
+
 Projection projection_of(const Frame& frame, const std::vector<Snapshot>& snapshots, std::size_t columns) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Projection projection{.frame = frame, .limits = {infinity, -infinity, 0.0, 0.0}};
@@ -127,10 +130,16 @@ Projection projection_of(const Frame& frame, const std::vector<Snapshot>& snapsh
   limits.upper_axial += pad;
   limits.lower_up -= pad;
   limits.upper_up += pad;
+  const double width = limits.upper_axial - limits.lower_axial, height = limits.upper_up - limits.lower_up;
+  const double most_rows = most_rows_per_column * static_cast<double>(columns);
   projection.columns = columns;
-  projection.pixel = (limits.upper_axial - limits.lower_axial) / static_cast<double>(columns);
-  projection.rows =
-      static_cast<std::size_t>(std::ceil((limits.upper_up - limits.lower_up) / projection.pixel));
+  projection.pixel = width / static_cast<double>(columns);
+  if (height > most_rows * projection.pixel) {  // a cloud that is wider than it is long
+    projection.pixel = height / most_rows;
+    projection.columns =
+        std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(width / projection.pixel)));
+  }
+  projection.rows = static_cast<std::size_t>(std::ceil(height / projection.pixel));
   return projection;
 }
 

@@ -13,7 +13,7 @@ namespace whipple::analysis {
 
 struct ViewOptions {
   int times = 0;               ///< maximum number, including the first and the last snapshot; 0: no views
-  std::size_t columns = 1188;  ///< width of a picture, pixels
+  std::size_t columns = 1188;  ///< width of a picture, pixels; fewer if it is more than twice as high
 };
 
 /// Chooses the snapshots to be shown, more densely at the beginning, where the shock is. @returns their indices

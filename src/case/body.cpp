@@ -182,6 +182,21 @@ void Body::check(const Case& setup, const Faults& faults) const {
       faults.in("node_condition").in(i).add("", "a body of particles has no nodes");
     }
   }
+  if (parts_touch()) {
+    const auto refuse = [&](const char* reason) { faults.in("element_range").add("pieces", reason); };
+    if (discretization.method != Representation::finite_elements ||
+        element_range.beyond != BeyondRange::remove) {
+      refuse(
+          "fields of pieces part finite elements at what deletion has taken away (beyond = \"remove\"): "
+          "particles of the body connect its pieces");
+    }
+    if (setup.contact.method == ContactMethod::none ||
+        setup.transfer.particle_update == ParticleUpdate::fmpm) {
+      refuse(
+          "pieces that touch each other need contact: another contact.method than \"none\", another "
+          "transfer.particle_update than \"fmpm\"");
+    }
+  }
   if (volumetric == Volumetric::cell && !discretization.has_particles() && !discretization.converts()) {
     faults.add("volumetric", "means over the particles of a cell need particles, this body has none");
   }

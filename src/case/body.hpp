@@ -90,6 +90,8 @@ struct Body {
   /// or axisymmetric case: it is not driven in these directions.
   [[nodiscard]] std::array<bool, 3> guided_axes(const Case& setup) const;
 
+  /// Returns whether pieces of the body that deletion has parted touch each other.
+  [[nodiscard]] bool parts_touch() const { return element_range.pieces == PieceContact::fields; }
   /// Returns whether the failure thresholds of its particles differ.
   [[nodiscard]] bool varies_failure() const { return failure_scatter.given() || failure_grains.given(); }
   /// Returns the factor of the failure thresholds of a particle with this volume (m^3) at a position.

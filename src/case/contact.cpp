@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "src/case/build/contact_fields.hpp"
 #include "src/case/case.hpp"
 
@@ -51,7 +53,9 @@ void ContactControl::check(const Case& setup, const Faults& faults) const {
                "take another update");
   }
   const unsigned count = count_of(fields_of_groups(setup.bodies));
-  if (count < 2) faults.add("method", "'method' is \"multi_field\", but all bodies are one contact group");
+  const bool parts = std::ranges::any_of(setup.bodies, [](const Body& body) { return body.parts_touch(); });
+  if (count < 2 && !parts)
+    faults.add("method", "'method' is \"multi_field\", but all bodies are one contact group");
   if (count > grid::maximum_fields) {
     faults.add("method", fmt::format("'method': {} bodies or contact groups, at most {} can have velocity "
                                      "fields of their own: join some with contact_group",

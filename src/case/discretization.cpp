@@ -100,7 +100,14 @@ ParameterTable<ElementRange> ElementRange::parameters() {
       real("plastic_strain", &R::plastic_strain, "", range::positive(),
            "largest valid equivalent plastic strain; with beyond = \"remove\" elements are eroded")
           .optional("any"),
-      boolean("failed", &R::failed, "an element whose material has failed is beyond its range").optional()};
+      boolean("failed", &R::failed, "an element whose material has failed is beyond its range").optional(),
+      choice(
+          "pieces", &R::pieces,
+          "with beyond = \"remove\": pieces of the body that deletion has parted do not feel each other | "
+          "touch "
+          "each other as bodies do: the largest one in the velocity field of the body, fifteen in fields of "
+          "their own, further ones in these in turn")
+          .optional()};
 }
 
 ParameterTable<BarRow> BarRow::parameters() {

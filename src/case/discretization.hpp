@@ -84,6 +84,15 @@ constexpr std::array<Word<BeyondRange>, 3> words(BeyondRange) {
       {{BeyondRange::particles, "particles"}, {BeyondRange::remove, "remove"}, {BeyondRange::stop, "stop"}}};
 }
 
+/// Selects whether pieces that deletion has parted from each other touch each other.
+enum class PieceContact : std::uint8_t {
+  none,    ///< all of them have the velocity field of the body
+  fields,  ///< all but the largest have fields of their own
+};
+constexpr std::array<Word<PieceContact>, 2> words(PieceContact) {
+  return {{{PieceContact::none, "none"}, {PieceContact::fields, "fields"}}};
+}
+
 /// Describes `element_range` of a body with elements: the range in which an element is a valid approximation.
 struct ElementRange {
   BeyondRange beyond = BeyondRange::particles;
@@ -93,6 +102,7 @@ struct ElementRange {
   double speed = std::numeric_limits<double>::infinity();  ///< m/s
   double plastic_strain = std::numeric_limits<double>::infinity();
   bool failed = false;
+  PieceContact pieces = PieceContact::none;
   static ParameterTable<ElementRange> parameters();
 };
 

@@ -12,6 +12,11 @@ if(NOT WHIPPLE_CUDA STREQUAL "OFF")
   endif()
 endif()
 
+# The compiler's cache keeps what nvcc makes, and what it prints.
+if(CCACHE AND NOT CMAKE_CUDA_COMPILER_LAUNCHER)
+  set(CMAKE_CUDA_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} ${CCACHE})
+endif()
+
 # whipple_gpu_objects(ROOT): sets whipple_gpu_objects to the objects of all kernels, made from the sources under ROOT: those
 # of three dimensions (gpu) and of two (gpu_section). Beside each lies a log, which says how many registers each kernel
 # takes (scripts/device_registers.py).
@@ -29,6 +34,7 @@ function(whipple_gpu_objects root)
               --expt-relaxed-constexpr --expt-extended-lambda -Xcompiler=-march=x86-64-v3,-fPIC -Xptxas=-v,-warn-spills
               -I${root} -MD -MF ${object}.d -c ${whipple_device_folder}/${part}.cu -o ${object}
       DEPFILE ${object}.d
+      WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}  # where the relative paths begin that the cache writes into the DEPFILE
       DEPENDS ${whipple_device_folder}/${part}.cu
       COMMENT "Building kernels for the graphics processor: ${part}" VERBATIM)
     list(APPEND objects ${object})

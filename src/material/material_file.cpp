@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdlib>
 #include <map>
 #include <system_error>
 
@@ -199,21 +198,6 @@ std::string near_names(const std::string& wanted, const std::vector<std::string>
 }
 
 }  // namespace
-
-std::vector<fs::path> library_folders() {
-  std::vector<fs::path> candidates;
-  if (const char* folder = std::getenv("WHIPPLE_MATERIALS")) candidates.emplace_back(folder);
-  std::error_code failed;
-  const fs::path executable = fs::read_symlink("/proc/self/exe", failed);
-  if (!failed)
-    candidates.push_back(executable.parent_path().parent_path() / "share" / "whipple" / "materials");
-  candidates.emplace_back(WHIPPLE_MATERIAL_SOURCE_FOLDER);
-  std::erase_if(candidates, [](const fs::path& folder) {
-    std::error_code ignored;
-    return !fs::is_directory(folder, ignored);
-  });
-  return candidates;
-}
 
 fs::path find_material(const fs::path& path, const fs::path& beside) {
   const fs::path local = with_ending(path.is_absolute() ? path : beside / path);

@@ -68,7 +68,14 @@ std::string of_splitting(const solver::Simulation& simulation) {
 /// Lists what the shapes of a body from files and generators report, and the cells across their thinnest part.
 std::vector<std::string> account_of(const cases::Case& setup, std::size_t body) {
   std::vector<std::string> lines;
-  setup.bodies[body].shape->visit([&](const cases::Shape& part) {
+  const cases::Body& of = setup.bodies[body];
+  if (of.discretization.has_elements() && of.element_range.beyond == cases::BeyondRange::remove) {
+    const bool touch = setup.contact_fields.parts(body) > 1;
+    lines.push_back(fmt::format(
+        "  elements beyond their range are deleted; pieces that this parts {}",
+        touch ? "touch each other" : "do not touch each other (element_range.pieces = \"none\")"));
+  }
+  of.shape->visit([&](const cases::Shape& part) {
     const std::vector<std::string> account = part.account();
     if (account.empty()) return;
     lines.insert(lines.end(), account.begin(), account.end());

@@ -68,6 +68,8 @@ ForceGauges::ForceGauges(const cases::Case& setup)
     if (gauge.face == cases::Face::none) {
       own.body = gauge.body_number(setup);
       own.field = setup.contact_fields.several() ? setup.contact_fields.of_body[own.body] : 0U;
+      own.pieces = setup.contact_fields.parts(own.body) - 1;
+      if (own.pieces > 0) own.first_piece = setup.contact_fields.pieces[own.body];
       if (!cases::has_inertia(setup.time.scheme)) own.field = no_field;  // known of driven bodies alone
       continue;
     }
@@ -116,7 +118,8 @@ void ForceGauges::book_node(const grid::BlockGrid& grid, std::uint32_t node, con
   const std::array<Acting, 3> acting = acting_at(grid, geometry, grid.place_of_node(node));
   for (std::size_t g = 0; g < gauges_.size(); ++g) {
     const Gauge& gauge = gauges_[g];
-    if (gauge.face < 0 && gauge.field != field) continue;
+    const bool is_of_piece = field >= gauge.first_piece && field < gauge.first_piece + gauge.pieces;
+    if (gauge.face < 0 && gauge.field != field && !is_of_piece) continue;
     Vector3 part = impulse;
     if (gauge.face >= 0) {
       const double of_patch = share(gauge, position, geometry.cell_size);

@@ -50,6 +50,7 @@ class ForceGauges {
     int face = -1;  // -1: on a body
     std::size_t body = 0;
     unsigned field = 0;                      // of the body
+    unsigned first_piece = 0, pieces = 0;    // fields of its pieces
     std::array<double, 3> lower{}, upper{};  // of the patch, m; infinite to the ends of the face
     Vector3 about;
   };

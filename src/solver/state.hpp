@@ -104,7 +104,8 @@ struct State {
   std::vector<cases::BodySummary> bodies;
   transfer::TransitionNodes transition;        ///< nodes of elements that move with the grid in this step
   std::vector<std::uint32_t> transition_body;  ///< body of each of these nodes
-  std::vector<double> initial_density;         ///< of each body, kg/m^3
+  std::vector<std::uint8_t> transition_part;  ///< part of it with a field of its own (ContactFields::of_part)
+  std::vector<double> initial_density;        ///< of each body, kg/m^3
   RunState run;
   TimeStepBound time_step_bound = TimeStepBound::none;  ///< of the last step
   Totals totals;                                        ///< over all ranks, at the end of the last step

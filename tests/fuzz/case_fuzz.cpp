@@ -17,6 +17,7 @@
 #include "src/io/run_directory.hpp"
 #include "src/material/material_file.hpp"
 #include "src/solver/simulation.hpp"
+#include "tests/folders.hpp"
 #include "tests/fuzz/trials.hpp"
 #include "tests/unit/folder_test.hpp"
 
@@ -130,7 +131,8 @@ class Mutator {
 
 std::vector<fs::path> case_files() {
   std::vector<fs::path> files;
-  for (const fs::directory_entry& entry : fs::directory_iterator(WHIPPLE_SOURCE_DIR "/cases")) {
+  for (const fs::directory_entry& entry :
+       fs::directory_iterator(whipple::tests::source_folder() + "/cases")) {
     if (fs::exists(entry.path() / "case.toml")) files.push_back(entry.path() / "case.toml");
   }
   std::ranges::sort(files);  // directories are listed in any order

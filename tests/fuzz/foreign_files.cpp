@@ -29,6 +29,7 @@
 #include "src/io/sealed_file.hpp"
 #include "src/material/material_file.hpp"
 #include "src/run/restart.hpp"
+#include "tests/folders.hpp"
 #include "tests/fuzz/trials.hpp"
 #include "tests/unit/eos_support.hpp"
 #include "tests/unit/folder_test.hpp"
@@ -138,7 +139,7 @@ TEST_F(ForeignFiles, TablesOfMeasurements) {
   const Material copper = read_material("copper");
   for (const char* name : {"cu_hugoniot_marsh1980.csv", "cu_melting.csv"}) {
     const fs::path path = folder_ / name;
-    fs::copy_file(fs::path(WHIPPLE_SOURCE_DIR "/eos/data") / name, path);
+    fs::copy_file(fs::path(whipple::tests::source_folder() + "/eos/data") / name, path);
     try_all("measurements (CSV)", path, garbled, [&] {
       for (const auto& experiment : eos::experiments::read_experiments(path))
         static_cast<void>(eos::experiments::compare(*copper.eos, copper.reference, experiment));
@@ -180,7 +181,7 @@ TEST_F(ForeignFiles, TablesOfEquationsOfState) {
 TEST_F(ForeignFiles, Meshes) {
   for (const char* name : {"two_boxes_22.msh", "two_boxes_41.msh"}) {
     const fs::path path = folder_ / name;
-    fs::copy_file(fs::path(WHIPPLE_SOURCE_DIR "/tests/data/fem") / name, path);
+    fs::copy_file(fs::path(whipple::tests::source_folder() + "/tests/data/fem") / name, path);
     const auto numbers_nodes = [](const auto& elements, std::size_t nodes) {
       for (const auto& element : elements) {
         for (const std::size_t node : element) ASSERT_LT(node, nodes);
@@ -367,7 +368,7 @@ TEST_F(ForeignFiles, DecksOfOtherCodes) {
   for (const auto& [name, units] : {std::pair{"sphere_on_plate.mpm", Units{}},
                                     std::pair{"columns_of_water.mpm", Units{{"m", "kg", "s"}}}}) {
     const fs::path path = folder_ / name, target = folder_ / "imported";
-    fs::copy_file(fs::path(WHIPPLE_SOURCE_DIR "/tests/data/decks") / name, path);
+    fs::copy_file(fs::path(whipple::tests::source_folder() + "/tests/data/decks") / name, path);
     try_all("deck (MPM3D-F90)", path, garbled, [&] {
       const decks::Import import = decks::import_deck(path, {.units = units});
       const decks::CaseFolder folder(import, target);

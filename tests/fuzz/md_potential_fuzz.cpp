@@ -16,6 +16,7 @@
 #include "md_fitting/lammps/potential.hpp"
 #include "md_fitting/plan/plan.hpp"
 #include "src/core/base/error.hpp"
+#include "tests/folders.hpp"
 #include "tests/fuzz/trials.hpp"
 #include "tests/unit/temporary_folder.hpp"
 
@@ -90,7 +91,8 @@ TEST(PotentialFuzz, LoadsOrExplains) {
 
 TEST(PlanFuzz, IsReadOrRefused) {
   std::vector<std::string> plans;
-  for (const auto& entry : std::filesystem::directory_iterator(WHIPPLE_SOURCE_DIR "/cases/md")) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(whipple::tests::source_folder() + "/cases/md")) {
     if (entry.path().extension() == ".toml") plans.push_back(contents(entry.path()));
   }
   std::ranges::sort(plans);  // folders are listed in any order

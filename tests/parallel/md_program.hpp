@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "md_fitting/data_set/data_set.hpp"
+#include "tests/folders.hpp"
 #include "tests/unit/temporary_folder.hpp"
 
 /// whipple-md as its users start it, alone or under mpirun.
@@ -83,7 +84,7 @@ class WhippleMd : public ::testing::Test {
   }
   std::string path(const std::string& name) { return (folder.path() / name).string(); }
   std::string command(const std::string& store) {
-    return std::string(WHIPPLE_MD) + " " + path("plan.toml") + " -o " + path(store);
+    return whipple::tests::program("whipple-md") + " " + path("plan.toml") + " -o " + path(store);
   }
   TemporaryFolder folder;
 };
@@ -136,6 +137,7 @@ inline void kill_at_random(WhippleMd& test, int kills) {
   set_mpi_environment();
   std::mt19937 generator(20);
   std::uniform_real_distribution<double> moment(0.0, 1.0);
+  const std::string program = whipple::tests::program("whipple-md");
   const std::string plan = test.path("plan.toml");
   const std::string store = test.path("killed.md.h5");
   const std::size_t all = points_in(test.path("whole.md.h5"));
@@ -148,7 +150,7 @@ inline void kill_at_random(WhippleMd& test, int kills) {
       if (std::freopen("/dev/null", "w", stderr) == nullptr ||
           std::freopen("/dev/null", "w", stdout) == nullptr)
         _exit(1);
-      execl(WHIPPLE_MPIEXEC, WHIPPLE_MPIEXEC, "-n", "2", WHIPPLE_MD, plan.c_str(), "-o", store.c_str(),
+      execl(WHIPPLE_MPIEXEC, WHIPPLE_MPIEXEC, "-n", "2", program.c_str(), plan.c_str(), "-o", store.c_str(),
             nullptr);
       _exit(1);
     }

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "md_fitting/data_set/data_set.hpp"
+#include "tests/folders.hpp"
 #include "tests/parallel/md_program.hpp"
 
 namespace whipple::md {
@@ -44,7 +45,9 @@ TEST_F(WhippleMd, KilledRunGoesOnWhereItStood) {
   const pid_t child = fork();
   if (child == 0) {
     if (std::freopen("/dev/null", "w", stderr) == nullptr) _exit(1);
-    execl(WHIPPLE_MD, WHIPPLE_MD, path("plan.toml").c_str(), "-o", path("killed.md.h5").c_str(), nullptr);
+    const std::string program = whipple::tests::program("whipple-md");
+    execl(program.c_str(), program.c_str(), path("plan.toml").c_str(), "-o", path("killed.md.h5").c_str(),
+          nullptr);
     _exit(1);
   }
   const auto store = folder.path() / "killed.md.h5";
@@ -77,8 +80,8 @@ TEST_F(WhippleMd, ExitCodesTellWhatHappened) {
   EXPECT_EQ(unknown.code, 2) << unknown.text;
   EXPECT_NE(unknown.text.find("there is no potential 'nothing'"), std::string::npos) << unknown.text;
   EXPECT_EQ(unknown.text.find("there is no potential"), unknown.text.rfind("there is no potential"));
-  EXPECT_EQ(run(std::string(WHIPPLE_MD) + " /does/not/exist.toml").code, 2);
-  EXPECT_EQ(run(std::string(WHIPPLE_MD) + " --no-such-option").code, 2);
+  EXPECT_EQ(run(whipple::tests::program("whipple-md") + " /does/not/exist.toml").code, 2);
+  EXPECT_EQ(run(whipple::tests::program("whipple-md") + " --no-such-option").code, 2);
 
   write("plan.toml",
         "element = \"Cu\"\npotential = \"Cu_mishin1.eam.alloy\"\n[[isotherm]]\nvolume_ratio = [0.65]\n");
@@ -89,7 +92,7 @@ TEST_F(WhippleMd, ExitCodesTellWhatHappened) {
 
   write("plan.toml", plan_text);
   const Outcome unwritable =
-      run(std::string(WHIPPLE_MD) + " " + path("plan.toml") + " -o /proc/whipple/x.md.h5");
+      run(whipple::tests::program("whipple-md") + " " + path("plan.toml") + " -o /proc/whipple/x.md.h5");
   EXPECT_EQ(unwritable.code, 2);
   EXPECT_EQ(unwritable.text.find("lattice"), std::string::npos) << unwritable.text;
 
@@ -110,7 +113,8 @@ TEST_F(WhippleMd, ExitCodesTellWhatHappened) {
 
   const Outcome quiet = run(command("failed.md.h5") + " --quiet --retry-failed");
   EXPECT_EQ(quiet.text.find("points, potential"), std::string::npos) << quiet.text;
-  EXPECT_NE(run(std::string(WHIPPLE_MD) + " --describe").text.find("[hugoniot]"), std::string::npos);
+  EXPECT_NE(run(whipple::tests::program("whipple-md") + " --describe").text.find("[hugoniot]"),
+            std::string::npos);
 }
 
 // A number of ranks that makes no whole teams is refused before any work.
@@ -139,7 +143,7 @@ TEST_F(WhippleMd, SurvivesKillsOfWorkerAndDriver) { testing::kill_at_random(*thi
 // An instance on two ranks where one rank alone reports an error: the job ends with the message instead of
 // hanging.
 TEST(ErrorGuard, AbortsWhenOneRankOfSeveralReportsAnError) {
-  const Outcome outcome = run("timeout 60 " + mpirun(2, WHIPPLE_MD_GUARD_ABORT));
+  const Outcome outcome = run("timeout 60 " + mpirun(2, whipple::tests::test_program("md_guard_abort")));
   EXPECT_NE(outcome.code, 0);
   EXPECT_NE(outcome.code, 124) << "the ranks hang";
   EXPECT_NE(outcome.text.find("reported by one of 2 ranks: aborting"), std::string::npos) << outcome.text;

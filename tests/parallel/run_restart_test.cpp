@@ -28,6 +28,7 @@
 #include "src/material/constitutive_catalogue.hpp"
 #include "src/run/restart.hpp"
 #include "src/run/run.hpp"
+#include "tests/folders.hpp"
 #include "tests/parallel/debris_case.hpp"
 
 namespace whipple {
@@ -244,7 +245,7 @@ class Restart : public Run {
  protected:
   void SetUp() override {
     Run::SetUp();
-    fs::copy_file(WHIPPLE_SOURCE_DIR "/eos/materials/aluminium_1100_mie_gruneisen.toml",
+    fs::copy_file(whipple::tests::source_folder() + "/eos/materials/aluminium_1100_mie_gruneisen.toml",
                   folder_ / "metal.toml");
     std::ofstream(folder_ / "debris.toml") << R"(
 [domain]

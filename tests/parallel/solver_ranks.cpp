@@ -25,6 +25,7 @@
 #include "src/run/gauges.hpp"
 #include "src/solver/simulation.hpp"
 #include "src/solver/stages/material.hpp"
+#include "tests/folders.hpp"
 #include "tests/parallel/debris_case.hpp"
 
 namespace whipple::solver {
@@ -241,7 +242,7 @@ boundary = { x_lower = "separating" }
 end = "400 us"
 [[body]]
 name = "block"
-)" << "material = \"" WHIPPLE_SOURCE_DIR "/tests/data/rubber.toml\"\n"
+)" << "material = \"" + whipple::tests::source_folder() + "/tests/data/rubber.toml\"\n"
                                            << R"(
 velocity = ["-25 m/s", "0 m/s", "0 m/s"]
 shape = { box = { lower = ["5 mm", "0 mm", "0 mm"], upper = ["15 mm", "4 mm", "4 mm"] } }

@@ -224,8 +224,11 @@ TEST(Thresholds, EachOfThemFindsItsElement) {
 }
 
 TEST(Transition, NodesNearParticlesAndOtherBodiesMoveWithTheGrid) {
-  const grid::Geometry geometry{
-      .lower = Vector3::Constant(-10 * dx), .cells = {40, 40, 40}, .cell_size = dx, .boundary = {}, .levels = {}};
+  const grid::Geometry geometry{.lower = Vector3::Constant(-10 * dx),
+                                .cells = {40, 40, 40},
+                                .cell_size = dx,
+                                .boundary = {},
+                                .levels = {}};
   std::vector<fem::Mesh> meshes;
   meshes.push_back(random_mesh(fem::Quadrature::one_point, dx, 0.0, 3));
   fem::Hexahedra other = fem::make_box(Vector3(0, 0, 6.5) * dx, Vector3(4, 3, 8) * dx, dx);
@@ -239,7 +242,7 @@ TEST(Transition, NodesNearParticlesAndOtherBodiesMoveWithTheGrid) {
   };
   Particles particles;
   // The faces z = 5 and z = 6.5 are in adjacent cells; nothing else is in contact.
-  EXPECT_EQ(mark_transition(meshes, particles, geometry, inertia, parallel::world()), 0.0);
+  EXPECT_EQ(mark_transition(meshes, {}, particles, geometry, inertia, parallel::world()), 0.0);
   EXPECT_EQ(marked(0), 5U * 4U);
   EXPECT_EQ(marked(1), 5U * 4U);
   // One cell further apart they are not; the affine field of the nodes becomes heat of the elements.
@@ -251,18 +254,18 @@ TEST(Transition, NodesNearParticlesAndOtherBodiesMoveWithTheGrid) {
   }
   for (Vector3& x : meshes[1].nodes.position) x[2] += dx;
   const double before = fem::totals(meshes[0]).internal_energy;
-  EXPECT_NEAR(mark_transition(meshes, particles, geometry, inertia, parallel::world()), affine,
+  EXPECT_NEAR(mark_transition(meshes, {}, particles, geometry, inertia, parallel::world()), affine,
               1e-12 * affine);
   EXPECT_NEAR(fem::totals(meshes[0]).internal_energy - before, affine, 1e-9 * affine);
   EXPECT_EQ(marked(0) + marked(1), 0U);
   // A particle next to a corner; an inner node would not be in its range.
   particles.position = {Vector3(-0.5, -0.5, -0.5) * dx};
-  mark_transition(meshes, particles, geometry, inertia, parallel::world());
+  mark_transition(meshes, {}, particles, geometry, inertia, parallel::world());
   EXPECT_EQ(marked(0), 1U);
   // Nodes with prescribed velocities are excluded.
   const std::uint32_t corner = 0;
   fem::constrain(meshes[0], std::span(&corner, 1), fem::constraint::x, Vector3(1, 0, 0));
-  mark_transition(meshes, particles, geometry, inertia, parallel::world());
+  mark_transition(meshes, {}, particles, geometry, inertia, parallel::world());
   EXPECT_EQ(marked(0), 0U);
 }
 

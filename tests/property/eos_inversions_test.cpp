@@ -3,7 +3,9 @@
 // what cannot be inverted is refused with the reason.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <ostream>
@@ -38,6 +40,15 @@ bool stable(const State& s) {
          std::isfinite(s.heat_capacity) && s.gruneisen >= 0;
 }
 
+/// The names alone, in their order: each of the tests is a process that lists all of them.
+std::vector<std::filesystem::path> files_of_the_library() {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(library_folders().front()))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  std::ranges::sort(files);
+  return files;
+}
+
 /// A material of the library, or a model on published constants.
 struct Named {
   std::string name;
@@ -51,11 +62,16 @@ std::vector<Named> equations_of_state() {
       {"tillotson", with<Tillotson>(aluminium_tillotson())},    {"jwl", with<Jwl>(tnt())},
       {"polynomial", with<Polynomial>(aluminium_polynomial())}, {"ideal_gas", with<IdealGas>(air())},
       {"murnaghan", with<Murnaghan>(copper_murnaghan())},       {"tait", with<Tait>(water_tait())}};
-  for (const LibraryMaterial& entry : library_materials()) {
-    all.push_back(
-        {"library_" + entry.file.stem().string(), [file = entry.file] { return read_material(file).eos; }});
-  }
+  for (const std::filesystem::path& file : files_of_the_library())
+    all.push_back({"library_" + file.stem().string(), [file] { return read_material(file).eos; }});
   return all;
+}
+
+TEST(InversionsOfTheLibrary, AreOfEachOfItsMaterials) {
+  std::vector<std::filesystem::path> files;
+  for (const LibraryMaterial& entry : library_materials()) files.push_back(entry.file);
+  std::ranges::sort(files);
+  EXPECT_EQ(files, files_of_the_library());
 }
 
 class Inversions : public ::testing::TestWithParam<Named> {

@@ -10,13 +10,14 @@
 
 #include "src/core/parallel/mpi.hpp"
 #include "src/run/forecast.hpp"
+#include "tests/folders.hpp"
 
 namespace whipple::run {
 namespace {
 
 cases::Case case_of(const std::string& name,
                     const std::vector<std::pair<std::string, std::string>>& overrides) {
-  return cases::read_case(std::string(WHIPPLE_SOURCE_DIR) + "/cases/" + name + "/case.toml", overrides);
+  return cases::read_case(whipple::tests::source_folder() + "/cases/" + name + "/case.toml", overrides);
 }
 
 struct Measured {
@@ -75,7 +76,7 @@ TEST(Forecast, OfSectionsWithFewSteps) {
 
 // The ball meets the plate in the run: steps grow twice from a twentieth of the allowed one.
 TEST(Forecast, OfAGapAndManySnapshots) {
-  const std::string file = WHIPPLE_SOURCE_DIR "/tests/data/small_impact.toml";
+  const std::string file = whipple::tests::source_folder() + "/tests/data/small_impact.toml";
   for (const char* every : {"0.5 us", "0.02 us", "0.002 us"}) {
     const cases::Case setup = cases::read_case(file, {{"output.snapshot_every", every}});
     solver::Simulation foreseen(setup, parallel::world()), run(setup, parallel::world());

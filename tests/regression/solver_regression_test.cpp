@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "src/core/base/simd.hpp"
+#include "tests/folders.hpp"
 #include "tests/verification/solver_problems.hpp"
 
 namespace whipple::verification {
@@ -15,7 +16,7 @@ namespace {
 
 TEST(Regression, DebrisCloudKeepsItsSums) {
   const cases::Case setup =
-      cases::read_case(std::string(WHIPPLE_SOURCE_DIR) + "/cases/copper_disk_on_aluminium/case.toml",
+      cases::read_case(whipple::tests::source_folder() + "/cases/copper_disk_on_aluminium/case.toml",
                        {{"domain.cell_size", "1 mm"}, {"time.end", "3 us"}});
   solver::Simulation simulation(setup, parallel::world());
   run_to(simulation, setup.time.end);
@@ -36,7 +37,7 @@ TEST(Regression, DebrisCloudKeepsItsSums) {
 void expect_the_same_steps(const char* name,
                            const std::vector<std::pair<std::string, std::string>>& overrides, int steps) {
   const cases::Case setup =
-      cases::read_case(std::string(WHIPPLE_SOURCE_DIR) + "/cases/" + name + "/case.toml", overrides);
+      cases::read_case(whipple::tests::source_folder() + "/cases/" + name + "/case.toml", overrides);
   const auto after_steps = [&](KernelSet set) {
     const KernelSet in_use = std::exchange(kernel_set(), set);
     solver::Simulation simulation(setup, parallel::world());

@@ -16,6 +16,7 @@
 #include "src/core/base/error.hpp"
 #include "src/core/base/tensor.hpp"
 #include "src/core/hdf5/hdf5.hpp"
+#include "tests/folders.hpp"
 #include "tests/unit/temporary_folder.hpp"
 
 namespace whipple::analysis {
@@ -387,7 +388,7 @@ TEST_F(Jets, TheFractionCountsWhatTurnsBetweenTwoSnapshots) {
 }
 
 TEST(RequestedMeasures, TheTableOfTheManualIsThatOfTheProgram) {
-  std::ifstream file(std::filesystem::path(WHIPPLE_SOURCE_DIR) / "docs/manual/output.md");
+  std::ifstream file(std::filesystem::path(whipple::tests::source_folder()) / "docs/manual/output.md");
   const std::string page((std::istreambuf_iterator<char>(file)), {});
   EXPECT_THAT(page, HasSubstr(requested_measures_as_markdown()));
 }

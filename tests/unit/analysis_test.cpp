@@ -19,6 +19,7 @@
 #include "src/analysis/surfaces.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/parallel/threads.hpp"
+#include "tests/folders.hpp"
 #include "tests/unit/analysis_support.hpp"
 
 namespace whipple::analysis {
@@ -356,7 +357,7 @@ TEST(Cloud, MassesOfBodiesAreThoseOfFragmentsAndWhatIsLoose) {
 }
 
 TEST(Measures, TheTableOfTheManualIsThatOfTheProgram) {
-  std::ifstream file(std::filesystem::path(WHIPPLE_SOURCE_DIR) / "docs/manual/output.md");
+  std::ifstream file(std::filesystem::path(whipple::tests::source_folder()) / "docs/manual/output.md");
   const std::string page((std::istreambuf_iterator<char>(file)), {});
   const std::string table = measures_as_markdown();
   EXPECT_NE(page.find(table), std::string::npos) << "docs/manual/output.md lacks the table\n" << table;

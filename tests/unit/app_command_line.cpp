@@ -14,6 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/folders.hpp"
+
 namespace whipple {
 namespace {
 
@@ -42,7 +44,7 @@ class CommandLine : public ::testing::Test {
 
   /// Runs `whipple ARGUMENTS` (as a shell reads them) in the folder of the test.
   [[nodiscard]] Result whipple(const std::string& arguments) const {
-    const std::string program = WHIPPLE_BINARY_DIR "/bin/whipple";
+    const std::string program = whipple::tests::program("whipple");
     const std::string command = "cd '" + folder_.string() + "' && '" + program + "' " + arguments +
                                 " > .stdout 2> .stderr < /dev/null";
     const int status = std::system(command.c_str());
@@ -257,7 +259,7 @@ TEST_F(CommandLine, DescribeKnowsModelsAndSuggestsThem) {
 TEST_F(CommandLine, TheInputReferenceIsUpToDate) {
   const Result result = whipple("describe --markdown");
   EXPECT_EQ(result.code, 0);
-  EXPECT_TRUE(result.out == text_of(WHIPPLE_SOURCE_DIR "/docs/manual/input_reference.md"))
+  EXPECT_TRUE(result.out == text_of(whipple::tests::source_folder() + "/docs/manual/input_reference.md"))
       << "run: build/release/bin/whipple describe --markdown > docs/manual/input_reference.md";
 }
 
@@ -273,7 +275,7 @@ TEST_F(CommandLine, MaterialsListsTheLibrary) {
 TEST_F(CommandLine, TheTablesOfTheLibraryAreUpToDate) {
   const Result result = whipple("materials --markdown --quiet");
   EXPECT_EQ(result.code, 0);
-  EXPECT_TRUE(text_of(WHIPPLE_SOURCE_DIR "/docs/manual/materials.md").ends_with(result.out))
+  EXPECT_TRUE(text_of(whipple::tests::source_folder() + "/docs/manual/materials.md").ends_with(result.out))
       << "run: build/release/bin/whipple materials --markdown, and put its tables at the end of "
          "docs/manual/materials.md";
 }
@@ -307,7 +309,7 @@ TEST_F(CommandLine, NothingIsOverwrittenWithoutForce) {
 }
 
 TEST_F(CommandLine, AnImportedDeckIsCheckedAndRuns) {
-  const std::string decks = WHIPPLE_SOURCE_DIR "/tests/data/decks/";
+  const std::string decks = whipple::tests::source_folder() + "/tests/data/decks/";
   const Result imported = whipple("import " + decks + "sphere_on_plate.mpm -o sphere");
   ASSERT_EQ(imported.code, 0) << imported.err;
   for (const char* list : {"exact (", "converted (", "dropped (", "missing (0)"})
@@ -322,7 +324,7 @@ TEST_F(CommandLine, AnImportedDeckIsCheckedAndRuns) {
 }
 
 TEST_F(CommandLine, WhatADeckMakesMissingIsRefused) {
-  const std::string deck = WHIPPLE_SOURCE_DIR "/tests/data/decks/missing.mpm";
+  const std::string deck = whipple::tests::source_folder() + "/tests/data/decks/missing.mpm";
   const Result refused = whipple("import " + deck + " -o case");
   EXPECT_EQ(refused.code, 2);
   EXPECT_THAT(refused.out, HasSubstr("missing ("));
@@ -337,7 +339,7 @@ TEST_F(CommandLine, WhatADeckMakesMissingIsRefused) {
 
 // What newcomers try and what is no such thing: the message says what to do instead.
 TEST_F(CommandLine, NaturalMistakesAreNamedWithTheirRemedy) {
-  write("case.toml", text_of(WHIPPLE_SOURCE_DIR "/tests/data/small_impact.toml"));
+  write("case.toml", text_of(whipple::tests::source_folder() + "/tests/data/small_impact.toml"));
   const Result preview = whipple("check case.toml --preview pv.png");
   EXPECT_EQ(preview.code, 2);
   EXPECT_THAT(preview.err, HasSubstr("its name ends with .html"));
@@ -386,7 +388,7 @@ TEST_F(CommandLine, TablesAndStatesOfRunsAreWrittenForPrograms) {
 
 // `whipple edit` writes what passes the checks, and nothing else into the file.
 TEST_F(CommandLine, EditChangesAValueAndKeepsTheRest) {
-  const std::string before = text_of(WHIPPLE_SOURCE_DIR "/tests/data/small_impact.toml");
+  const std::string before = text_of(whipple::tests::source_folder() + "/tests/data/small_impact.toml");
   const std::filesystem::path file = write("case.toml", before);
   EXPECT_EQ(whipple("edit case.toml domain.cell_size='-1 mm'").code, 2);
   EXPECT_EQ(whipple("edit --dry-run case.toml domain.cell_size='1 mm'").code, 0);

@@ -19,6 +19,7 @@
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
 #include "src/solids/step.hpp"
+#include "tests/folders.hpp"
 #include "tests/unit/folder_test.hpp"
 
 namespace whipple::app {
@@ -56,7 +57,7 @@ class StepFiles : public FolderTest {
   void SetUp() override {
     FolderTest::SetUp();
     solids::set_step_mesher(triangulate_by_gmsh);
-    text_ = read_text(fs::path(WHIPPLE_SOURCE_DIR) / "tests/data/step" / name);
+    text_ = read_text(fs::path(whipple::tests::source_folder()) / "tests/data/step" / name);
   }
   void TearDown() override {
     solids::set_step_mesher({});

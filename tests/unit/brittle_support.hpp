@@ -12,6 +12,7 @@
 #include "src/material/strength/holmquist_johnson_cook.hpp"
 #include "src/material/strength/johnson_holmquist_2.hpp"
 #include "src/material/strength/riedel_hiermaier_thoma.hpp"
+#include "tests/folders.hpp"
 #include "tests/unit/material_support.hpp"
 
 /// Materials and bodies of the tests of concrete and ceramics.
@@ -28,7 +29,7 @@ inline const UpdateSettings settings{
     .time_step = dt, .cell_size = 1e-3, .linear_viscosity = 0.0, .quadratic_viscosity = 0.0};
 
 inline Material library(const std::string& name) {
-  return read_material(WHIPPLE_SOURCE_DIR "/eos/materials/" + name + ".toml");
+  return read_material(whipple::tests::source_folder() + "/eos/materials/" + name + ".toml");
 }
 
 /// Returns the ceramic of the single-element tests of Johnson and Holmquist (1994).

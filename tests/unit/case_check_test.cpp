@@ -7,6 +7,7 @@
 
 #include "src/case/shapes/box.hpp"
 #include "src/case/shapes/sphere.hpp"
+#include "tests/folders.hpp"
 #include "tests/unit/case_support.hpp"
 
 namespace whipple::cases {
@@ -154,8 +155,8 @@ TEST(CaseFile, AKeyThatCannotBeReadIsReportedOnce) {
 TEST(CaseFile, AllOfTheRepositoryAreAccepted) {
   int count = 0;
   for (const char* folder : {"cases", "tests/data"}) {
-    for (const auto& entry :
-         std::filesystem::recursive_directory_iterator(std::filesystem::path(WHIPPLE_SOURCE_DIR) / folder)) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(
+             std::filesystem::path(whipple::tests::source_folder()) / folder)) {
       if (entry.path().extension() != ".toml") continue;
       std::ifstream file(entry.path());
       const std::string text{std::istreambuf_iterator<char>(file), {}};

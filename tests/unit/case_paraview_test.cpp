@@ -7,6 +7,7 @@
 
 #include "src/case/shapes/points.hpp"
 #include "src/core/base/error.hpp"
+#include "tests/folders.hpp"
 
 namespace whipple::cases {
 namespace {
@@ -20,7 +21,7 @@ std::unique_ptr<Shape> points_of_file(const std::string& name) {
   keys.file = name + ".vtu";
   keys.unit = 1e-3;
   keys.mass_unit = 1e-6;
-  return Points(keys, std::filesystem::path(WHIPPLE_SOURCE_DIR) / "tests/data/points")
+  return Points(keys, std::filesystem::path(whipple::tests::source_folder()) / "tests/data/points")
       .settled({.density = density});
 }
 

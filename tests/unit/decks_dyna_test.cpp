@@ -16,6 +16,7 @@
 #include "src/decks/dyna_deck.hpp"
 #include "src/decks/dyna_parameters.hpp"
 #include "src/decks/import.hpp"
+#include "tests/folders.hpp"
 #include "tests/unit/folder_test.hpp"
 
 namespace whipple::decks {
@@ -26,7 +27,8 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const fs::path folder_of_faults = fs::path(WHIPPLE_SOURCE_DIR) / "tests" / "data" / "decks" / "faults";
+const fs::path folder_of_faults =
+    fs::path(whipple::tests::source_folder()) / "tests" / "data" / "decks" / "faults";
 const ImportOptions in_mpa = {.units = UnitSystem{"mm", "g", "ms"}, .cell_size = 0.5e-3};
 
 std::string text_of(const std::string& name) { return read_text(folder_of_faults / name); }

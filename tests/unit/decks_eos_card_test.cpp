@@ -11,6 +11,7 @@
 #include "src/decks/dyna_deck.hpp"
 #include "src/decks/eos_card.hpp"
 #include "src/material/material_file.hpp"
+#include "tests/folders.hpp"
 
 namespace whipple::decks {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 using ::testing::HasSubstr;
 
 Material library(const std::string& name) {
-  return read_material(WHIPPLE_SOURCE_DIR "/eos/materials/" + name + ".toml");
+  return read_material(whipple::tests::source_folder() + "/eos/materials/" + name + ".toml");
 }
 
 std::string card_of(const Material& material, CardFormat format, const std::string& units) {

@@ -15,6 +15,7 @@
 #include "src/decks/lattice.hpp"
 #include "src/decks/mpm3d_case.hpp"
 #include "src/decks/mpm3d_deck.hpp"
+#include "tests/folders.hpp"
 #include "tests/unit/folder_test.hpp"
 
 namespace whipple::decks {
@@ -24,7 +25,7 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const fs::path folder_of_decks = fs::path(WHIPPLE_SOURCE_DIR) / "tests" / "data" / "decks";
+const fs::path folder_of_decks = fs::path(whipple::tests::source_folder()) / "tests" / "data" / "decks";
 
 std::string deck_text(const std::string& name) { return read_text(folder_of_decks / name); }
 

@@ -10,6 +10,7 @@
 #include "src/case/case.hpp"
 #include "src/core/base/files.hpp"
 #include "src/decks/import.hpp"
+#include "tests/folders.hpp"
 #include "tests/unit/folder_test.hpp"
 
 namespace whipple::decks {
@@ -20,7 +21,8 @@ class DecksOfPoints : public FolderTest {
   /// Reads a deck of the tests with two lines replaced.
   Import import(const char* name, std::initializer_list<std::pair<std::string, std::string>> changes,
                 const ImportOptions& options) const {
-    std::string text = read_text(std::filesystem::path(WHIPPLE_SOURCE_DIR) / "tests/data/decks" / name);
+    std::string text =
+        read_text(std::filesystem::path(whipple::tests::source_folder()) / "tests/data/decks" / name);
     for (const auto& [from, to] : changes) {
       const std::size_t at = text.find(from);
       EXPECT_NE(at, std::string::npos) << from;

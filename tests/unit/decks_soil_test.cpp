@@ -10,6 +10,7 @@
 #include "src/core/base/files.hpp"
 #include "src/decks/import.hpp"
 #include "src/material/strength/drucker_prager.hpp"
+#include "tests/folders.hpp"
 #include "tests/unit/folder_test.hpp"
 
 namespace whipple::decks {
@@ -17,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path folder = fs::path(WHIPPLE_SOURCE_DIR) / "tests" / "data" / "decks";
+const fs::path folder = fs::path(whipple::tests::source_folder()) / "tests" / "data" / "decks";
 
 class SoilDeck : public FolderTest {
  protected:

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/folders.hpp"
 #include "tests/unit/temporary_folder.hpp"
 
 namespace whipple::app {
@@ -24,9 +25,10 @@ using ::testing::Not;
 class EosCommand : public ::testing::Test {
  protected:
   [[nodiscard]] int run(const std::string& arguments) const {
-    const int status = std::system(fmt::format("cd '{}' && '{}' eos {} > output.txt 2>&1",
-                                               folder.path().string(), WHIPPLE_EXECUTABLE, arguments)
-                                       .c_str());
+    const int status =
+        std::system(fmt::format("cd '{}' && '{}' eos {} > output.txt 2>&1", folder.path().string(),
+                                whipple::tests::program("whipple"), arguments)
+                        .c_str());
     return WEXITSTATUS(status);
   }
   [[nodiscard]] std::string read(const std::string& name) const {

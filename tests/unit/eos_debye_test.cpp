@@ -14,6 +14,7 @@
 #include "eos/loci.hpp"
 #include "eos/models/debye_function.hpp"
 #include "src/core/base/error.hpp"
+#include "tests/folders.hpp"
 #include "tests/unit/eos_support.hpp"
 #include "tests/validation/eos_marsh.hpp"
 
@@ -157,8 +158,8 @@ TEST(EosDebye, StaticIsothermsOfFourMetalsByDewaele) {
                         {"ta", debye_tantalum(), 180.948e-3, 0.4, 36}};
   for (const Case& test : cases) {
     const DebyeEos eos(test.constants);
-    const auto rows =
-        read_csv(std::string(WHIPPLE_SOURCE_DIR "/eos/data/") + test.file + "_isotherm_298K_dewaele2004.csv");
+    const auto rows = read_csv(std::string(whipple::tests::source_folder() + "/eos/data/") + test.file +
+                               "_isotherm_298K_dewaele2004.csv");
     ASSERT_EQ(rows.size(), test.points) << test.file;
     double sum = 0, mean = 0;
     for (const auto& row : rows) {
@@ -179,7 +180,8 @@ TEST(EosDebye, ThermalExpansionOfCopper) {
   // within 5 %, from 400 K on within 1.5 %; the data's own scatter is 0.08e-6/K. At 50 K one Debye
   // temperature is not enough for the true spectrum: 18 % low.
   const DebyeEos eos(debye_copper());
-  for (const auto& row : read_csv(WHIPPLE_SOURCE_DIR "/eos/data/cu_thermal_expansion_nist_hahn1.csv")) {
+  for (const auto& row :
+       read_csv(whipple::tests::source_folder() + "/eos/data/cu_thermal_expansion_nist_hahn1.csv")) {
     const double T = std::stod(row[0]), measured = std::stod(row[1]) * 1e-6;
     const State s = eos.state_at_temperature(density_at_pressure(eos, 0.0, T), T);
     const double tolerance = T >= 400 ? 0.015 : T >= 150 ? 0.05 : 0.2;

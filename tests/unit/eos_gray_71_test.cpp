@@ -9,6 +9,7 @@
 #include "eos/loci.hpp"
 #include "eos/models/gray_71.hpp"
 #include "src/core/base/error.hpp"
+#include "tests/folders.hpp"
 #include "tests/unit/eos_support.hpp"
 
 namespace whipple::eos::test {
@@ -20,7 +21,7 @@ constexpr double V0 = 0.1118e-3;
 TEST(EosGray71, AgreesWithAnIndependentImplementation) {
   const Gray71Eos eos(copper());
   int compared = 0;
-  for (const auto& row : read_csv(WHIPPLE_SOURCE_DIR "/tests/data/eos/gray_golden_cu.csv")) {
+  for (const auto& row : read_csv(whipple::tests::source_folder() + "/tests/data/eos/gray_golden_cu.csv")) {
     if (row[0] != "71") continue;
     ++compared;
     const double rho = 1 / (std::stod(row[2]) * V0);

@@ -8,6 +8,7 @@
 
 #include "eos/catalogue.hpp"
 #include "src/core/base/error.hpp"
+#include "tests/folders.hpp"
 #include "tests/unit/eos_support.hpp"
 
 namespace whipple::eos::test {
@@ -15,7 +16,7 @@ namespace {
 
 TEST(EosGray, AgreesWithAnIndependentImplementationToNineDigits) {
   const Gray gray(copper(MeltingTransition::isochoric));
-  const auto rows = read_csv(WHIPPLE_SOURCE_DIR "/tests/data/eos/gray_golden_cu.csv");
+  const auto rows = read_csv(whipple::tests::source_folder() + "/tests/data/eos/gray_golden_cu.csv");
   int compared = 0;
   for (const auto& row : rows) {
     if (row[0] != "C") continue;

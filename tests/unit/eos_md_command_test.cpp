@@ -10,6 +10,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/folders.hpp"
 #include "tests/unit/temporary_folder.hpp"
 
 namespace whipple::app {
@@ -49,7 +50,7 @@ steps = 400
         fmt::format(
             "cd '{0}' && XDG_CACHE_HOME='{0}/cache' '{1}' eos hugoniot crystal.toml --from '400 m/s' --to "
             "'401 m/s' --points 2 --csv points.csv --force {2} > output.txt 2>&1",
-            folder.path().string(), WHIPPLE_EXECUTABLE, options)
+            folder.path().string(), whipple::tests::program("whipple"), options)
             .c_str());
     return WEXITSTATUS(status);
   }
@@ -112,7 +113,7 @@ steps = 800
     const int status =
         std::system(fmt::format("cd '{}' && OMP_NUM_THREADS=1 OMPI_MCA_rmaps_base_oversubscribe=1 '{}' {} >> "
                                 "output.txt 2>&1",
-                                folder.path().string(), WHIPPLE_EXECUTABLE, arguments)
+                                folder.path().string(), whipple::tests::program("whipple"), arguments)
                         .c_str());
     return WEXITSTATUS(status);
   };

@@ -12,6 +12,7 @@
 #include "src/core/base/error.hpp"
 #include "src/fem/mesh_file.hpp"
 #include "src/fem/structured.hpp"
+#include "tests/folders.hpp"
 #include "tests/unit/fem_support.hpp"
 #include "tests/unit/folder_test.hpp"
 
@@ -25,7 +26,7 @@ using ::testing::HasSubstr;
 class Gmsh : public FolderTest {
  protected:
   static std::string text_of(const std::string& name) {
-    std::ifstream file(std::string(WHIPPLE_SOURCE_DIR) + "/tests/data/fem/" + name);
+    std::ifstream file(whipple::tests::source_folder() + "/tests/data/fem/" + name);
     std::ostringstream text;
     text << file.rdbuf();
     return text.str();
@@ -47,7 +48,7 @@ class Gmsh : public FolderTest {
 TEST_F(Gmsh, ReadsBothFormats) {
   std::vector<Hexahedra> plates;
   for (const char* name : {"two_boxes_22.msh", "two_boxes_41.msh"}) {
-    const auto file = fem::MeshFile::read(std::string(WHIPPLE_SOURCE_DIR) + "/tests/data/fem/" + name, 1e-3);
+    const auto file = fem::MeshFile::read(whipple::tests::source_folder() + "/tests/data/fem/" + name, 1e-3);
     EXPECT_THAT(file.group_names(),
                 ::testing::UnorderedElementsAre("plate", "projectile", "rebar", "bottom"));
     const Hexahedra plate = file.hexahedra("plate"), projectile = file.hexahedra("projectile");
@@ -97,7 +98,7 @@ TEST_F(Gmsh, GroupsAreThoseOfADimension) {
   EXPECT_THAT(message_of<InputError>([&] { std::ignore = file.hexahedra("2"); }),
               HasSubstr("no physical group"));
   const auto boxes =
-      fem::MeshFile::read(std::string(WHIPPLE_SOURCE_DIR) + "/tests/data/fem/two_boxes_41.msh");
+      fem::MeshFile::read(whipple::tests::source_folder() + "/tests/data/fem/two_boxes_41.msh");
   EXPECT_THAT(boxes.group_names(3), ::testing::UnorderedElementsAre("plate", "projectile"));
 }
 
@@ -127,7 +128,7 @@ TEST_F(Gmsh, NamesFileLineAndElement) {
   const auto of_group = [](const std::filesystem::path& path, const std::string& group) {
     return message_of<InputError>([&] { std::ignore = fem::MeshFile::read(path).hexahedra(group); });
   };
-  const std::filesystem::path good = std::string(WHIPPLE_SOURCE_DIR) + "/tests/data/fem/two_boxes_22.msh";
+  const std::filesystem::path good = whipple::tests::source_folder() + "/tests/data/fem/two_boxes_22.msh";
   EXPECT_THAT(of_group(good, "projektile"),
               AllOf(HasSubstr("no physical group \"projektile\""), HasSubstr("did you mean \"projectile\""),
                     HasSubstr("The mesh has: rebar, bottom, plate, projectile")));

@@ -9,6 +9,7 @@
 #include "src/core/base/error.hpp"
 #include "src/fem/mesh_file.hpp"
 #include "src/fem/structured.hpp"
+#include "tests/folders.hpp"
 #include "tests/unit/fem_support.hpp"
 #include "tests/unit/folder_test.hpp"
 
@@ -20,7 +21,7 @@ using ::testing::HasSubstr;
 class Vtk : public FolderTest {
  protected:
   static std::string text_of(const std::string& name) {
-    std::ifstream file(std::string(WHIPPLE_SOURCE_DIR) + "/tests/data/fem/" + name, std::ios::binary);
+    std::ifstream file(whipple::tests::source_folder() + "/tests/data/fem/" + name, std::ios::binary);
     std::ostringstream text;
     text << file.rdbuf();
     return text.str();
@@ -45,7 +46,7 @@ class Vtk : public FolderTest {
 TEST_F(Vtk, EveryEncodingIsTheSameMesh) {
   for (const char* name : {"boxes_ascii.vtu", "boxes_base64.vtu", "boxes_zlib.vtu", "boxes_raw.vtu",
                            "boxes_appended_zlib.vtu", "boxes_raw_zlib.vtu", "boxes_51.vtk", "boxes_42.vtk"}) {
-    const auto file = fem::MeshFile::read(std::string(WHIPPLE_SOURCE_DIR) + "/tests/data/fem/" + name, 1e-3);
+    const auto file = fem::MeshFile::read(whipple::tests::source_folder() + "/tests/data/fem/" + name, 1e-3);
     EXPECT_EQ(file.group_names(), (std::vector<std::string>{"body 0", "body 1", "body 2"})) << name;
     EXPECT_EQ(file.group_names(3), (std::vector<std::string>{"body 0", "body 1"})) << name;
     const fem::Hexahedra two = file.hexahedra("body 0"), one = file.hexahedra("body 1");

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/folders.hpp"
 #include "tests/unit/temporary_folder.hpp"
 
 namespace whipple::app {
@@ -26,9 +27,10 @@ std::string read_text(const std::filesystem::path& path) {
 class CompareCommand : public ::testing::Test {
  protected:
   [[nodiscard]] int run(const std::string& arguments) const {
-    const int status = std::system(fmt::format("cd '{}' && '{}' compare {} > output.txt 2>&1",
-                                               folder.path().string(), WHIPPLE_EXECUTABLE, arguments)
-                                       .c_str());
+    const int status =
+        std::system(fmt::format("cd '{}' && '{}' compare {} > output.txt 2>&1", folder.path().string(),
+                                whipple::tests::program("whipple"), arguments)
+                        .c_str());
     return WEXITSTATUS(status);
   }
   [[nodiscard]] std::string output() const { return read_text(folder.path() / "output.txt"); }
@@ -62,7 +64,9 @@ TEST_F(CompareCommand, WritesPointsAndFigureOnce) {
 
 // A hot isotherm of copper itself, as densities with an initial density: no deviation at any temperature.
 TEST_F(CompareCommand, AHotIsothermIsComparedAtItsDensities) {
-  ASSERT_EQ(run("copper --with " WHIPPLE_SOURCE_DIR "/tests/data/eos/copper_isotherm_1500K.csv"), 0)
+  ASSERT_EQ(
+      run("copper --with " + whipple::tests::source_folder() + "/tests/data/eos/copper_isotherm_1500K.csv"),
+      0)
       << output();
   EXPECT_THAT(output(), ::testing::ContainsRegex(
                             "isotherm 1500 K +copper +5 +rho .* 0\\.00 +[+-]0\\.00 +[+-]0\\.00 +GPa"));
@@ -70,7 +74,8 @@ TEST_F(CompareCommand, AHotIsothermIsComparedAtItsDensities) {
 
 // Beside a fitted material one without errors has its deviations and no band; a warning of many draws is one line.
 TEST_F(CompareCommand, FittedMaterialsStandBesideOthers) {
-  std::string text = read_text(std::filesystem::path(WHIPPLE_SOURCE_DIR) / "eos/materials/copper.toml");
+  std::string text =
+      read_text(std::filesystem::path(whipple::tests::source_folder()) / "eos/materials/copper.toml");
   text +=
       "\n[covariance]\nnames = [\"hugoniot_intercept\"]\nunits = [\"m/s\"]\n[covariance.matrix]\n"
       "hugoniot_intercept = [400.0]\n";

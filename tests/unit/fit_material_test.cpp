@@ -22,6 +22,7 @@
 #include "src/core/base/units.hpp"
 #include "src/material/material_file.hpp"
 #include "src/material/material_samples.hpp"
+#include "tests/folders.hpp"
 #include "tests/unit/fit_support.hpp"
 #include "tests/unit/temporary_folder.hpp"
 
@@ -91,9 +92,8 @@ class FitMaterial : public ::testing::Test {
                          folder.path() / "template.toml");
   }
   [[nodiscard]] int run(const std::string& arguments) const {
-    const int status = std::system(fmt::format("'{}' {} > '{}' 2>&1", WHIPPLE_FIT_EXECUTABLE, arguments,
-                                               (folder.path() / "output.txt").string())
-                                       .c_str());
+    const std::string program = tests::program("whipple-fit"), out = (folder.path() / "output.txt").string();
+    const int status = std::system(fmt::format("'{}' {} > '{}' 2>&1", program, arguments, out).c_str());
     return WEXITSTATUS(status);
   }
   [[nodiscard]] std::string output() const { return read_text(folder.path() / "output.txt"); }

@@ -12,6 +12,7 @@
 #include "src/core/base/files.hpp"
 #include "src/material/material_coverage.hpp"
 #include "src/material/material_file.hpp"
+#include "tests/folders.hpp"
 #include "tests/unit/fit_support.hpp"
 #include "tests/unit/temporary_folder.hpp"
 
@@ -29,8 +30,8 @@ class FitMeasured : public ::testing::Test {
     }
   }
   [[nodiscard]] int run(const std::string& arguments) const {
-    const int status = std::system(fmt::format("'{}' {} > '{}' 2>&1", WHIPPLE_FIT_EXECUTABLE, arguments,
-                                               (folder.path() / "output.txt").string())
+    const int status = std::system(fmt::format("'{}' {} > '{}' 2>&1", whipple::tests::program("whipple-fit"),
+                                               arguments, (folder.path() / "output.txt").string())
                                        .c_str());
     return WEXITSTATUS(status);
   }

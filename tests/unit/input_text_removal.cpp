@@ -14,6 +14,7 @@
 #include "src/core/base/files.hpp"
 #include "src/core/input/text_edit.hpp"
 #include "src/core/input/text_tree.hpp"
+#include "tests/folders.hpp"
 
 namespace whipple::input {
 namespace {
@@ -190,7 +191,7 @@ std::vector<Key> keys_of(const std::string& text) {
 
 std::map<std::string, std::string> shipped_cases() {
   std::map<std::string, std::string> texts;
-  for (const auto& folder : fs::directory_iterator(fs::path(WHIPPLE_SOURCE_DIR) / "cases")) {
+  for (const auto& folder : fs::directory_iterator(fs::path(whipple::tests::source_folder()) / "cases")) {
     const fs::path file = folder.path() / "case.toml";
     if (fs::exists(file)) texts[folder.path().filename().string()] = whipple::read_text(file);
   }

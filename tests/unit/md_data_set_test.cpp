@@ -17,6 +17,7 @@
 #include "src/core/base/error.hpp"
 #include "src/core/base/hash.hpp"
 #include "src/core/hdf5/hdf5.hpp"
+#include "tests/folders.hpp"
 #include "tests/unit/temporary_folder.hpp"
 
 namespace whipple::md {
@@ -288,7 +289,7 @@ void expect_same_entries(const PointRecord& stored) {
 
 // The store was written before there were records (tests/data/md/copper_records.toml).
 TEST(Records, ReadStoresThatExist) {
-  const std::filesystem::path path(WHIPPLE_SOURCE_DIR "/tests/data/md/copper_records.md.h5");
+  const std::filesystem::path path(whipple::tests::source_folder() + "/tests/data/md/copper_records.md.h5");
   const std::vector<PointRecord> points = read_store(path);
   std::map<std::string, std::function<void(const PointRecord&)>> check = {
       {"lattice", expect_same_entries<LatticePoint>},
@@ -341,7 +342,7 @@ TEST(Records, NameWhatAStoreLacks) {
 }
 
 TEST(Records, TheListOfTheTheoryIsThatOfTheProgram) {
-  std::ifstream file(WHIPPLE_SOURCE_DIR "/docs/theory/molecular_dynamics.md");
+  std::ifstream file(whipple::tests::source_folder() + "/docs/theory/molecular_dynamics.md");
   const std::string page((std::istreambuf_iterator<char>(file)), {});
   EXPECT_NE(page.find(describe_points()), std::string::npos) << describe_points();
 }

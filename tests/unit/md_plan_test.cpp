@@ -6,6 +6,7 @@
 
 #include "md_fitting/plan/plan.hpp"
 #include "src/core/base/error.hpp"
+#include "tests/folders.hpp"
 
 namespace whipple::md {
 namespace {
@@ -83,7 +84,8 @@ TEST(Plan, DescriptionNamesEveryKey) {
 
 TEST(Plan, ShippedPlansAreValid) {
   int plans = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(WHIPPLE_SOURCE_DIR "/cases/md")) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(whipple::tests::source_folder() + "/cases/md")) {
     if (entry.path().extension() != ".toml") continue;
     ++plans;
     Plan plan;

@@ -10,6 +10,7 @@
 #include "md_fitting/protocols/catalogue.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/hash.hpp"
+#include "tests/folders.hpp"
 #include "tests/unit/md_mpi_environment.hpp"
 
 namespace whipple::md {
@@ -52,7 +53,8 @@ class Keys : public ::testing::Test {
 };
 
 TEST_F(Keys, OfTheShippedPlansAreThoseOfTheFirstStores) {
-  const Plan plan = read_plan(std::filesystem::path(WHIPPLE_SOURCE_DIR "/cases/md/copper_u3_short.toml"));
+  const Plan plan =
+      read_plan(std::filesystem::path(whipple::tests::source_folder() + "/cases/md/copper_u3_short.toml"));
   const std::vector<Task> tasks = make_tasks(plan, potential);
   const auto stands = [&](const std::string& wanted) {
     return std::any_of(tasks.begin(), tasks.end(), [&](const Task& task) { return task.key == wanted; });
@@ -70,7 +72,7 @@ TEST_F(Keys, OfTheShippedPlansAreThoseOfTheFirstStores) {
                          "cells=4\nequilibration_steps=1000\nsteps=4000\ntime_step=automatic\n", reference)));
 
   const Plan melting =
-      read_plan(std::filesystem::path(WHIPPLE_SOURCE_DIR "/cases/md/copper_u3_melting.toml"));
+      read_plan(std::filesystem::path(whipple::tests::source_folder() + "/cases/md/copper_u3_melting.toml"));
   const std::vector<Task> melting_tasks = make_tasks(melting, potential);
   const CoexistencePlan& section = melting.coexistences.front();
   const std::string wanted = key(
@@ -129,7 +131,8 @@ TEST_F(Keys, ChangeWithWhatChangesTheNumbersOnly) {
 TEST_F(Keys, DependenciesComeFirst) {
   std::set<std::string> names;
   for (const Protocol& protocol : protocols()) EXPECT_TRUE(names.insert(protocol.name).second);
-  const Plan plan = read_plan(std::filesystem::path(WHIPPLE_SOURCE_DIR "/cases/md/copper_u3_short.toml"));
+  const Plan plan =
+      read_plan(std::filesystem::path(whipple::tests::source_folder() + "/cases/md/copper_u3_short.toml"));
   std::set<std::string> seen;
   int dependent = 0;
   for (const Task& task : make_tasks(plan, potential)) {

@@ -13,6 +13,7 @@
 #include "src/core/base/json.hpp"
 #include "src/run/observers/history_columns.hpp"
 #include "src/solver/accounts.hpp"
+#include "tests/folders.hpp"
 #include "tests/unit/ball_on_plate.hpp"
 
 namespace whipple::run {
@@ -22,14 +23,14 @@ using ::testing::HasSubstr;
 
 TEST(HistoryColumns, StandInTheManual) {
   const std::string table = history_columns_as_markdown();
-  EXPECT_THAT(read_text(WHIPPLE_SOURCE_DIR "/docs/manual/output.md"), HasSubstr(table))
+  EXPECT_THAT(read_text(whipple::tests::source_folder() + "/docs/manual/output.md"), HasSubstr(table))
       << "docs/manual/output.md must hold:\n"
       << table;
 }
 
 TEST(Accounts, StandInTheManual) {
   const std::string tables = accounts_as_markdown();
-  EXPECT_THAT(read_text(WHIPPLE_SOURCE_DIR "/docs/manual/output.md"), HasSubstr(tables))
+  EXPECT_THAT(read_text(whipple::tests::source_folder() + "/docs/manual/output.md"), HasSubstr(tables))
       << "docs/manual/output.md must hold:\n"
       << tables;
 }

@@ -14,6 +14,7 @@
 #include "src/core/base/error.hpp"
 #include "src/shields/equation_forms.hpp"
 #include "src/shields/equations.hpp"
+#include "tests/folders.hpp"
 
 namespace whipple::shields {
 namespace {
@@ -40,7 +41,7 @@ Impact impact(double velocity, double angle, std::size_t bumpers) {
 
 /// Reads the rows of tests/data/shields/ble_worked_numbers.csv: speed, angle, six diameters in cm.
 std::vector<std::vector<double>> worked_rows() {
-  std::ifstream file(WHIPPLE_SOURCE_DIR "/tests/data/shields/ble_worked_numbers.csv");
+  std::ifstream file(whipple::tests::source_folder() + "/tests/data/shields/ble_worked_numbers.csv");
   std::vector<std::vector<double>> rows;
   for (std::string line; std::getline(file, line);) {
     if (line.empty() || line[0] == '#' || line[0] == 'v') continue;

@@ -6,6 +6,7 @@
 
 #include "eos/inversions.hpp"
 #include "eos/loci.hpp"
+#include "tests/folders.hpp"
 #include "tests/unit/eos_support.hpp"
 #include "tests/validation/eos_marsh.hpp"
 
@@ -15,7 +16,7 @@ namespace {
 TEST(EosCopper, RoomTemperatureIsothermOfDewaeleTo153GPa) {
   // Dewaele, Loubeyre, Mezouar, Phys. Rev. B 70, 094112 (2004), revised ruby scale.
   const GrayEos eos(copper());
-  const auto rows = read_csv(WHIPPLE_SOURCE_DIR "/eos/data/cu_isotherm_298K_dewaele2004.csv");
+  const auto rows = read_csv(whipple::tests::source_folder() + "/eos/data/cu_isotherm_298K_dewaele2004.csv");
   ASSERT_EQ(rows.size(), 42u);
   const double rho0 = density_at_pressure(eos, 0.0, 298.0);
   double sum = 0, mean = 0;

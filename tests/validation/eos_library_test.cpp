@@ -14,15 +14,16 @@
 #include "eos/models/solid_transition.hpp"
 #include "src/core/base/pattern.hpp"
 #include "src/material/material_file.hpp"
+#include "tests/folders.hpp"
 #include "tests/unit/eos_support.hpp"
 
 namespace whipple::eos::test {
 namespace {
 
-const std::string data = WHIPPLE_SOURCE_DIR "/eos/data/";
+const std::string data = whipple::tests::source_folder() + "/eos/data/";
 
 Material library(const std::string& name) {
-  return read_material(WHIPPLE_SOURCE_DIR "/eos/materials/" + name + ".toml");
+  return read_material(whipple::tests::source_folder() + "/eos/materials/" + name + ".toml");
 }
 
 /// Root of the mean square and mean of a series.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "eos/loci.hpp"
+#include "tests/folders.hpp"
 #include "tests/unit/eos_support.hpp"
 
 namespace whipple::eos::test {
@@ -19,7 +20,7 @@ struct ShockDeviation {
 inline ShockDeviation deviation_from_marsh(const EquationOfState& eos) {
   double sum = 0, mean = 0;
   int count = 0;
-  for (const auto& row : read_csv(WHIPPLE_SOURCE_DIR "/eos/data/cu_hugoniot_marsh1980.csv")) {
+  for (const auto& row : read_csv(whipple::tests::source_folder() + "/eos/data/cu_hugoniot_marsh1980.csv")) {
     const double up = std::stod(row[2]) * 1e3, us = std::stod(row[1]) * 1e3;
     if (up == 0) continue;
     const double deviation = Hugoniot(eos).at_particle_velocity(up).shock_velocity / us - 1;

@@ -18,6 +18,7 @@
 #include "eos/models/gray.hpp"
 #include "src/core/base/error.hpp"
 #include "src/material/material.hpp"
+#include "tests/folders.hpp"
 #include "tests/unit/temporary_folder.hpp"
 
 namespace whipple::eos::experiments {
@@ -25,7 +26,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::filesystem::path data = std::filesystem::path(WHIPPLE_SOURCE_DIR) / "eos/data";
+const std::filesystem::path data = std::filesystem::path(whipple::tests::source_folder()) / "eos/data";
 
 Experiment read_experiment(const std::filesystem::path& file, std::optional<double> temperature = {}) {
   return read_experiments(file, temperature).front();

@@ -14,6 +14,7 @@
 
 #include "eos/loci.hpp"
 #include "src/core/base/error.hpp"
+#include "tests/folders.hpp"
 #include "tests/verification/solver_problems.hpp"
 
 namespace whipple::verification {
@@ -21,7 +22,7 @@ namespace {
 
 const cases::Case& disk_case() {
   static const cases::Case setup =
-      cases::read_case(std::string(WHIPPLE_SOURCE_DIR) + "/cases/copper_disk_on_aluminium/case.toml",
+      cases::read_case(whipple::tests::source_folder() + "/cases/copper_disk_on_aluminium/case.toml",
                        {{"domain.cell_size", "0.8 mm"}});
   return setup;
 }
@@ -99,7 +100,7 @@ TEST(DebrisCloud, IsTheSameForEveryTimeStep) {
   };
   const auto cloud = [](const char* courant) {
     const cases::Case setup =
-        cases::read_case(std::string(WHIPPLE_SOURCE_DIR) + "/cases/copper_disk_on_aluminium/case.toml",
+        cases::read_case(whipple::tests::source_folder() + "/cases/copper_disk_on_aluminium/case.toml",
                          {{"domain.cell_size", "1 mm"}, {"time.end", "4 us"}, {"time.courant", courant}});
     solver::Simulation simulation(setup, parallel::world());
     EnergyWatch watch;
@@ -148,7 +149,7 @@ TEST(LeadCloud, HeatsTheSameForEveryTimeStep) {
   };
   const auto cloud = [](const char* courant) {
     const cases::Case setup = cases::read_case(
-        std::string(WHIPPLE_SOURCE_DIR) + "/cases/lead_sphere_on_plate_gray/case.toml",
+        whipple::tests::source_folder() + "/cases/lead_sphere_on_plate_gray/case.toml",
         {{"domain.cell_size", "2.1428571429 mm"}, {"time.end", "10 us"}, {"time.courant", courant}});
     solver::Simulation simulation(setup, parallel::world());
     const double at_start = simulation.totals().internal_energy;

@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include "src/case/build/tables.hpp"
+#include "tests/folders.hpp"
 #include "tests/verification/solver_problems.hpp"
 
 namespace whipple::verification {
@@ -21,7 +22,7 @@ struct Outcome {
 
 Outcome outcome(const std::string& evaluation) {
   cases::Case setup =
-      cases::read_case(std::string(WHIPPLE_SOURCE_DIR) + "/cases/copper_disk_on_aluminium/case.toml",
+      cases::read_case(whipple::tests::source_folder() + "/cases/copper_disk_on_aluminium/case.toml",
                        {{"domain.cell_size", "1.2 mm"},
                         {"time.end", "5 us"},
                         {"body.0.equation_of_state", evaluation},

@@ -9,6 +9,7 @@
 #include "eos/inversions.hpp"
 #include "eos/loci.hpp"
 #include "src/core/base/error.hpp"
+#include "tests/folders.hpp"
 #include "tests/unit/eos_impact_constants.hpp"
 #include "tests/unit/eos_support.hpp"
 
@@ -131,7 +132,7 @@ TEST(EosModels, MurnaghanFollowsTheMeasuredIsothermOfCopper) {
   const double V0 = 63.546e-3 / 6.02214076e23 / 8935 * 1e30;
   int rows = 0;
   for (const auto& row :
-       read_csv(std::string(WHIPPLE_SOURCE_DIR) + "/eos/data/cu_isotherm_298K_dewaele2004.csv")) {
+       read_csv(whipple::tests::source_folder() + "/eos/data/cu_isotherm_298K_dewaele2004.csv")) {
     const double p = std::stod(row[1]), V = std::stod(row[2]);
     if (p < 5 || p > 40) continue;
     EXPECT_NEAR(eos.state_at_temperature(8935 * V0 / V, 298).pressure * 1e-9, p, 0.03 * p) << V;
@@ -325,7 +326,7 @@ TEST(EosModels, TillotsonFollowsTheMeasuredHugoniotOfAluminium) {
   int rows = 0;
   double deviation = 0;
   for (const auto& row :
-       read_csv(std::string(WHIPPLE_SOURCE_DIR) + "/eos/data/al_hugoniot_mitchell_nellis1981.csv")) {
+       read_csv(whipple::tests::source_folder() + "/eos/data/al_hugoniot_mitchell_nellis1981.csv")) {
     const double V = std::stod(row[0]), p = std::stod(row[1]);
     if (p < 100) continue;
     EXPECT_NEAR(Hugoniot(eos).at_density(2700 / V).state.pressure * 1e-9, p, 0.08 * p) << V;

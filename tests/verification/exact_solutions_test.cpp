@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "src/material/material_file.hpp"
+#include "tests/folders.hpp"
 #include "tests/verification/exact/gas_solutions.hpp"
 #include "tests/verification/exact/piston.hpp"
 #include "tests/verification/exact/planar_impact.hpp"
@@ -93,7 +94,7 @@ TEST(ExactSolutions, TwoWavesObeyTheJumpConditions) {
 // Energy, entropy and jump conditions of the released states of all impacts.
 TEST(ExactSolutions, ReleaseKeepsTheEntropyOfTheShock) {
   for (const PlanarImpact& impact : planar_impacts()) {
-    const Material flyer = read_material(impact.flyer, WHIPPLE_SOURCE_DIR);
+    const Material flyer = read_material(impact.flyer, whipple::tests::source_folder());
     const eos::Hugoniot hugoniot(*flyer.eos);
     const ShockedAndReleased exact(flyer, hugoniot.at_particle_velocity(0.5 * impact.speed));
     const eos::State& shocked = exact.shocked().state;

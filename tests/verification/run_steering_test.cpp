@@ -33,6 +33,7 @@
 #include "src/run/replay_control.hpp"
 #include "src/run/runner.hpp"
 #include "src/run/status.hpp"
+#include "tests/folders.hpp"
 #include "tests/unit/ball_on_plate.hpp"
 #include "tests/unit/folder_test.hpp"
 #include "tests/unit/temporary_folder.hpp"
@@ -452,7 +453,7 @@ TEST_F(Steering, ObserversSeeTheFailureOfARun) {
 }
 
 TEST(Requests, StandInTheManual) {
-  const std::string manual = text_of(WHIPPLE_SOURCE_DIR "/docs/manual/output.md");
+  const std::string manual = text_of(whipple::tests::source_folder() + "/docs/manual/output.md");
   for (const ActEntry& entry : acts())
     EXPECT_THAT(manual,
                 HasSubstr("| `" + std::string(entry.word) + "` | " + std::string(entry.meaning) + " |"));

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/folders.hpp"
 #include "tests/verification/averaged_collision.hpp"
 
 namespace whipple::verification {
@@ -57,7 +58,7 @@ TEST(Averages, SchemesWithoutExactEnergyAreAveragedToo) {
 
 /// Returns the deflection (m) of the upper corner of the membrane of cases/cook_membrane at rest.
 double deflection(const std::string& cell, const std::string& volumetric, bool linear = false) {
-  const std::string file = std::string(WHIPPLE_SOURCE_DIR) + "/cases/cook_membrane/case.toml";
+  const std::string file = whipple::tests::source_folder() + "/cases/cook_membrane/case.toml";
   std::vector<std::pair<std::string, std::string>> overrides = {{"domain.cell_size", cell},
                                                                 {"time.end", "80 s"},
                                                                 {"body.0.volumetric", volumetric},

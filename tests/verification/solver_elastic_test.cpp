@@ -7,6 +7,7 @@
 #include <functional>
 #include <numbers>
 
+#include "tests/folders.hpp"
 #include "tests/verification/same_state.hpp"
 #include "tests/verification/solver_problems.hpp"
 
@@ -139,7 +140,8 @@ cases::Case rubber_block() {
       method.time_toml(4e-4) + method.toml() +
           "[domain]\nlower = [0, -0.004, -0.004]\nupper = [0.012, 0.008, 0.008]\ncell_size = 0.001\n"
           "boundary = { x_lower = \"separating\" }\n"
-          "[[body]]\nname = \"block\"\nmaterial = \"" WHIPPLE_SOURCE_DIR
+          "[[body]]\nname = \"block\"\nmaterial = \"" +
+          whipple::tests::source_folder() +
           "/tests/data/rubber.toml\"\nvelocity = [-5, 0, 0]\n"
           "shape = { box = { lower = [0.0012, 0, 0], upper = [0.0072, 0.004, 0.004] } }\n",
       "rubber.toml");

@@ -17,6 +17,7 @@
 
 #include "src/solver/carriers/domains.hpp"
 #include "src/transfer/shape_function.hpp"
+#include "tests/folders.hpp"
 #include "tests/verification/lagrangian_expansion.hpp"
 #include "tests/verification/solver_problems.hpp"
 
@@ -207,7 +208,7 @@ TEST(Division, OfAParticleOfAnyLengthKeepsEverySumAndLetsNothingGrow) {
 /// The lead sphere of cases/lead_sphere_on_plate_gray as a section, 14 cells across.
 cases::Case lead_section(const std::string& more_of_material,
                          std::vector<std::pair<std::string, std::string>> overrides) {
-  const std::string folder = WHIPPLE_SOURCE_DIR "/cases/lead_sphere_on_plate_gray/";
+  const std::string folder = whipple::tests::source_folder() + "/cases/lead_sphere_on_plate_gray/";
   std::ifstream file(folder + "lead_linear.toml");
   std::stringstream text;
   text << file.rdbuf() << more_of_material;

@@ -11,13 +11,14 @@
 #include <string>
 #include <vector>
 
+#include "tests/folders.hpp"
 #include "tests/verification/compaction_shock.hpp"
 #include "tests/verification/solver_problems.hpp"
 
 namespace whipple::verification {
 namespace {
 
-const std::string foam_file = WHIPPLE_SOURCE_DIR "/cases/foam_block/foam.toml";
+const std::string foam_file = whipple::tests::source_folder() + "/cases/foam_block/foam.toml";
 constexpr double plateau = 14.83e6, foam_density = 510.0, locking = 1.0 - 510.0 / 2700.0;
 
 cases::Case thrown_block(const ThrownBlock& block, double cell) {

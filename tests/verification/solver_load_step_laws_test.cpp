@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "src/core/base/error.hpp"
+#include "tests/folders.hpp"
 #include "tests/verification/load_step_problems.hpp"
 
 namespace whipple::verification {
@@ -70,12 +71,13 @@ TEST(LoadSteps, ADrivenPlateDoesTheWorkOfItsForce) {
 // Laws of metals, soil, concrete, ceramics, foam and rubber as they are: a block is pushed down by 1 %, no step is cut,
 // and the force on the plate is that on the floor.
 TEST(LoadSteps, TakeEveryLawOfASolid) {
-  const std::string cases_of = WHIPPLE_SOURCE_DIR "/cases/";
+  const std::string cases_of = whipple::tests::source_folder() + "/cases/";
   for (const std::string& material :
        {std::string("copper_johnson_cook.toml"), std::string("copper.toml"),
         std::string("copper_ofhc_half_hard_mts_mie_gruneisen.toml"), std::string("concrete_48mpa_hjc.toml"),
         std::string("alumina_99_5_jh2.toml"), cases_of + "slope_failure/soil.toml",
-        cases_of + "foam_block/foam.toml", std::string(WHIPPLE_SOURCE_DIR "/tests/data/rubber.toml")}) {
+        cases_of + "foam_block/foam.toml",
+        std::string(whipple::tests::source_folder() + "/tests/data/rubber.toml")}) {
     std::string text = block("", "");
     for (const auto& [from, to] : {std::pair{soft_column(), material}, std::pair{soft_column(), material},
                                    std::pair{std::string("-0.5"), std::string("-0.03")},

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "src/fem/mesh.hpp"
+#include "tests/folders.hpp"
 #include "tests/verification/solver_problems.hpp"
 
 namespace whipple::verification {
@@ -83,7 +84,7 @@ box = {{ lower = ["{6} m", "40 m", "-1 m"], upper = ["50 m", "65 m", "50 m"] }}
 [[load]]
 damping = "0.2 1/s"
 )",
-                                        -4.0 * size, 8.0 * size, size, WHIPPLE_SOURCE_DIR,
+                                        -4.0 * size, 8.0 * size, size, whipple::tests::source_folder(),
                                         write_panel(folder, elements), options, 48.0 - 0.5 * size),
                             "membrane.toml");
   solver::Simulation simulation(setup, parallel::world());

@@ -12,6 +12,7 @@
 #include <set>
 
 #include "src/transfer/shape_function.hpp"
+#include "tests/folders.hpp"
 #include "tests/verification/every_method.hpp"
 #include "tests/verification/solver_problems.hpp"
 
@@ -41,7 +42,7 @@ solver::Simulation simulation_of(const cases::Case& setup, Particles particles) 
 }
 
 TEST(ComparisonSchemes, RunASmallImpactWithoutFurtherKeysAndObeyALimitOfTheEnergyErrorThatIsGiven) {
-  const std::string file = WHIPPLE_SOURCE_DIR "/tests/data/small_impact.toml";
+  const std::string file = whipple::tests::source_folder() + "/tests/data/small_impact.toml";
   for (const char* scheme : {"musl", "usl", "usf"}) {
     SCOPED_TRACE(scheme);
     const std::pair<std::string, std::string> choice{"time.scheme", scheme};

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <string>
 
+#include "tests/folders.hpp"
 #include "tests/verification/solver_problems.hpp"
 
 namespace whipple::verification {
@@ -37,7 +38,7 @@ TEST(SmoothedParticles, LinearVelocityFieldsHaveExactGradients) {
 
 // The wall alone changes momentum; energy is exact at every step.
 TEST(SmoothedParticles, KeepEnergyAndLateralMomentum) {
-  const cases::Case setup = cases::read_case(std::string(WHIPPLE_SOURCE_DIR) + "/cases/taylor_bar/case.toml",
+  const cases::Case setup = cases::read_case(whipple::tests::source_folder() + "/cases/taylor_bar/case.toml",
                                              {{"domain.cell_size", "1.52 mm"},
                                               {"domain.lower", "['-6.08 mm', '-6.08 mm', '0 mm']"},
                                               {"domain.boundary.x_lower", "outflow"},

@@ -134,12 +134,50 @@ void warn_of_gaps(const Case& setup, ContactFields& found) {
 
 }  // namespace
 
-bool ContactFields::several() const { return count_of(of_body) > 1; }
+unsigned ContactFields::count() const {
+  unsigned all = count_of(of_body);
+  for (std::size_t b = 0; b < pieces.size(); ++b) {
+    if (pieces[b] != 0) all = std::max(all, pieces[b] + fields_of_pieces);
+  }
+  return all;
+}
+
+unsigned ContactFields::parts(std::size_t body) const { return pieces[body] != 0 ? 1 + fields_of_pieces : 1; }
+
+namespace {
+
+/// Gives fields to the pieces of bodies, as far as velocity fields are available.
+void give_fields_to_pieces(const Case& setup, ContactFields& found) {
+  found.pieces.assign(setup.bodies.size(), 0);
+  unsigned count = count_of(found.of_body);
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    if (!setup.bodies[b].parts_touch()) continue;
+    const auto shared = std::ranges::count(found.of_body, found.of_body[b]);
+    if (shared > 1) {
+      found.warnings.push_back(
+          fmt::format("body \"{}\": its pieces do not touch each other, since it is bonded to another body: "
+                      "a contact_group of its own lets them",
+                      setup.bodies[b].name));
+      continue;
+    }
+    if (count + fields_of_pieces > grid::maximum_fields_with_cracks) {
+      found.warnings.push_back(fmt::format(
+          "body \"{}\": no velocity fields are left for its pieces, they do not touch each other: each such "
+          "body takes {} of {}, and every body one",
+          setup.bodies[b].name, fields_of_pieces, grid::maximum_fields_with_cracks));
+      continue;
+    }
+    found.pieces[b] = static_cast<std::uint8_t>(count);
+    count += fields_of_pieces;
+  }
+}
+
+}  // namespace
 
 std::vector<std::uint8_t> cracked_fields(const Case& setup, ContactFields& found) {
   const unsigned sectors = grid::crack_sectors(setup.geometry.is_planar());
   std::vector<std::uint8_t> cracked;
-  unsigned count = count_of(found.of_body);
+  unsigned count = found.count();
   const auto divides = [&](std::size_t b) { return setup.bodies[b].failure.cracks == CrackMotion::fields; };
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     if (!divides(b)) continue;
@@ -192,6 +230,7 @@ ContactFields find_contact_fields(const Case& setup) {
         "the full mass matrix (transfer.particle_update = \"fmpm\") has no contact: all bodies move in one "
         "velocity field, bonded where they meet");
   }
+  give_fields_to_pieces(setup, found);
   found.cracked = cracked_fields(setup, found);
   warn_of_gaps(setup, found);
   return found;

@@ -10,14 +10,27 @@ namespace whipple::cases {
 struct Body;
 struct Case;
 
+/// Number of further fields of a body whose pieces touch each other.
+constexpr unsigned fields_of_pieces = 15;
+
 /// Describes which bodies share a velocity field, and why.
 struct ContactFields {
   std::vector<std::uint8_t> of_body;  ///< field numbers from 0
   std::vector<std::uint8_t> cracked;  ///< fields that divide at cracks
+  /// First of the `fields_of_pieces` further fields of each body for pieces that deletion has parted; 0: it has none
+  std::vector<std::uint8_t> pieces = {};
   std::vector<std::string> remarks;   ///< decisions of method `auto`
   std::vector<std::string> warnings;  ///< bodies that meet but share a velocity field
+  /// Returns the number of fields, those of pieces included, those of cracks not.
+  [[nodiscard]] unsigned count() const;
   /// Returns whether there is more than one field.
-  [[nodiscard]] bool several() const;
+  [[nodiscard]] bool several() const { return count() > 1; }
+  /// Returns the field of a part of a body. @param part  0: the body itself, otherwise a piece, from 1
+  [[nodiscard]] std::uint8_t of_part(std::size_t body, std::uint8_t part) const {
+    return part == 0 ? of_body[body] : static_cast<std::uint8_t>(pieces[body] + part - 1);
+  }
+  /// Returns the number of parts of a body that have fields of their own, the body itself included.
+  [[nodiscard]] unsigned parts(std::size_t body) const;
 };
 
 /// Determines the velocity fields of the bodies of a case from its contact method.

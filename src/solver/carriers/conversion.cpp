@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "src/afemp/transition.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/parallel/mpi.hpp"
+#include "src/fem/pieces.hpp"
 #include "src/solver/carriers/element_control.hpp"
 #include "src/solver/carriers/hexahedra.hpp"
 
@@ -109,10 +111,31 @@ void Hexahedra::warn_of_all(const fem::Mesh& mesh, std::span<const std::uint8_t>
                state_.setup.bodies[mesh.body].name, static_cast<std::size_t>(counts[0]));
 }
 
+/// Finds the parts of bodies that have velocity fields of their own. Collective.
+void Hexahedra::find_parts() {
+  if (!std::exchange(pieces_changed_, false)) return;
+  const cases::ContactFields& fields = state_.setup.contact_fields;
+  std::vector<std::uint8_t> wanted;
+  for (const fem::Mesh& mesh : meshes_) wanted.push_back(fields.parts(mesh.body) > 1 ? 1 : 0);
+  const std::vector<fem::Pieces> found =
+      fem::find_pieces(meshes_, wanted, shared_nodes_, state_.communicator);
+  parts_.assign(meshes_.size(), {});
+  part_counts_.assign(meshes_.size(), 1);
+  for (std::size_t m = 0; m < meshes_.size(); ++m) {
+    if (found[m].count < 2) continue;
+    const unsigned further = fields.parts(meshes_[m].body) - 1;
+    part_counts_[m] = std::min<std::size_t>(found[m].count, 1 + further);
+    for (const std::uint32_t piece : found[m].of_node) {
+      parts_[m].push_back(static_cast<std::uint8_t>(piece == 0 ? 0 : 1 + (piece - 1) % further));
+    }
+  }
+}
+
 void Hexahedra::mark_transition() {
+  find_parts();
   state_.booked.transfer_heat +=
-      afemp::mark_transition(meshes_, state_.particles, state_.setup.geometry,
-                             state_.particle_affine_inertia(), state_.communicator);
+      afemp::mark_transition(meshes_, {.of_node = parts_, .count = part_counts_}, state_.particles,
+                             state_.setup.geometry, state_.particle_affine_inertia(), state_.communicator);
 }
 
 void Hexahedra::warn_of_contact() const {

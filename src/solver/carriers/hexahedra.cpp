@@ -20,7 +20,11 @@
 namespace whipple::solver {
 
 Hexahedra::Hexahedra(State& state, const Loads& loads, std::vector<fem::Mesh> meshes)
-    : Carrier(state), loads_(loads), meshes_(std::move(meshes)) {
+    : Carrier(state),
+      loads_(loads),
+      meshes_(std::move(meshes)),
+      parts_(meshes_.size()),
+      part_counts_(meshes_.size(), 1) {
   for (fem::Mesh& mesh : meshes_) mesh.has_path = state_.setup.bodies[mesh.body].path.has_value();
 }
 
@@ -62,6 +66,17 @@ void Hexahedra::collect() {
   for (const fem::Mesh& mesh : meshes_) {
     const auto count = static_cast<std::size_t>(std::ranges::count(mesh.nodes.in_transition, 1));
     state_.transition_body.insert(state_.transition_body.end(), count, mesh.body);
+  }
+  state_.transition_part.resize(state_.transition_body.size(), 0);
+  std::size_t i = 0;
+  for (std::size_t m = 0; m < meshes_.size(); ++m) {
+    const std::vector<std::uint8_t>& marked = meshes_[m].nodes.in_transition;
+    const bool parted = parts_[m].size() == marked.size();
+    for (std::size_t a = 0; a < marked.size(); ++a) {
+      if (marked[a] == 0) continue;
+      if (parted) state_.transition_part[i] = parts_[m][a];
+      ++i;
+    }
   }
   count_ = to.size();
 }

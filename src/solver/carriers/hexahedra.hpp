@@ -26,6 +26,9 @@ class Hexahedra : public Carrier {
   /// Returns the faces of each mesh that belong to only one element of all ranks. Collective.
   [[nodiscard]] const std::vector<std::vector<fem::Facet>>& free_facets();
 
+  /// Returns the part of its body (`ContactFields::of_part`) that each node of a mesh belongs to; empty: the body itself.
+  [[nodiscard]] const std::vector<std::uint8_t>& parts(std::size_t mesh) const { return parts_[mesh]; }
+
   /// Converts distorted elements to particles, and treats those outside their valid range as the case specifies.
   /// Collective.
   /// @param grid_step  time step that the grid allows, s
@@ -76,6 +79,7 @@ class Hexahedra : public Carrier {
   [[nodiscard]] std::string describe(const fem::Mesh& mesh, std::size_t point,
                                      const std::string& reason) const;
   void elements_removed();
+  void find_parts();
   double remove(fem::Mesh& mesh, std::span<const std::uint8_t> removed);
   void warn_of_all(const fem::Mesh& mesh, std::span<const std::uint8_t> distorted) const;
   [[nodiscard]] std::size_t convert(fem::Mesh& mesh, std::span<const std::uint8_t> chosen);
@@ -84,6 +88,10 @@ class Hexahedra : public Carrier {
   std::vector<fem::Mesh> meshes_;
   std::vector<std::vector<fem::Facet>> free_facets_;  // of each mesh
   bool surfaces_changed_ = true;                      // since they were determined
+  // Of each mesh: parts of its nodes (empty: all are of the body itself), and their number over all ranks
+  std::vector<std::vector<std::uint8_t>> parts_;
+  std::vector<std::size_t> part_counts_;
+  bool pieces_changed_ = true;  // since parts were found
   fem::SharedNodes shared_nodes_;
   // Of each shared node over all its copies: force (N), mass (kg), sound speed (m/s)
   std::vector<std::array<double, 5>> shared_;

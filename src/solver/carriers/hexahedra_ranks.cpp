@@ -36,12 +36,12 @@ void Hexahedra::gather() {
 void Hexahedra::share_out() {
   if (!solver::share_out(meshes_, state_.grid, state_.communicator)) return;
   shared_nodes_ = fem::SharedNodes(meshes_, state_.communicator);
-  surfaces_changed_ = true;
+  surfaces_changed_ = pieces_changed_ = true;
 }
 
 /// Updates shared nodes and fields after elements were converted or removed on any rank.
 void Hexahedra::elements_removed() {
-  surfaces_changed_ = true;
+  surfaces_changed_ = pieces_changed_ = true;
   if (!state_.is_parallel()) return;
   shared_nodes_.elements_removed(meshes_);
   // An optional field is in use on all ranks or on none.

@@ -51,6 +51,7 @@ void Trusses::collect() {
       to.force[i] = from.force[a];
     }
     state_.transition_body.resize(i, bars.body);
+    state_.transition_part.resize(i, 0);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -16,8 +17,7 @@ ContactStage::ContactStage(State& state, Hexahedra& hexahedra, contact::GridUpda
   const cases::ContactControl& control = state_.setup.contact;
   const cases::ContactFields& fields = state_.setup.contact_fields;
   if (!fields.cracked.empty()) {
-    cracks_.emplace(contact::SectorFields(cases::count_of(fields.of_body), fields.cracked,
-                                          state_.setup.geometry.is_planar()));
+    cracks_.emplace(contact::SectorFields(fields.count(), fields.cracked, state_.setup.geometry.is_planar()));
     state_.grid.set_wholes(cracks_->fields().wholes());
   }
   if (fields.several() || cracks_) {
@@ -43,7 +43,7 @@ std::vector<double> ContactStage::friction_of_fields() const {
   if (!state_.setup.has_burn()) return {};
   const std::vector<std::uint8_t>& field_of_body = state_.setup.contact_fields.of_body;
   const cases::ContactControl& control = state_.setup.contact;
-  std::vector<double> friction(*std::ranges::max_element(field_of_body) + std::size_t{1}, control.friction);
+  std::vector<double> friction(state_.setup.contact_fields.count(), control.friction);
   for (std::size_t b = 0; b < field_of_body.size(); ++b) {
     if (state_.setup.materials[b]->burns()) friction[field_of_body[b]] = control.explosive_friction;
   }
@@ -56,14 +56,15 @@ std::vector<double> ContactStage::least_relaxation_rates() const {
   constexpr double share_of_tight_matter = 0.25;
   // Other particle updates have no relaxation by the sound speed.
   if (state_.setup.transfer.particle_update != cases::ParticleUpdate::relaxed_affine) return {};
-  const std::vector<std::uint8_t>& field_of_body = state_.setup.contact_fields.of_body;
-  std::vector<double> rates(*std::ranges::max_element(field_of_body) + std::size_t{1},
-                            std::numeric_limits<double>::infinity());
-  for (std::size_t b = 0; b < field_of_body.size(); ++b) {
-    double& rate = rates[field_of_body[b]];
-    rate =
-        std::min(rate, share_of_tight_matter * state_.setup.transfer.kappa *
-                           state_.setup.materials[b]->reference.sound_speed / state_.setup.domain.cell_size);
+  const cases::ContactFields& fields = state_.setup.contact_fields;
+  std::vector<double> rates(fields.count(), std::numeric_limits<double>::infinity());
+  for (std::size_t b = 0; b < fields.of_body.size(); ++b) {
+    const double of_body = share_of_tight_matter * state_.setup.transfer.kappa *
+                           state_.setup.materials[b]->reference.sound_speed / state_.setup.domain.cell_size;
+    for (std::uint8_t part = 0; part < fields.parts(b); ++part) {
+      double& rate = rates[fields.of_part(b, part)];
+      rate = std::min(rate, of_body);
+    }
   }
   return rates;
 }
@@ -76,7 +77,10 @@ void ContactStage::separate_fields() {
     field_[p] = field_of_body_[state_.particles.body[p]];
   }
   field_of_node_.clear();
-  for (const std::uint32_t body : state_.transition_body) field_of_node_.push_back(field_of_body_[body]);
+  for (std::size_t i = 0; i < state_.transition_body.size(); ++i) {
+    field_of_node_.push_back(
+        state_.setup.contact_fields.of_part(state_.transition_body[i], state_.transition_part[i]));
+  }
   if (cracks_) {
     state_.profile.time("cracks", [&] {
       cracks_->find(state_.shape, state_.particles,
@@ -86,9 +90,22 @@ void ContactStage::separate_fields() {
   }
   state_.grid.separate_fields(transfer::stencil(state_.shape), {state_.particles.position, field_},
                               {state_.transition.position, field_of_node_},
-                              cracks_ ? cracks_->fields().count() : cases::count_of(field_of_body_),
+                              cracks_ ? cracks_->fields().count() : state_.setup.contact_fields.count(),
                               state_.setup.contact.everywhere);
 }
+
+namespace {
+
+/// Divides the facets of a mesh by the parts that their nodes belong to; empty `part`: all are of part 0.
+std::map<std::uint8_t, std::vector<fem::Facet>> facets_by_part(const std::vector<fem::Facet>& facets,
+                                                               const std::vector<std::uint8_t>& part) {
+  if (part.empty()) return {{std::uint8_t{0}, facets}};
+  std::map<std::uint8_t, std::vector<fem::Facet>> divided;
+  for (const fem::Facet& facet : facets) divided[part[facet[0]]].push_back(facet);
+  return divided;
+}
+
+}  // namespace
 
 void ContactStage::find_surfaces(bool after_transfer) {
   if (!has_fields() || std::exchange(surfaces_found_, true)) return;
@@ -100,8 +117,10 @@ void ContactStage::find_surfaces(bool after_transfer) {
     if (!state_.is_parallel()) near.emplace(state_.grid);
     const std::vector<fem::Mesh>& meshes = hexahedra_.meshes();
     for (std::size_t m = 0; m < meshes.size(); ++m) {
-      surface_points_.add(meshes[m], facets[m], field_of_body_[meshes[m].body], state_.setup.domain.cell_size,
-                          near ? &*near : nullptr);
+      for (const auto& [part, of_part] : facets_by_part(facets[m], hexahedra_.parts(m))) {
+        surface_points_.add(meshes[m], of_part, state_.setup.contact_fields.of_part(meshes[m].body, part),
+                            state_.setup.domain.cell_size, near ? &*near : nullptr);
+      }
     }
     surface_points_.send_to_owners(state_.grid, transfer::stencil(state_.shape), state_.communicator);
     contact_->find_surfaces(state_.shape, state_.particles, surface_points_, state_.grid,

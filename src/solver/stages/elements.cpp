@@ -18,6 +18,7 @@ void ElementStage::collect() {
   state_.transition.resize(0);
   state_.transition.unrelaxed = 0;
   state_.transition_body.clear();
+  state_.transition_part.clear();
   for (Carrier* carrier : carriers_) carrier->collect();
 }
 

@@ -16,7 +16,7 @@ void ContactStage::set_up_walls() {
   const std::vector<std::uint8_t> touched = cases::faces_touched(state_.setup);
   std::vector<std::uint8_t> field_of_body = field_of_body_;
   field_of_body.resize(touched.size(), 0);  // one field without contact of bodies
-  const unsigned fields = *std::ranges::max_element(field_of_body) + 1U;
+  const unsigned fields = state_.setup.contact_fields.count();
   // Fields without a body count as continuous as well, so that no search is necessary for them.
   const unsigned used = cracks_ ? cracks_->fields().count() : fields;
   std::array<grid::FieldSet, 6> bonded;
@@ -26,6 +26,8 @@ void ContactStage::set_up_walls() {
       if ((touched[b] >> face & 1U) == 0) continue;
       const unsigned field = field_of_body[b];
       bonded[face] |= cracks_ ? cracks_->fields().parts(field) : grid::FieldSet::of(field);
+      for (std::uint8_t part = 1; part < state_.setup.contact_fields.parts(b); ++part)
+        bonded[face].insert(state_.setup.contact_fields.of_part(b, part));
     }
   }
   state_.grid.bond_at_planes(bonded);

@@ -13,6 +13,7 @@
 
 #include "src/core/base/error.hpp"
 #include "src/material/material_file.hpp"
+#include "tests/folders.hpp"
 #include "tests/verification/exact/runs.hpp"
 
 namespace whipple::verification::exact {
@@ -33,7 +34,7 @@ std::string hydrodynamic(const std::string& material) {
   static std::map<std::string, std::string> written;
   const auto [known, is_new] = written.try_emplace(material);
   if (!is_new) return known->second;
-  const std::filesystem::path file = find_material(material, WHIPPLE_SOURCE_DIR);
+  const std::filesystem::path file = find_material(material, whipple::tests::source_folder());
   std::ifstream in(file);
   std::string text, line;
   bool left_out = false;
