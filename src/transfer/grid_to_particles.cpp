@@ -153,18 +153,15 @@ void for_each_slot(const BlockGrid& grid, const Stretch& stretch, Gather&& gathe
   });
 }
 
-/// Gives a point the affine field that fits the cells at its new position: one of larger cells has more inertia, and the
-/// field is weaker by as much; one of smaller cells has less, and the rest of its energy is lost (8).
+/// Gives a point the affine field that fits the cells at its new position (docs/theory/levels.md, 8).
 /// @param before, after  edges of the cells at the positions before and after the step, m
 template <class Shape>
 void fit_affine_field(Advance<>& advance, double before, double after) {
   if (before == after) return;
-  if (after > before) {
-    for (Lanes& column : advance.affine) column *= before / after;
-  } else {
-    advance.heat +=
-        0.5 * Shape::second_moment * (before * before - after * after) * squared_norm(advance.affine);
-  }
+  const auto [factor, loss] =
+      formulas::fit_field(Shape::second_moment * before * before, Shape::second_moment * after * after);
+  advance.heat += loss * squared_norm(advance.affine);
+  for (Lanes& column : advance.affine) column *= factor;
 }
 
 /// Updates a particle of a grid of two levels, whose cells may change on its way.
@@ -180,7 +177,8 @@ template <class Shape, bool affine>
                           ? advance_mixed<Shape, affine>(particles, grid, p, update.functions.slope_smoothing,
                                                          update.affine, update.dt)
                           : of_level;
-  const double before = geometry.cell_size_at(particles.position[p]);
+  const double before =
+      mixed ? geometry.cell_size_at(grid.mixed()[grid.mixed_number()[p]].blend) : grid.cell_size_of(p);
   if constexpr (affine) {
     const Vector3 moved = particles.position[p] + update.dt * vector(advance.grid_velocity.value);
     fit_affine_field<Shape>(advance, before, geometry.cell_size_at(moved));

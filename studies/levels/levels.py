@@ -79,7 +79,7 @@ def run_of(arguments, problem, cell, way):
             text = head + region_text(REGIONS[problem]) + mark + rest
         path = folder.with_suffix(".toml")
         path.write_text(text, encoding="utf-8")
-        return path, [f"domain.cell_size={2 * cell if way == 'large' else cell} mm", *(SECTION if problem == "section" else [])]
+        return path, [f"domain.cell_size={2 * cell if way == 'large' else cell} mm", "output.snapshot_every=1 us", *(SECTION if problem == "section" else [])]
 
     return folder, timed_run(arguments, folder, prepare)
 
