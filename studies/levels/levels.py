@@ -30,7 +30,7 @@ REGIONS = {
 }
 REGIONS["section"] = REGIONS["crater"]
 CASES = {"section": ROOT / "cases/aluminium_crater/case.toml", "crater": ROOT / "cases/aluminium_crater/case.toml", "shield": ROOT / "cases/whipple_shield/case.toml"}
-CELLS = {"section": [0.5, 0.25, 0.125], "crater": [1.0, 0.7], "shield": [0.5, 0.35]}  # mm, the small ones
+CELLS = {"section": [0.5, 0.25, 0.125], "crater": [1.0, 0.7], "shield": [0.7, 0.5]}  # mm, the small ones
 MEASURES = {
     "crater": {"crater_depth.block": ("depth, mm", 1e3, 2), "crater_diameter.block": ("diameter, mm", 1e3, 2)},
     "shield": {"mean_velocity.sphere": ("sphere, m/s", 1.0, 1), "mean_velocity.bumper": ("bumper, m/s", 1.0, 1), "mean_velocity.wall": ("wall, m/s", 1.0, 2)},
