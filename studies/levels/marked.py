@@ -6,13 +6,14 @@ usage: marked.py RUN [--speed 5240] [--threshold 0.03]...
 
 RUN is a run with small cells everywhere and snapshots of velocity, pressure and failed (studies/levels/levels.py makes such runs). At
 each snapshot the cells are marked whose mean velocity differs from that of a neighbour by more than half of threshold c, or whose mean
-pressure is above 0.1 rho_0 c^2; c is the sound speed (--speed, m/s). A block of two small cells per axis, one large cell, is fine if a
-cell of the 27 large cells around it is marked. Particles that have not been moved do not count: the solver leaves them out.
+pressure is above 0.1 rho_0 c^2; c is the sound speed (--speed, m/s). Large cells (two small ones per axis) have small functions only if one
+of the 27 around them holds a mark; those within two cells of them are mixed, and have small particles too. Particles that have not been
+moved do not count: the solver leaves them out.
 
 What is printed is the number of particles that take part, over the snapshots, relative to small cells everywhere:
   follow        regions that follow the marks, particles that have once been fine remain so (split once, not merged)
   follow, merge the same, and particles of large cells are merged again in eights where none has failed or all have
-Mixed particles count once: their cost is not in it.
+  mixed         part of these that is mixed, and takes several times as long
 """
 import argparse
 import pathlib
@@ -69,8 +70,8 @@ def marked_cells(place, shape, velocity, pressure, speed, threshold, density):
 
 
 def counts_of(file, once, arguments, lower, cell):
-    """Particles that take part: with small cells, with regions that follow, and with merging; `once` holds the numbers of particles that
-    have been in small cells."""
+    """Particles that take part: with small cells, with regions that follow, with merging, and those of the last that are mixed; `once`
+    holds which numbers of particles have been in small cells."""
     with open_hdf5(file) as stream:
         data = stream["VTKHDF"]["PointData"]
         position, velocity = stream["VTKHDF"]["Points"][:], data["velocity"][:]
@@ -80,7 +81,8 @@ def counts_of(file, once, arguments, lower, cell):
     shape = tuple(place.max(axis=0) // 2 * 2 + 2)
     marked = marked_cells(place[inside], shape, velocity[inside], pressure[inside], arguments.speed, arguments.threshold, arguments.density)
     large = marked.reshape(shape[0] // 2, 2, shape[1] // 2, 2, shape[2] // 2, 2).any(axis=(1, 3, 5))
-    fine = grown(large)
+    inner = grown(large)
+    fine = grown(grown(inner))
     of_large = np.where(inside[:, None], place // 2, 0)
     is_fine = inside & fine[tuple(of_large.T)]
     once[number[is_fine]] = True
@@ -92,7 +94,8 @@ def counts_of(file, once, arguments, lower, cell):
     like = np.bincount(flat, weights=failed) / np.maximum(count, 1)
     merges = inside & ~is_fine & ((like[flat] == 0.0) | (like[flat] == 1.0))
     merged = np.where(once[number] & ~merges, 1.0, 0.125)
-    return active.sum(), follows[active].sum(), merged[active].sum()
+    layer = is_fine & ~inner[tuple(of_large.T)]
+    return active.sum(), follows[active].sum(), merged[active].sum(), merged[active & layer].sum()
 
 
 def main():
@@ -113,12 +116,12 @@ def main():
         with open_hdf5(file) as stream:
             largest = max(largest, int(stream["VTKHDF"]["PointData"]["id"][:].max()))
     thresholds = arguments.threshold
-    print("| threshold of 2 dv/c | follow | follow, merge |\n| --- | --- | --- |")
+    print("| threshold of 2 dv/c | follow | follow, merge | mixed |\n| --- | --- | --- | --- |")
     for arguments.threshold in thresholds:
-        once, sums = np.zeros(largest + 1, bool), np.zeros(3)
+        once, sums = np.zeros(largest + 1, bool), np.zeros(4)
         for file in files:
             sums += counts_of(file, once, arguments, lower, cell)
-        print(f"| {arguments.threshold:g} | {sums[1] / sums[0]:.2f} | {sums[2] / sums[0]:.2f} |")
+        print(f"| {arguments.threshold:g} | {sums[1] / sums[0]:.2f} | {sums[2] / sums[0]:.2f} | {sums[3] / sums[2]:.2f} |")
 
 
 if __name__ == "__main__":
