@@ -10,6 +10,7 @@ import pathlib
 import shutil
 import subprocess
 import sys
+import time
 
 BUILD, ROOT, FOLDER = (pathlib.Path(argument).resolve() for argument in sys.argv[1:4])
 sys.path[:0] = [str(ROOT / path) for path in ("tests/unit", "tests/installed", "scripts")]
@@ -55,8 +56,20 @@ def check_tarball(tarball):
     output(moved / "bin/whipple", "check", "whipple_shield/case.toml", "--brief", cwd=moved / "share/whipple/cases")
 
 
+class Clock:
+    """Tells how long the parts of a newcomer's way take."""
+
+    def __init__(self):
+        self.begin = time.monotonic()
+
+    def part(self, what):
+        now = time.monotonic()
+        print(f"{now - self.begin:5.0f} s  {what}", flush=True)
+        self.begin = now
+
+
 def check_clean_root(packages, mirror):
-    root = FOLDER / "root"
+    root, clock = FOLDER / "root", Clock()
     make_root(root, mirror=mirror)
     (root / "packages").mkdir()
     for name in (PROGRAM, PYTHON):
@@ -66,17 +79,21 @@ def check_clean_root(packages, mirror):
     shutil.copy(ROOT / "tests/unit/checks.py", root / "packages")
     before = set(output("find", root / "usr", "-path", "*whipple*").splitlines())
     within = inside(root)
+    clock.part("an empty Debian 12")
     output(*within, "apt-get", "update", "-qq", env=ENVIRONMENT)
     output(*within, "sh", "-c", "apt-get install -y -qq --no-install-recommends /packages/*.deb python3-h5py python3-matplotlib", env=ENVIRONMENT)
+    clock.part("packages of the program and of Python, and what they depend on, fetched and installed")
     output(*within, "useradd", "--create-home", "user", env=ENVIRONMENT)
     user = (*within, "su", "user", "-c")
     require('"version"' in output(*user, "whipple version --json", env=ENVIRONMENT), "the version")
+    clock.part("first start")
     print(output(*user, "/usr/bin/python3 /packages/tutorial.py /packages/first_impact.md /home/user/first", env=ENVIRONMENT), end="")
+    clock.part("commands of the first tutorial")
     output(*user, "/usr/bin/python3 -c 'import whipple.eos; whipple.eos.material(\"copper\")'", env=ENVIRONMENT)
     output(*within, "apt-get", "purge", "-y", "-qq", PROGRAM, PYTHON, env=ENVIRONMENT)
     after = set(output("find", root / "usr", "-path", "*whipple*").splitlines())
     require(after == before, f"left behind: {sorted(after - before)[:5]}")
-    print("installed into an empty Debian 12, run there by a user, removed")
+    clock.part("removed")
 
 
 def built():
