@@ -4,8 +4,7 @@ fetched from elsewhere; in Chromium, where it is installed, each as wide as a sc
 formulas are typeset, pictures show, nothing is wider than the page, the console is empty; the search finds a word
 without a network.
 
-Usage: site_pages.py ROOT FOLDER [--cpp]
---cpp: with the reference of the C++ headers, hundreds of pages by Doxygen more
+Usage: site_pages.py ROOT FOLDER
 """
 import html.parser
 import pathlib
@@ -97,7 +96,7 @@ def check_in_browser(site):
     with Browser(*found, profile) as browser:
         for page in pages:
             browser.open((site / page).as_uri())
-            browser.wait("return document.readyState === 'complete'", page)
+            browser.wait("return document.readyState === 'complete' && [...document.images].every(i => i.complete)", page)
             for width, height in SIZES:
                 browser.command("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=width < 500)
                 for scheme in SCHEMES:
@@ -139,7 +138,7 @@ def unlike(seen, width, scheme, written):
 
 
 def main():
-    cpp = [] if "--cpp" in sys.argv else ["--no-cpp"]
+    cpp = [] if shutil.which("doxygen") else ["--no-cpp"]
     begin = time.monotonic()
     done = subprocess.run([ROOT / "scripts/site.sh", FOLDER, *cpp], stdout=subprocess.PIPE, text=True, check=False)
     print(done.stdout, end="")
