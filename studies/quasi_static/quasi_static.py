@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Load steps without inertia on exact problems: order of convergence, and limit loads.
 
-usage: quasi_static.py column|beam|cook|cut|footing [--cells N]... [--shape NAME]... [--border X]... [--table] [--folder run/studies/quasi_static]
+usage: quasi_static.py column|beam|cook|cut|footing|tangent [--cells N]... [--shape NAME]... [--border X]... [--table] [--folder run/studies/quasi_static]
                        [--threads N] [--whipple EXE]
 
 column   50 m under its own weight, E = 1 MPa, Poisson's ratio 0, 20 load steps (shortens by 2 %), and under a hundred times the weight,
@@ -15,11 +15,14 @@ cook     cases/cook_membrane (rubber, Poisson's ratio 0.499) in 10 load steps: d
 cut      vertical cut of 8 m in clay of the strength c: gamma H/c at which no state of rest is found. Known: 3.776.
 footing  rough rigid strip on weightless clay, pushed down by 2 cm, half width 1 m: force over (2 + pi) c times the half width, when
          its limit is reached or at the end.
---cells: number over the height (column), the depth (beam), the held edge of 44 m (cook), the height (cut) or the half width (footing). Runs of the same program are
+tangent  what the tangents by differences cost: the footing under four laws (sinks by 0.3 m, 4 mm under those that yield), in the plane and
+         with fewer than 8 cells as the quarter of a square one in space, 10 steps, quadratic B-splines: iterations, user time, fractions of it (profile.json).
+--cells: number over the height (column), the depth (beam), the held edge of 44 m (cook), the height (cut) or the half width (footing, tangent). Runs of the same program are
 kept; --table runs nothing. A run that ends at its limit load is one that worked.
 """
 import argparse
 import csv
+import json
 import math
 import os
 import pathlib
@@ -232,7 +235,43 @@ def cook(arguments):
                       f"{float(rows[-1][column]) - float(rows[1][column]):.4f} |", flush=True)
 
 
-PROBLEMS = {"column": (column, (8, 16, 32, 64, 128)), "beam": (beam, (2, 4, 8)), "cook": (cook, (22, 44, 88)), "cut": (cut, (8, 16, 32)), "footing": (footing, (4, 8, 16))}
+LAWS = {"elastic": ("[strength]\nmodel = \"elastic\"\n", 0.3), "neo-Hookean": ("[constitutive]\nmodel = \"neo_hookean\"\n", 0.3),
+        "von Mises": ("[strength]\nmodel = \"von_mises\"\nyield_stress = \"20 kPa\"\nhardening_modulus = \"0 Pa\"\n", 4e-3),
+        "Drucker-Prager": ("[strength]\nmodel = \"drucker_prager\"\nfriction_angle = \"20 deg\"\ncohesion = \"10 kPa\"\nmatch = \"plane_strain\"\n", 4e-3)}
+SQUARE = BODY.replace('"-1 m"', '"0 m"').replace('"1 m"', '"{z1:.17g} m"')
+
+
+def ground(name, law):
+    """Ground of E = 100 MPa and Poisson's ratio 0.3 under a law."""
+    return material(name, 2000, 1e8, 0.3).replace('[strength]\nmodel = "elastic"\n', law)
+
+
+def tangent(arguments):
+    print("| law | dimensions | cells over the half width | particles | load steps | iterations | user s | tangents, % | linear equations, % |\n" + "| --- " * 9 + "|")
+    for law, (text_of_law, depth) in LAWS.items():
+        for n in arguments.cells:
+            dimensions, h = 2 if n >= 8 else 3, 1.0 / n
+            faces = 'x_lower = "symmetry", x_upper = "symmetry", y_lower = "no_slip"'
+            text = HEAD.format(low=0, wide=3, high=4, cell=h, steps=10, shape="quadratic_bspline", control="", faces=faces)
+            body = BODY
+            if dimensions == 3:
+                text = text.replace('dimension = "plane_strain"\n', "").replace('m"]\nupper', 'm", "0 m"]\nupper').replace('m"]\ncell', 'm", "3 m"]\ncell')
+                text = text.replace(faces, faces + ', z_lower = "symmetry", z_upper = "symmetry"')
+                body = SQUARE
+            text += body.format(name="ground", x0=0, y0=0, x1=3, y1=3, z1=3)
+            text += body.format(name="footing", x0=0, y0=3, x1=1, y1=3 + h, z1=1) + f'driven = true\nvelocity = ["0 m/s", "-{depth} m/s", "0 m/s"]\n'
+            run = compute(arguments, f"tangent_{law.replace(' ', '_')}_{n}", text, {name: ground(name, text_of_law) for name in ("ground", "footing")})
+            with open(run / "profile.json", encoding="utf-8") as file:
+                profile = json.load(file)
+            seconds = {stage["stage"]: stage["seconds"] for stage in profile["stages"]}
+            of_step = sum(seconds[name] for name in ("load step", "tangents of the material", "linear equations"))
+            shares = " | ".join(f"{100 * seconds[name] / of_step:.1f}" for name in ("tangents of the material", "linear equations"))
+            counts = " | ".join(f"{last_row(run, 'history.csv', name):.0f}" for name in ("step", "newton_iterations"))
+            print(f"| {law} | {dimensions} | {n} | {profile['particles']} | {counts} | {(run.parent / 'seconds').read_text(encoding='utf-8')} | {shares} |", flush=True)
+
+
+PROBLEMS = {"column": (column, (8, 16, 32, 64, 128)), "beam": (beam, (2, 4, 8)), "cook": (cook, (22, 44, 88)), "cut": (cut, (8, 16, 32)), "footing": (footing, (4, 8, 16)),
+            "tangent": (tangent, (2, 3, 8, 16))}
 
 
 def main():
