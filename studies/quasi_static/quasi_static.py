@@ -34,6 +34,7 @@ import numpy as np
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[0] = str(ROOT)
 from report.particles import particles_of  # noqa: E402
+from studies.validation.bands import grid_study  # noqa: E402
 
 SHAPES = ("linear", "convected_gimp", "quadratic_bspline", "cubic_bspline")
 AT_LIMIT = 3  # exit code of whipple: the physics left its range
@@ -122,6 +123,15 @@ def last_row(run, table, column):
     return float(rows[-1][names.index(column)])
 
 
+def print_bands(found):
+    """What the grids of each function say (docs/theory/uncertainty.md); found: cell size and value by name."""
+    print("\n| shape function | finest grid | order | limit |\n" + "| --- " * 4 + "|")
+    for name, points in found.items():
+        study = grid_study(points)
+        order, limit = (f"{x:.3g}" if math.isfinite(x) else "–" for x in (study.order, study.limit))
+        print(f"| {name} | {study.value:.4g} +- {study.band:.2g}{'' if study.converged else f' ({study.state})'} | {order} | {limit} |")
+
+
 def control_of(border, kept=False):
     return f"border_stiffness = {border}\n" + ('grid = "kept"' if kept else "")
 
@@ -171,6 +181,7 @@ def beam(arguments):
     down, short = elastica(1e5 * end**2 / (12e6 / 0.96 / 12))
     print(f"elastica: {down * end:.3f} m down, {short * end:.3f} m shorter\n")
     print("| shape function | border stiffness | cells over the depth | load steps | down, m | shorter, m |\n" + "| --- " * 6 + "|")
+    found = {}
     for shape in arguments.shape:
         for border in arguments.border:
             for n in arguments.cells:
@@ -181,11 +192,15 @@ def beam(arguments):
                               {name: material(name, 1000, 12e6, 0.2) for name in ("beam", "tip")})
                 now = particles_of(run, "tip")["position"].mean(axis=0)
                 print(f"| {shape} | {border:g} | {n} | {last_row(run, 'history.csv', 'step'):.0f} | {-now[1]:.3f} | {end - now[0]:.3f} |", flush=True)
+                found.setdefault(f"{shape}, {border:g}, down, m", []).append((1 / n, -now[1]))
+                found.setdefault(f"{shape}, {border:g}, shorter, m", []).append((1 / n, end - now[0]))
+    print_bands(found)
 
 
 def cut(arguments):
     height, gravity = 8.0, 4.0
     print("| shape function | cells over the height | gamma H/c |\n" + "| --- " * 3 + "|")
+    found = {}
     for shape in arguments.shape:
         for n in arguments.cells:
             h = height / n
@@ -195,11 +210,15 @@ def cut(arguments):
             run = compute(arguments, f"cut_{shape}_{n}", text, {"clay": CLAY})
             time = last_row(run, "history.csv", "time")
             held = " (held)" if time >= 1.0 else ""
+            if not held:
+                found.setdefault(shape, []).append((h, time * gravity * 2000 * height / COHESION))
             print(f"| {shape} | {n} | {time * gravity * 2000 * height / COHESION:.3f}{held} |", flush=True)
+    print_bands(found)
 
 
 def footing(arguments):
     print("| shape function | cells over the half width | force over (2 + pi) c B/2 | at, cm |\n" + "| --- " * 4 + "|")
+    found = {}
     for shape in arguments.shape:
         for n in arguments.cells:
             h = 1.0 / n
@@ -211,6 +230,8 @@ def footing(arguments):
             run = compute(arguments, f"footing_{shape}_{n}", text, {"clay": CLAY, "footing": CLAY.replace('name = "clay"', 'name = "footing"')})
             force, time = last_row(run, "gauges.csv", "load.force_y"), last_row(run, "gauges.csv", "time")
             print(f"| {shape} | {n} | {force / ((2 + math.pi) * COHESION):.3f} | {2 * time:.2f} |", flush=True)
+            found.setdefault(shape, []).append((h, force / ((2 + math.pi) * COHESION)))
+    print_bands(found)
 
 
 def cook(arguments):
@@ -219,6 +240,7 @@ def cook(arguments):
     inertia = (case / "case.toml").read_text(encoding="utf-8").replace('volumetric = "cell"', 'volumetric = "point"')
     rest = inertia.replace('[[load]]\ndamping = "0.2 1/s"\n', "").replace("[artificial_viscosity]", "[contact]\nmethod = \"none\"\n[artificial_viscosity]")
     print("| scheme | shape function | cells, m | steps | user s | deflection, m |\n" + "| --- " * 6 + "|")
+    found = {}
     for scheme, shapes, text in (("quasi_static", arguments.shape, rest), ("symplectic", ("quadratic_bspline",), inertia)):
         for shape in shapes:
             for cell in [44 / n for n in arguments.cells] if scheme == "quasi_static" else [44 / arguments.cells[0]]:
@@ -231,8 +253,11 @@ def cook(arguments):
                     rows = list(csv.reader(file))
                 column = [name.split(" ")[0] for name in rows[0]].index("corner.y")
                 seconds = (run.parent / "seconds").read_text(encoding="utf-8")
-                print(f"| {scheme} | {shape} | {cell:.3g} | {last_row(run, 'history.csv', 'step'):.0f} | {seconds} | "
-                      f"{float(rows[-1][column]) - float(rows[1][column]):.4f} |", flush=True)
+                deflection = float(rows[-1][column]) - float(rows[1][column])
+                print(f"| {scheme} | {shape} | {cell:.3g} | {last_row(run, 'history.csv', 'step'):.0f} | {seconds} | {deflection:.4f} |", flush=True)
+                if scheme == "quasi_static":
+                    found.setdefault(shape, []).append((cell, deflection))
+    print_bands(found)
 
 
 LAWS = {"elastic": ("[strength]\nmodel = \"elastic\"\n", 0.3), "neo-Hookean": ("[constitutive]\nmodel = \"neo_hookean\"\n", 0.3),
