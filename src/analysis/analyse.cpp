@@ -415,6 +415,14 @@ void analyse(const Run& run, const Options& options, const fs::path& folder) {
   }
   const OutflowHistory outflow(run);
   const double link = options.link > 0.0 ? options.link : 1.5 * run.cell_size;
+  if (run.has_two_levels && !(options.link > 0.0)) {
+    log::warning(
+        "the run has two cell sizes: fragments are what lies within 1.5 small cells, and material in large "
+        "cells, "
+        "whose particles are twice as far apart, parts at half of the stretch: fragments should be in the "
+        "regions, "
+        "or choose --link");
+  }
   Snapshot last;
   Fragments fragments;
   Quantities row;

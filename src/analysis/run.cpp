@@ -31,6 +31,7 @@ namespace fs = std::filesystem;
 
 void take_domain(const cases::Domain& domain, Run& run) {
   run.cell_size = domain.cell_size;
+  run.has_two_levels = !domain.refinement.empty();
   run.dimension = domain.dimension;
   run.lower = domain.lower;
   run.upper = domain.upper;

@@ -39,7 +39,8 @@ struct SnapshotEntry {
 struct Run {
   std::filesystem::path folder;
   std::string title;
-  double cell_size = 0.0;
+  double cell_size = 0.0;                                    ///< m, of the small cells
+  bool has_two_levels = false;                               ///< and twice as large ones elsewhere
   Vector3 lower = Vector3::Zero(), upper = Vector3::Zero();  ///< corners of the domain
   grid::Dimension dimension = grid::Dimension::space;
   /// Holds the position of the mirror plane normal to each axis, if there is one (the lower one of two). The symmetry

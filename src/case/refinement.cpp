@@ -116,8 +116,6 @@ void check_two_levels(const Case& setup, const Faults& faults) {
          "full mass matrix: particle_update = \"fmpm\" wants one size");
   refuse(setup.transfer.random_shift, "random shift: it would move the regions");
   refuse(setup.heat.conduction, "heat conduction, [heat] conduction");
-  refuse(any_body([](const Body& body) { return !body.discretization.has_particles(); }),
-         "finite elements or bars: expected method = \"particles\"");
   refuse(any_body([](const Body& body) { return body.volumetric == Volumetric::cell; }),
          "means over cells: expected volumetric = \"point\"");
   refuse(!setup.contact_fields.cracked.empty(),

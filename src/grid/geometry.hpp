@@ -108,6 +108,10 @@ struct Geometry {
   [[nodiscard]] Blend blend(const Vector3& position) const {
     return levels.are_two() ? levels.at(in_cells(position), cell_size) : Blend{};
   }
+  /// Returns the level of the block that holds a position.
+  [[nodiscard]] Level level_at(const Vector3& position) const {
+    return levels.are_two() ? levels.level_at(in_cells(position)) : Level::fine;
+  }
   /// Returns the edge of a cell whose functions have the second moment of those at a position, m (3).
   [[nodiscard]] double cell_size_at(const Blend& blend) const {
     if (!blend.is_mixed()) return blend.fine > 0.0 ? cell_size : 2.0 * cell_size;

@@ -9,22 +9,22 @@ namespace {
 /// Width (coarse cells) at the faces of a box in which the weight is 0, and from which on it is 1.
 constexpr double outer_margin = 0.5, inner_margin = 2.5;
 
-/// One direction of a weight, and its derivative.
-struct Ramp {
-  double value, slope;
+/// The factors of a weight along the axes, and their derivatives.
+struct Ramps {
+  Lanes value, slope;
 };
 
-/// Sum over k >= 0 of the quadratic B-splines about k: 0 below -3/2, 1 above 1/2.
-Ramp sum_of_splines(double x) {
-  if (x <= -1.5) return {0.0, 0.0};
-  if (x < -0.5) return {0.5 * (x + 1.5) * (x + 1.5), x + 1.5};
-  if (x < 0.5) return {1.0 - 0.5 * (0.5 - x) * (0.5 - x), 0.5 - x};
-  return {1.0, 0.0};
+/// Sums of the quadratic B-splines about the whole numbers from 0: 0 below -3/2, 1 above 1/2.
+Ramps sums_of_splines(Lanes x) {
+  const Lanes zero{}, one = broadcast(1.0), two = broadcast(2.0);
+  const Lanes begun = minimum(maximum(x + 1.5, zero), two), slope = minimum(begun, two - begun);
+  const Lanes rising = 0.5 * slope * slope;
+  return {begun < one ? rising : 1.0 - rising, slope};
 }
 
-/// Sum of the splines of the coarse nodes all of whose cells are between two faces of a box (2).
-Ramp between(double x, double from, double to) {
-  const Ramp lower = sum_of_splines(x - (from + 2.0)), upper = sum_of_splines((to - 2.0) - x);
+/// Sums of the splines of the coarse nodes all of whose cells are between two faces of a box (2).
+Ramps between(Lanes x, Lanes first, Lanes last) {
+  const Ramps lower = sums_of_splines(x - first), upper = sums_of_splines(last - x);
   return {lower.value * upper.value, lower.slope * upper.value - lower.value * upper.slope};
 }
 
@@ -39,7 +39,9 @@ Levels::Levels(std::vector<RefinedBox> boxes) : boxes_(std::move(boxes)) {
     limits_.push_back({.inner_lower = moved(box.from, inner_margin, -any),
                        .inner_upper = moved(box.to, -inner_margin, any),
                        .outer_lower = moved(box.from, outer_margin, -any),
-                       .outer_upper = moved(box.to, -outer_margin, any)});
+                       .outer_upper = moved(box.to, -outer_margin, any),
+                       .first_node = Lanes{box.from[0] + 2.0, box.from[1] + 2.0, box.from[2] + 2.0, 0.0},
+                       .last_node = Lanes{box.to[0] - 2.0, box.to[1] - 2.0, box.to[2] - 2.0, 0.0}});
   }
 }
 
@@ -47,17 +49,12 @@ Blend Levels::mixed_at(Lanes fine_cells, double fine_cell) const {
   const Lanes x = 0.5 * fine_cells;
   const double per_cell = 0.5 / fine_cell;
   Blend blend{0.0, Vector3::Zero()};
-  for (const RefinedBox& box : boxes_) {
-    std::array<Ramp, 3> along;
-    double w = 1.0;
-    for (std::size_t a = 0; a < 3 && w > 0.0; ++a) {
-      along[a] = between(x[a], box.from[a], box.to[a]);
-      w *= along[a].value;
-    }
-    if (!(w > 0.0)) continue;
-    const Vector3 gradient = per_cell * Vector3(along[0].slope * along[1].value * along[2].value,
-                                                along[0].value * along[1].slope * along[2].value,
-                                                along[0].value * along[1].value * along[2].slope);
+  for (const Limits& box : limits_) {
+    if (!is_within(fine_cells, box.outer_lower, box.outer_upper)) continue;
+    const auto [value, slope] = between(x, box.first_node, box.last_node);
+    const double xy = value[0] * value[1], w = xy * value[2];
+    const Vector3 gradient =
+        per_cell * Vector3(slope[0] * value[1] * value[2], value[0] * slope[1] * value[2], xy * slope[2]);
     blend.gradient = (1.0 - w) * blend.gradient + (1.0 - blend.fine) * gradient;
     blend.fine += w - blend.fine * w;
   }

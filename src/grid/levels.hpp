@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -32,7 +33,6 @@ struct Blend {
   double fine = 1.0;
   Vector3 gradient = Vector3::Zero();  ///< 1/m
 
-  [[nodiscard]] Level level() const { return fine > 0.0 ? Level::fine : Level::coarse; }
   [[nodiscard]] bool is_mixed() const { return fine > 0.0 && fine < 1.0; }
   /// Returns the fraction of the functions of a level.
   [[nodiscard]] double share(Level of) const { return of == Level::fine ? fine : 1.0 - fine; }
@@ -62,15 +62,23 @@ class Levels {
     if (outside) return {0.0, Vector3::Zero()};
     return mixed_at(fine_cells, fine_cell);
   }
+  /// Returns the level of the blocks that hold a point: the fine one where its weight is positive.
+  [[nodiscard]] Level level_at(Lanes fine_cells) const {
+    const auto is_between = [&](const Limits& box) {
+      return bits((fine_cells > box.outer_lower) & (fine_cells < box.outer_upper)) == all_lanes;
+    };
+    return boxes_.empty() || std::ranges::any_of(limits_, is_between) ? Level::fine : Level::coarse;
+  }
   /// Returns whether points within a distance (fine cells, along each axis) may have functions of a level.
   [[nodiscard]] bool may_need(Level level, Lanes fine_cells, Lanes within) const;
   /// Returns whether a point is in a box: particles there are as small as the fine cells want them.
   [[nodiscard]] bool is_refined(Lanes fine_cells) const;
 
  private:
-  /// Where the weight of a box is 1, and where it is not 0, in fine cells.
+  /// Where the weight of a box is 1, and where it is not 0, in fine cells; the nodes that it is the sum of the functions
+  /// of, in coarse cells.
   struct Limits {
-    Lanes inner_lower, inner_upper, outer_lower, outer_upper;
+    Lanes inner_lower, inner_upper, outer_lower, outer_upper, first_node, last_node;
   };
   static bool is_within(Lanes x, Lanes lower, Lanes upper) {
     return bits((x >= lower) & (x <= upper)) == all_lanes;

@@ -107,7 +107,7 @@ bool PointBins::locate(std::span<const Vector3> position, Stencil stencil) {
         Lanes at = in_cells(position[p], slot);
         Lanes local = at - corner(slot);
         const bool changes_level =
-            has_two_levels() && geometry().blend(position[p]).level() != coordinate(slot).level;
+            has_two_levels() && geometry().level_at(position[p]) != coordinate(slot).level;
         if (changes_level || !is_inside(local, edges())) {
           const std::int32_t moved = changes_level ? slot_at(position[p]) : slot_of_neighbour(slot, at);
           if (moved == no_slot) {

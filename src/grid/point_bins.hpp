@@ -130,6 +130,10 @@ class PointBins : public Topology {
   [[nodiscard]] static Level level_of_part(std::uint32_t part) {
     return part % 2 == 0 ? Level::fine : Level::coarse;
   }
+  /// Returns the edge of the cells of the block that holds a particle, m.
+  [[nodiscard]] double cell_size_of(std::size_t p) const {
+    return cell_size(static_cast<std::size_t>(slot_of_particle_[p]));
+  }
   /// Returns the distance of a particle from the lower face along y at the last `bin` (m): the radius of a ring.
   [[nodiscard]] double radius_at_bin(std::size_t p) const {
     const auto slot = static_cast<std::size_t>(slot_of_particle_[p]);
@@ -143,7 +147,9 @@ class PointBins : public Topology {
   using Topology::Topology;
   [[nodiscard]] std::size_t bytes_of_bins() const {
     return slot_of_particle_.size() * 8 +
-           (place_of_particle_.size() + place_of_guest_.size()) * sizeof(PlaceInStencil);
+           (place_of_particle_.size() + place_of_guest_.size() + place_of_part_.size()) *
+               sizeof(PlaceInStencil) +
+           mixed_.size() * sizeof(MixedParticle) + (mixed_number_.size() + slot_of_part_.size()) * 4;
   }
   /// Implements BlockGrid::bin.
   bool bin(std::span<const Vector3> position, Stencil stencil, std::span<const Vector3> guests);

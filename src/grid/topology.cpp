@@ -118,7 +118,7 @@ std::vector<Topology::Home> Topology::homes(Level level, std::span<const Vector3
       if (levels.are_two()) {
         const double fine = level == Level::fine ? 1.0 : 2.0;
         const Lanes around = fine * (maximum(ahead, -ahead) + broadcast(foresight_));
-        is_own = levels.at(fine * at, geometry.cell_size).level() == level;
+        is_own = levels.level_at(fine * at) == level;
         if (!is_own && !(on_grid && levels.may_need(level, fine * at, around))) continue;
       }
       if (homes.empty() || !is_inside(at - corner, edges_)) {

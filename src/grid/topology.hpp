@@ -89,7 +89,7 @@ class Topology {
   /// Returns the block around a position, of the finest level that has functions there; none for a position beyond the
   /// outer layer, or NaN.
   [[nodiscard]] std::optional<BlockCoordinate> block_of(const Vector3& position) const {
-    return block_of(position, geometry().blend(position).level());
+    return block_of(position, geometry().level_at(position));
   }
   /// Returns the block of a level around a position.
   [[nodiscard]] std::optional<BlockCoordinate> block_of(const Vector3& position, Level level) const;

@@ -98,7 +98,7 @@ std::vector<CaseCheck::OfLevel> of_levels(const solver::Simulation& simulation, 
   std::array<double, 5> counts{};  // particles and active cells of either level, mixed particles
   for (const Vector3& x : simulation.particles().position) {
     const grid::Blend blend = grid.geometry().blend(x);
-    counts[grid::number(blend.level())] += 1.0;
+    counts[grid::number(grid.geometry().level_at(x))] += 1.0;
     counts[4] += blend.is_mixed() ? 1.0 : 0.0;
   }
   for (std::size_t slot = 0; slot < grid.owned_slots(); ++slot) {

@@ -217,26 +217,31 @@ void GaugeRecorder::add_forces(const solver::Simulation& simulation,
 
 void GaugeRecorder::add_states(const solver::Simulation& simulation,
                                std::vector<io::HistoryValue>& row) const {
-  const double per_cell = 1.0 / simulation.setup().domain.cell_size;
+  const grid::Geometry& geometry = simulation.setup().geometry;
   std::vector<Sums> sums(gauges_.size());
   std::unordered_multimap<std::uint64_t, std::size_t> gauge_of;
-  std::vector<std::size_t> fixed;
+  struct Fixed {
+    std::size_t number;
+    double per_cell;  ///< of the cells around it, 1/m
+  };
+  std::vector<Fixed> fixed;
   for (std::size_t g = 0; g < gauges_.size(); ++g) {
     if (gauges_[g].moving()) {
       gauge_of.emplace(particle_[g], g);
     } else {
-      fixed.push_back(g);
+      fixed.push_back({g, 1.0 / geometry.cell_size_at(gauges_[g].position)});
     }
   }
   std::unordered_set<std::uint64_t> elements;  // those with the parts of moving gauges
   for (const auto& [part, g] : gauge_of) elements.insert(part / 8);
   const auto seen = [&](std::uint64_t element, const Vector3& centre, double reach) {
-    return elements.contains(element) || std::ranges::any_of(fixed, [&](std::size_t g) {
-             return per_cell * ((centre - gauges_[g].position).cwiseAbs().maxCoeff() - reach) < support;
+    return elements.contains(element) || std::ranges::any_of(fixed, [&](const Fixed& gauge) {
+             const Vector3& place = gauges_[gauge.number].position;
+             return gauge.per_cell * ((centre - place).cwiseAbs().maxCoeff() - reach) < support;
            });
   };
   for_each_part(simulation, seen, [&](const Part& part) {
-    for (const std::size_t g : fixed) {
+    for (const auto& [g, per_cell] : fixed) {
       const Vector3 r = per_cell * (part.position - gauges_[g].position);
       if (r.cwiseAbs().maxCoeff() >= support) continue;
       const double weight = spline(r[0]) * spline(r[1]) * spline(r[2]);

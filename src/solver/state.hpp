@@ -140,6 +140,10 @@ struct State {
   [[nodiscard]] AffineInertia inertia_of_particles() const {
     return {particle_affine_inertia(), grid.geometry()};
   }
+  /// Returns whether a place has functions of the small cells only (docs/theory/levels.md): all places, with one size.
+  [[nodiscard]] bool is_in_small_cells(const Vector3& position) const {
+    return !(grid.geometry().blend(position).fine < 1.0);
+  }
   /// Returns the edge of the cells around a particle, m.
   [[nodiscard]] double cell_size_at(std::size_t particle) const {
     return grid.geometry().cell_size_at(particles.position[particle]);

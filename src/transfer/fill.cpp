@@ -27,7 +27,7 @@ std::vector<double> fill_of_cells(const Particles& particles, const TransitionNo
   const bool two_levels = grid.has_two_levels();
   const grid::Geometry &fine = grid.geometry(), coarse = fine.of_level(grid::Level::coarse);
   const auto geometry_at = [&](const Vector3& x) -> const grid::Geometry& {
-    return two_levels && fine.blend(x).level() == grid::Level::coarse ? coarse : fine;
+    return two_levels && fine.level_at(x) == grid::Level::coarse ? coarse : fine;
   };
   scalars::scatter(BlockGrid::Points::particles, grid,
                    [&](Node& node, std::size_t p, double n, const Vector3&) {

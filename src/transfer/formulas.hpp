@@ -89,4 +89,17 @@ template <class Vector>
   return too_large ? Scalar{} : Scalar(before - scale * scale * after);
 }
 
+/// Rule by which an affine field fits the cells at a new place (docs/theory/levels.md, 8).
+struct FittedField {
+  double factor = 1.0;  ///< of the field
+  double loss = 0.0;    ///< of kinetic energy per |C|^2 and mass, m^2
+};
+/// Returns how an affine field fits another inertia: with more it is weaker by as much, and keeps its energy; with less
+/// it stays, and loses the rest.
+/// @param before, after  inertia per mass where the point was and where it is, m^2
+inline FittedField fit_field(double before, double after) {
+  if (after > before) return {.factor = std::sqrt(before / after)};
+  return {.loss = 0.5 * (before - after)};
+}
+
 }  // namespace whipple::transfer::formulas

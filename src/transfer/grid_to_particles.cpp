@@ -153,34 +153,26 @@ void for_each_slot(const BlockGrid& grid, const Stretch& stretch, Gather&& gathe
   });
 }
 
-/// Gives a point the affine field that fits the cells at its new position: one of larger cells has more inertia, and the
-/// field is weaker by as much; one of smaller cells has less, and the rest of its energy is lost (8).
+/// Gives a point the affine field that fits the cells at its new position (docs/theory/levels.md, 8).
 /// @param before, after  edges of the cells at the positions before and after the step, m
 template <class Shape>
 void fit_affine_field(Advance<>& advance, double before, double after) {
   if (before == after) return;
-  if (after > before) {
-    for (Lanes& column : advance.affine) column *= before / after;
-  } else {
-    advance.heat +=
-        0.5 * Shape::second_moment * (before * before - after * after) * squared_norm(advance.affine);
-  }
+  const auto [factor, loss] =
+      formulas::fit_field(Shape::second_moment * before * before, Shape::second_moment * after * after);
+  advance.heat += loss * squared_norm(advance.affine);
+  for (Lanes& column : advance.affine) column *= factor;
 }
 
 /// Updates a particle of a grid of two levels, whose cells may change on its way.
-/// @param of_level  sums over the nodes of its own level, which are all that it reaches unless it is mixed
 template <class Shape, bool affine>
 [[gnu::noinline]] TransferBalance update_between_levels(const ExactUpdate& update, Particles& particles,
-                                                        BlockGrid& grid, std::size_t p,
-                                                        const Advance<>& of_level, Matrix3& gradient,
+                                                        const BlockGrid& grid, std::size_t p,
+                                                        Advance<> advance, Matrix3& gradient,
                                                         double& volume_rate, double radius) {
   const grid::Geometry& geometry = grid.geometry();
-  const bool mixed = is_mixed(grid, p);
-  Advance<> advance = mixed
-                          ? advance_mixed<Shape, affine>(particles, grid, p, update.functions.slope_smoothing,
-                                                         update.affine, update.dt)
-                          : of_level;
-  const double before = geometry.cell_size_at(particles.position[p]);
+  const double before = is_mixed(grid, p) ? geometry.cell_size_at(grid.mixed()[grid.mixed_number()[p]].blend)
+                                          : grid.cell_size_of(p);
   if constexpr (affine) {
     const Vector3 moved = particles.position[p] + update.dt * vector(advance.grid_velocity.value);
     fit_affine_field<Shape>(advance, before, geometry.cell_size_at(moved));
@@ -200,7 +192,8 @@ void update_exactly(const ExactUpdate& update, Particles& particles, BlockGrid& 
   for_each_slot<Shape, Widest::wide>(
       grid, stretch,
       [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance& balance, std::size_t first) {
-        const auto take = [&](std::size_t place, std::size_t p, const Advance<>& advance) WHIPPLE_INLINE {
+        const auto take = [&](std::size_t place, std::size_t p, const Advance<>& advance,
+                              const auto&... sums) WHIPPLE_INLINE {
           if (prefetches(p)) {
             prefetch_state(particles, p + prefetch_distance);  // most of it for the material
             prefetch(p + prefetch_distance, particles.position, particles.velocity);
@@ -211,9 +204,13 @@ void update_exactly(const ExactUpdate& update, Particles& particles, BlockGrid& 
           }
           const double radius = radial ? particles.position[p][1] : 0.0;
           if (two_levels) {
-            balance += update_between_levels<Shape, affine>(update, particles, grid, p, advance,
-                                                            stretch.gradients[first + place],
-                                                            stretch.volume_rates[first + place], radius);
+            // The sums are read here, in the registers of the kernel.
+            balance += update_between_levels<Shape, affine>(
+                update, particles, grid, p,
+                is_mixed(grid, p) ? advance_mixed<Shape, affine>(
+                                        particles, grid, p, functions.slope_smoothing, field, dt, sums()...)
+                                  : advance,
+                stretch.gradients[first + place], stretch.volume_rates[first + place], radius);
             return;
           }
           balance += update_particle<affine, Planar<Shape>>(
@@ -296,14 +293,15 @@ void move_nodes(double slope_smoothing, TransitionNodes& nodes, BlockGrid& grid,
   with_kernels<Shape>([&]<class Kernels>(Kernels) {
     parallel::for_each_uneven(grid.slots(), [&](std::size_t slot) {
       if (grid.guests_in(slot).empty()) return;
-      const auto take = [&](std::size_t, std::size_t p, const Advance<>& advance) WHIPPLE_INLINE {
-        advance_point<affine>(nodes, p, dt, advance, field);
-        store_vector(nodes.mean_velocity[p].data(),
-                     advance.grid_velocity.value - 0.5 * advance.increment.value);
-        store_vector(nodes.new_velocity[p].data(), advance.grid_velocity.value);
-        nodes.heat[p] = nodes.mass[p] * advance.heat[0];
-        nodes.contact_heat[p] = nodes.mass[p] * advance.increment.value[3];
-      };
+      const auto take = [&](std::size_t, std::size_t p, const Advance<>& advance, const auto&...)
+                            WHIPPLE_INLINE {
+                              advance_point<affine>(nodes, p, dt, advance, field);
+                              store_vector(nodes.mean_velocity[p].data(),
+                                           advance.grid_velocity.value - 0.5 * advance.increment.value);
+                              store_vector(nodes.new_velocity[p].data(), advance.grid_velocity.value);
+                              nodes.heat[p] = nodes.mass[p] * advance.heat[0];
+                              nodes.contact_heat[p] = nodes.mass[p] * advance.increment.value[3];
+                            };
       Kernels::template gather<Shape>(nodes, grid, kind, slot, slope_smoothing,
                                       typename Kernels::template Transfer<affine>{field, dt}, take);
     });

@@ -73,7 +73,7 @@ struct Everything : OfParticles {
   /// -V sigma_zz N_i / r towards the axis.
   template <bool affine>
   [[nodiscard, gnu::always_inline]] Payload load(std::size_t p) const {
-    return is_mixed(grid, p) ? Payload{} : payload<affine>(p);
+    return in_pass(grid, p, payload<affine>(p));
   }
   template <bool affine>
   [[nodiscard, gnu::always_inline]] Payload payload(std::size_t p) const {
@@ -114,7 +114,7 @@ struct Momentum : OfParticles {
   WHIPPLE_INLINE void prefetch_from(std::size_t p) const { prefetch(p, points.mass, velocity); }
   template <bool affine>
   [[nodiscard, gnu::always_inline]] Lanes load(std::size_t p) const {
-    return is_mixed(grid, p) ? Lanes{} : payload<affine>(p);
+    return in_pass(grid, p, payload<affine>(p));
   }
   template <bool affine>
   [[nodiscard, gnu::always_inline]] Lanes payload(std::size_t p) const {
@@ -122,11 +122,13 @@ struct Momentum : OfParticles {
   }
 };
 
-/// Adds the contributions of the parts of mixed particles in a region to the nodes.
+/// Adds the contributions of the parts of mixed particles in a region to the nodes, where the particles of their blocks
+/// have not done so.
 template <class Shape, class What>
 void scatter_parts(const What& what, const Particles& particles, grid::BlockGrid& grid, Region region,
                    double slope_smoothing) {
   for_each_part_apart(grid, region, [&](std::uint32_t part) {
+    if (is_in_pass(grid::BlockGrid::level_of_part(part))) return;
     const auto load = what.template payload<CarriesAffineField<Shape>>(grid.mixed_of_part(part).particle);
     add_part<Shape>(particles, grid, part, slope_smoothing, load);
   });

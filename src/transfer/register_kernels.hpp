@@ -28,7 +28,8 @@ struct RegisterKernels {
   using Update = UpdateSums<Vector>;
   using First = FirstSums<Vector>;
 
-  /// Calls take(place, point, its result) for the points of a slot; `place` counts along its list.
+  /// Calls take(place, point, its result) for the points of a slot; `place` counts along its list. Where the result
+  /// follows from sums in a second step, a further argument returns those of the point.
   /// @param slope_smoothing  as of ShapeFunctions
   /// @param sums             Transfer, Update or First
   template <class Shape, class Sums, class Points, class Take>
@@ -68,9 +69,10 @@ struct RegisterKernels {
                 }
                 return group;
               };
-              const auto give = [&](std::size_t g, const auto& result) WHIPPLE_INLINE {
+              // Calls f(i, place, point) for the points of a group.
+              const auto for_each_point = [&](std::size_t g, auto&& f) WHIPPLE_INLINE {
                 for (std::size_t i = 0, m = g * at_a_time; i < at_a_time && m < some.size(); ++i, ++m) {
-                  take(static_cast<std::size_t>(&some[m] - list), some[m], of_point(result, i));
+                  f(i, static_cast<std::size_t>(&some[m] - list), some[m]);
                 }
               };
               if constexpr (requires { typename Sums::Sum; }) {
@@ -86,9 +88,18 @@ struct RegisterKernels {
                 for (std::size_t g = 0; g < groups; ++g) {
                   result[g] = sums.template advance<Shape>(points, point[g], sum[g], cells.size);
                 }
-                for (std::size_t g = 0; g < groups; ++g) give(g, result[g]);
+                for (std::size_t g = 0; g < groups; ++g) {
+                  for_each_point(g, [&](std::size_t i, std::size_t place, std::uint32_t p) WHIPPLE_INLINE {
+                    take(place, p, of_point(result[g], i),
+                         [&]() WHIPPLE_INLINE { return of_point(sum[g], i); });
+                  });
+                }
               } else {
-                for (std::size_t g = 0; g < groups; ++g) give(g, sums.of(points, group_at(g), cells));
+                for (std::size_t g = 0; g < groups; ++g) {
+                  const auto result = sums.of(points, group_at(g), cells);
+                  for_each_point(g, [&](std::size_t i, std::size_t place, std::uint32_t p)
+                                        WHIPPLE_INLINE { take(place, p, of_point(result, i)); });
+                }
               }
             };
             for_some<Shape, with_weights>(points, places, cells, members, gather_some);

@@ -30,7 +30,7 @@ REGIONS = {
 }
 REGIONS["section"] = REGIONS["crater"]
 CASES = {"section": ROOT / "cases/aluminium_crater/case.toml", "crater": ROOT / "cases/aluminium_crater/case.toml", "shield": ROOT / "cases/whipple_shield/case.toml"}
-CELLS = {"section": [0.5, 0.25, 0.125], "crater": [1.0, 0.7], "shield": [0.5, 0.35]}  # mm, the small ones
+CELLS = {"section": [0.5, 0.25, 0.125], "crater": [1.0, 0.7], "shield": [0.7, 0.5]}  # mm, the small ones
 MEASURES = {
     "crater": {"crater_depth.block": ("depth, mm", 1e3, 2), "crater_diameter.block": ("diameter, mm", 1e3, 2)},
     "shield": {"mean_velocity.sphere": ("sphere, m/s", 1.0, 1), "mean_velocity.bumper": ("bumper, m/s", 1.0, 1), "mean_velocity.wall": ("wall, m/s", 1.0, 2)},
@@ -79,7 +79,7 @@ def run_of(arguments, problem, cell, way):
             text = head + region_text(REGIONS[problem]) + mark + rest
         path = folder.with_suffix(".toml")
         path.write_text(text, encoding="utf-8")
-        return path, [f"domain.cell_size={2 * cell if way == 'large' else cell} mm", *(SECTION if problem == "section" else [])]
+        return path, [f"domain.cell_size={2 * cell if way == 'large' else cell} mm", "output.snapshot_every=1 us", *(SECTION if problem == "section" else [])]
 
     return folder, timed_run(arguments, folder, prepare)
 

@@ -14,6 +14,7 @@
 #include "eos/models/polynomial.hpp"
 #include "src/core/base/error.hpp"
 #include "src/material/strength/crushable_foam.hpp"
+#include "tests/unit/foam_support.hpp"
 #include "tests/unit/material_support.hpp"
 
 namespace whipple::crushable_foam_test {
@@ -58,18 +59,7 @@ struct Trial {
   double q = 0.0, p = 0.0, distension = 1.0, strain = 0.0, modulus = 14e6, stiffness = 300e6;
   double increment = 0.0, work = 0.0;
 
-  void crush(const CrushableFoam& law) {
-    const double trial = q, before = p;
-    CrushableFoamModel(law).crush({.bulk_modulus = {&stiffness, 1},
-                                   .modulus = {&modulus, 1},
-                                   .trial = {&trial, 1},
-                                   .pressure = {&before, 1},
-                                   .equivalent = {&q, 1},
-                                   .distension = {&distension, 1},
-                                   .plastic_strain = {&strain, 1},
-                                   .plastic_increment = {&increment, 1},
-                                   .dissipation = {&work, 1}});
-  }
+  void crush(const CrushableFoam& law) { crush_point(CrushableFoamModel(law), *this); }
 };
 
 /// What keeps a state within the ellipse (<= 0), Pa^2.

@@ -15,6 +15,7 @@
 #include "src/core/base/error.hpp"
 #include "src/material/failure/viscous_void_growth.hpp"
 #include "src/material/strength/deshpande_fleck.hpp"
+#include "tests/unit/foam_support.hpp"
 #include "tests/unit/material_support.hpp"
 
 namespace whipple {
@@ -58,18 +59,7 @@ struct Point {
   double q, p, distension, strain, modulus = 2.14e9, stiffness = 15e9;
   double increment = 0.0, work = 0.0;
 
-  void crush(const DeshpandeFleck& law) {
-    const double trial = q, before = p;
-    DeshpandeFleckModel(law).crush({.bulk_modulus = {&stiffness, 1},
-                                    .modulus = {&modulus, 1},
-                                    .trial = {&trial, 1},
-                                    .pressure = {&before, 1},
-                                    .equivalent = {&q, 1},
-                                    .distension = {&distension, 1},
-                                    .plastic_strain = {&strain, 1},
-                                    .plastic_increment = {&increment, 1},
-                                    .dissipation = {&work, 1}});
-  }
+  void crush(const DeshpandeFleck& law) { crush_point(DeshpandeFleckModel(law), *this); }
 };
 
 // Without hardening the return is the closest point of the ellipse in the norm of the elastic energy.

@@ -82,6 +82,36 @@ TEST(Gauges, FollowMatterThroughItsConversion) {
   EXPECT_GT(values(recorder, simulation)["material.plastic_strain"], 0.05);
 }
 
+// Two millimetres off a bar: within reach of the large cells there, beyond that of the small ones.
+TEST(Gauges, SeeAsFarAsTheCellsAroundThem) {
+  const auto density_at_gauge = [](const std::string& region) {
+    const cases::Case setup = cases::read_case_text(R"(
+[domain]
+lower = ["0 mm", "0 mm", "0 mm"]
+upper = ["6 mm", "6 mm", "30 mm"]
+cell_size = "1 mm"
+boundary = { x_lower = "symmetry", y_lower = "symmetry", z_lower = "symmetry" }
+)" + region + R"([time]
+end = "1 us"
+[[body]]
+name = "bar"
+material = "copper_ofhc.toml"
+shape = { box = { lower = ["0 mm", "0 mm", "0 mm"], upper = ["4 mm", "4 mm", "10 mm"] } }
+[[gauge]]
+name = "place"
+position = ["1 mm", "1 mm", "12 mm"]
+)",
+                                                    "case.toml");
+    const solver::Simulation simulation(setup, parallel::world());
+    return values(GaugeRecorder(setup.all_gauges(), {}, simulation), simulation)["place.density"] /
+           setup.materials[0]->reference.density;
+  };
+  EXPECT_TRUE(std::isnan(density_at_gauge("")));
+  EXPECT_NEAR(density_at_gauge("[[domain.refinement]]\nlower = [\"0 mm\", \"0 mm\", \"20 mm\"]\n"
+                               "upper = [\"6 mm\", \"6 mm\", \"30 mm\"]\n"),
+              1.0, 1e-9);
+}
+
 /// A block of 4 x 3 x 2 mm that turns about z at 1e4 rad/s and flies along x, off the axis.
 std::string spinning(const std::string& method) {
   return R"(

@@ -10,7 +10,6 @@ import http.client
 import json
 import os
 import pathlib
-import re
 import shutil
 import signal
 import socket
@@ -19,6 +18,7 @@ import sys
 import time
 
 from checks import require
+from page_server import PageServer
 from processes import end_runs_in, runs_in
 
 WHIPPLE, CASE, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
@@ -34,37 +34,11 @@ def wait_for(condition, what, seconds=60):
         time.sleep(0.05)
 
 
-class Monitor:
-    """A monitor of a folder; `ask` returns status and body."""
+class Monitor(PageServer):
+    """A monitor of a folder."""
 
     def __init__(self, folder, *options):
-        self.process = subprocess.Popen([WHIPPLE, "monitor", str(folder), *options], stdout=subprocess.PIPE, text=True)
-        line = self.process.stdout.readline()
-        found = re.search(r"http://(127\.0\.0\.1:(\d+))/#([0-9a-f]{32}) ", line)
-        require(found, f"no address in {line!r}")
-        self.host, self.port, self.token = found[1], int(found[2]), found[3]
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self.process.send_signal(signal.SIGTERM)
-        require(self.process.wait(10) == 0, "the monitor ends with code 0 on SIGTERM")
-
-    def ask(self, target, body=None, token=None, host=None, **heads):
-        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=20)
-        connection.putrequest("GET" if body is None else "POST", target, skip_host=True)
-        heads = {name.replace("_", "-"): value for name, value in heads.items()}
-        heads = {"Host": host or self.host, "X-Whipple-Token": self.token if token is None else token, **heads}
-        if body is not None:
-            heads = {"Content-Type": "application/json", "Content-Length": str(len(body)), **heads}
-        for name, value in heads.items():
-            connection.putheader(name, value)
-        connection.endheaders(None if body is None else body.encode())
-        with contextlib.closing(connection):
-            answer = connection.getresponse()
-            self.heads = dict(answer.getheaders())
-            return answer.status, answer.read()
+        super().__init__(WHIPPLE, "monitor", folder, *options)
 
     def get(self, target):
         status, body = self.ask(target)

@@ -212,6 +212,35 @@ TEST_F(Images, VolumesOfLabelsAreThoseOfTheirVoxels) {
   EXPECT_NEAR(body(image, {7})->smallest_extent(Vector3::UnitX()), 1.3e-3, 0.3e-3);
 }
 
+// Points on the faces, edges and corners of voxels, where round-off of boxes of their own would give both labels or none.
+TEST_F(Images, EveryPointIsInOneLabelAtMost) {
+  write(nrrd("uchar", "encoding: raw\n") + values<std::uint8_t>(false));
+  for (const bool smooth : {false, true}) {
+    std::vector<VoxelBody> labels;
+    for (const double label : {3.0, 7.0}) {
+      ImageKeys keys;
+      keys.file = "head";
+      keys.unit = 1e-3;
+      keys.values = {label};
+      keys.smooth = smooth;
+      labels.emplace_back(keys, folder_);
+    }
+    long inside = 0, both = 0;
+    for (int k = 0; k < 2 * nz; ++k) {
+      for (int j = 0; j < 2 * ny; ++j) {
+        for (int i = 0; i < 2 * nx; ++i) {
+          const Vector3 x = 1e-3 * (first + 0.5 * spacing.cwiseProduct(Vector3(i, j, k)));
+          const bool in_ball = labels[0].contains(x), in_shell = labels[1].contains(x);
+          inside += in_ball || in_shell ? 1 : 0;
+          both += in_ball && in_shell ? 1 : 0;
+        }
+      }
+    }
+    EXPECT_EQ(both, 0) << smooth;
+    EXPECT_GT(inside, 10000) << smooth;
+  }
+}
+
 /// A smooth surface errs less than one along the faces of voxels: points of a ball.
 TEST_F(Images, SmoothSurfacesLieBetweenVoxels) {
   write(nrrd("uchar", "encoding: raw\n") + values<std::uint8_t>(false));

@@ -105,21 +105,22 @@ bool boxes_meet(const Shape::Bounds& a, const Shape::Bounds& b) {
 }
 
 /// Returns a fault if a particle of one of two bodies is inside the other; both directions are tested, as one body may
-/// fit between the particles of the other.
+/// fit between the particles of the other. The middle of a part of a cell may lie outside of its own shape, where that
+/// is hollow: there two bodies may share a cell without a common point.
 std::optional<std::string> overlap(const Case& setup, const Body& body, const Body& former) {
   const Shape::Bounds bounds = bounds_of(setup, body), theirs = bounds_of(setup, former);
   if (!boxes_meet(bounds, theirs)) return std::nullopt;
   const Shape::Bounds both = common_part(bounds, theirs);
   Vector3 at;
-  const auto lies_in = [&](const Shape& shape) {
+  const auto lies_in = [&](const Body& other, const Body& own) {
     return [&](const Site& site) {
       at = site.position;
-      return shape.contains(site.position);
+      return other.shape->contains(at) && (site.fraction >= 1.0 || own.shape->contains(at));
     };
   };
-  if (!any_site(setup, body, lattice_of(setup, body), both, lies_in(*former.shape)) &&
+  if (!any_site(setup, body, lattice_of(setup, body), both, lies_in(former, body)) &&
       (former.discretization.is_bars() ||
-       !any_site(setup, former, lattice_of(setup, former), both, lies_in(*body.shape)))) {
+       !any_site(setup, former, lattice_of(setup, former), both, lies_in(body, former)))) {
     return std::nullopt;
   }
   return fmt::format("body \"{}\" overlaps body \"{}\" at ({:.6g}, {:.6g}, {:.6g}) m", body.name, former.name,

@@ -126,15 +126,16 @@ void VoxelBody::take(const solids::Image& image) {
     throw InputError(fmt::format("{}: no voxel has a value from {} to {}; {}", utf8(source_.path.string()),
                                  least, greatest, account_.back()));
   }
+  first_ = from;
   size_ = to - from + 1;
   steps_ = keys_.unit * header.steps;
   to_voxels_ = steps_.inverse();
-  origin_ = keys_.unit * header.origin + keys_.offset + steps_ * from.cast<double>().matrix();
+  origin_ = keys_.unit * header.origin + keys_.offset;
   std::vector<std::uint8_t> taken(static_cast<std::size_t>(size_.cast<std::int64_t>().prod()), 0);
   for_each_voxel([&](const Eigen::Array3i& voxel) { taken[index(voxel - from)] = 1; });
   taken_ = std::make_shared<const std::vector<std::uint8_t>>(std::move(taken));
   volume_ = static_cast<double>(count) * std::abs(steps_.determinant());
-  const Vector3 middle = origin_ + steps_ * (0.5 * (size_ - 1).cast<double>()).matrix();
+  const Vector3 middle = origin_ + steps_ * (0.5 * (from + to).cast<double>()).matrix();
   const Vector3 reach = steps_.cwiseAbs() * (0.5 * size_.cast<double>()).matrix();
   bounds_ = {middle - reach, middle + reach};
 }
@@ -177,7 +178,8 @@ std::size_t VoxelBody::index(const Eigen::Array3i& voxel) const {
 }
 
 bool VoxelBody::is_taken(const Eigen::Array3i& voxel) const {
-  return (voxel >= 0).all() && (voxel < size_).all() && (*taken_)[index(voxel)] != 0;
+  const Eigen::Array3i at = voxel - first_;
+  return (at >= 0).all() && (at < size_).all() && (*taken_)[index(at)] != 0;
 }
 
 bool VoxelBody::contains(const Vector3& point) const {
@@ -192,7 +194,8 @@ bool VoxelBody::contains(const Vector3& point) const {
     const Eigen::Array3i shift(octant & 1, (octant >> 1) & 1, octant >> 2);
     if (is_taken(corner + shift)) occupied += (shift == 1).select(part, 1.0 - part).prod();
   }
-  return occupied > 0.5;
+  constexpr double half = 0.5 + 1e-9;  // round-off gives no point to two labels
+  return occupied > half;
 }
 
 void VoxelBody::measure_thickness() {
@@ -206,10 +209,10 @@ void VoxelBody::measure_thickness() {
       for (at[c] = 0; at[c] < size_[c]; ++at[c]) {
         for (int i = 0, end = 0; i < size_[a]; i = std::max(end, i + 1)) {
           at[a] = i;
-          if (!is_taken(at)) continue;
+          if (!is_taken(first_ + at)) continue;
           for (end = i; end < size_[a]; ++end) {
             at[a] = end;
-            if (!is_taken(at)) break;
+            if (!is_taken(first_ + at)) break;
           }
           for (at[a] = i; at[a] < end; ++at[a]) {
             double& length = shortest[index(at)];

@@ -70,14 +70,18 @@ class VoxelBody final : public Shape, public Made<VoxelBody, ImageKeys> {
   void take(const solids::Image& image);
   void describe_labels(const solids::Image& image);
   void measure_thickness();
+  /// @param voxel  of the image
   [[nodiscard]] bool is_taken(const Eigen::Array3i& voxel) const;
+  /// @param voxel  of the box
   [[nodiscard]] std::size_t index(const Eigen::Array3i& voxel) const;
 
   ImageKeys keys_;
   SourceFile source_;
   Matrix3 steps_, to_voxels_;  // m; 1/m
-  Vector3 origin_;             // m, of the centre of the first voxel that is kept
-  Eigen::Array3i size_;        // of the box of voxels that is kept
+  Vector3 origin_;             // m, of the centre of the first voxel of the image
+  // Box of voxels that is kept. Places are counted in the image and not in it: labels with boxes of their own must agree
+  // on which voxel holds a point on a face.
+  Eigen::Array3i first_, size_;
   std::shared_ptr<const std::vector<std::uint8_t>> taken_;
   Bounds bounds_;
   double volume_ = 0.0, thickness_ = 0.0;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/material/strength/crushable_foam.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -43,8 +41,7 @@ double CrushableFoam::strength_at(double distension) const {
          densification_stress * std::log1p(-std::pow(z, densification_exponent));
 }
 
-CrushableFoamModel::CrushableFoamModel(const CrushableFoam& law)
-    : law_(law), modulus_(law.stiffness()), shape_(law.shape()) {
+CrushableFoamModel::CrushableFoamModel(const CrushableFoam& law) : FoamModel(law), shape_(law.shape()) {
   if (!(law.uniaxial_yield < 3.0 * law.hydrostatic_yield)) {
     throw InputError("'uniaxial_yield' must be below three times 'hydrostatic_yield'");
   }
@@ -53,34 +50,12 @@ CrushableFoamModel::CrushableFoamModel(const CrushableFoam& law)
   }
 }
 
-void CrushableFoamModel::shear_modulus(const State&, std::span<double> modulus) const {
-  std::ranges::fill(modulus, modulus_);
-}
-
-void CrushableFoamModel::plastic_increment(const State&, std::span<const double>, std::span<const double>,
-                                           std::span<const double>, double,
-                                           std::span<double> increment) const {
-  std::ranges::fill(increment, 0.0);
-}
-
 void CrushableFoamModel::flow_stress(const State&, std::span<const double>, std::span<double> stress) const {
   std::ranges::fill(stress, law_.uniaxial_yield);
 }
 
-std::string CrushableFoamModel::constants() const {
-  CrushableFoam copy = law_;
-  return fmt::format("model = \"{}\"\n{}", CrushableFoam::name,
-                     to_toml(whipple::bind(CrushableFoam::parameters(), copy)));
-}
-
 void CrushableFoamModel::crush(const FoamState& state) const {
-  for (std::size_t i = 0; i < state.trial.size(); ++i) {
-    if (has_pores(state, i)) {
-      flow(state, i);
-    } else {
-      flow_as_solid(state, i, law_.solid_yield_stress);
-    }
-  }
+  crush_points(state, [&](std::size_t i) { flow(state, i); });
 }
 
 /// Returns the point to the ellipse in one unknown, the compaction v = -d(ln distension) (foam.md, eq. 7):

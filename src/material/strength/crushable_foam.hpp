@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
-#include <string_view>
-
 #include "src/material/strength/elastic_constants.hpp"
-#include "src/material/strength/foam.hpp"
-#include "src/material/strength/strength.hpp"
+#include "src/material/strength/foam_model.hpp"
 
 namespace whipple::strength {
 
@@ -45,29 +41,19 @@ struct CrushableFoam : ElasticConstants {
   [[nodiscard]] double strength_at(double distension) const;
 };
 
-class CrushableFoamModel final : public Strength, public Foam {
+class CrushableFoamModel final : public FoamModel<CrushableFoam> {
  public:
   /// @throws InputError if the constants are inconsistent
   explicit CrushableFoamModel(const CrushableFoam& law);
 
-  [[nodiscard]] const CrushableFoam& law() const { return law_; }
-  [[nodiscard]] std::string_view model() const override { return CrushableFoam::name; }
-  [[nodiscard]] double initial_distension() const override { return 1.0 / law_.relative_density; }
   void crush(const FoamState& state) const override;
-  void shear_modulus(const State& state, std::span<double> modulus) const override;
-  /// Returns no increment: the pressure is not yet known, and `crush` returns the trial deviator.
-  void plastic_increment(const State& state, std::span<const double> trial, std::span<const double> modulus,
-                         std::span<const double> solid_fraction, double dt,
-                         std::span<double> increment) const override;
   /// Computes the flow stress in uniaxial compression of foam that has not been compacted.
   void flow_stress(const State& state, std::span<const double> rate, std::span<double> stress) const override;
-  [[nodiscard]] std::string constants() const override;
 
  private:
   void flow(const FoamState& state, std::size_t i) const;
 
-  CrushableFoam law_;
-  double modulus_, shape_;
+  double shape_;
 };
 
 }  // namespace whipple::strength

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/material/strength/deshpande_fleck.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -45,37 +43,15 @@ double DeshpandeFleck::strength_at(double strain) const {
          densification_stress * std::log1p(-std::pow(z, densification_exponent));
 }
 
-DeshpandeFleckModel::DeshpandeFleckModel(const DeshpandeFleck& law) : law_(law), modulus_(law.stiffness()) {}
-
-void DeshpandeFleckModel::shear_modulus(const State&, std::span<double> modulus) const {
-  std::ranges::fill(modulus, modulus_);
-}
-
-void DeshpandeFleckModel::plastic_increment(const State&, std::span<const double>, std::span<const double>,
-                                            std::span<const double>, double,
-                                            std::span<double> increment) const {
-  std::ranges::fill(increment, 0.0);
-}
+DeshpandeFleckModel::DeshpandeFleckModel(const DeshpandeFleck& law) : FoamModel(law) {}
 
 void DeshpandeFleckModel::flow_stress(const State& state, std::span<const double>,
                                       std::span<double> stress) const {
   for (std::size_t i = 0; i < stress.size(); ++i) stress[i] = law_.strength_at(state.plastic_strain[i]);
 }
 
-std::string DeshpandeFleckModel::constants() const {
-  DeshpandeFleck copy = law_;
-  return fmt::format("model = \"{}\"\n{}", DeshpandeFleck::name,
-                     to_toml(whipple::bind(DeshpandeFleck::parameters(), copy)));
-}
-
 void DeshpandeFleckModel::crush(const FoamState& state) const {
-  for (std::size_t i = 0; i < state.trial.size(); ++i) {
-    if (has_pores(state, i)) {
-      flow(state, i);
-    } else {
-      flow_as_solid(state, i, law_.solid_yield_stress);
-    }
-  }
+  crush_points(state, [&](std::size_t i) { flow(state, i); });
 }
 
 /// Returns the point to the ellipse in one unknown, the increment x of the equivalent plastic strain (foam.md, eq. 3),

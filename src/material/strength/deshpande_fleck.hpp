@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
-#include <string_view>
-
 #include "src/material/strength/elastic_constants.hpp"
-#include "src/material/strength/foam.hpp"
-#include "src/material/strength/strength.hpp"
+#include "src/material/strength/foam_model.hpp"
 
 namespace whipple::strength {
 
@@ -46,29 +42,16 @@ struct DeshpandeFleck : ElasticConstants {
   [[nodiscard]] double strength_at(double strain) const;
 };
 
-class DeshpandeFleckModel final : public Strength, public Foam {
+class DeshpandeFleckModel final : public FoamModel<DeshpandeFleck> {
  public:
-  /// @throws InputError if the constants are inconsistent
   explicit DeshpandeFleckModel(const DeshpandeFleck& law);
 
-  [[nodiscard]] const DeshpandeFleck& law() const { return law_; }
-  [[nodiscard]] std::string_view model() const override { return DeshpandeFleck::name; }
-  [[nodiscard]] double initial_distension() const override { return 1.0 / law_.relative_density; }
   void crush(const FoamState& state) const override;
-  void shear_modulus(const State& state, std::span<double> modulus) const override;
-  /// Returns no increment: the pressure is not yet known, and `crush` returns the trial deviator.
-  void plastic_increment(const State& state, std::span<const double> trial, std::span<const double> modulus,
-                         std::span<const double> solid_fraction, double dt,
-                         std::span<double> increment) const override;
   /// Computes the flow stress in uniaxial compression without lateral stress.
   void flow_stress(const State& state, std::span<const double> rate, std::span<double> stress) const override;
-  [[nodiscard]] std::string constants() const override;
 
  private:
   void flow(const FoamState& state, std::size_t i) const;
-
-  DeshpandeFleck law_;
-  double modulus_;
 };
 
 }  // namespace whipple::strength

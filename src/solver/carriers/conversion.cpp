@@ -45,7 +45,7 @@ void Hexahedra::convert(ParticleCarrier& particles, double grid_step) {
       const std::vector<std::uint8_t> distorted =
           afemp::distorted_elements(mesh, thresholds(body.conversion), viscosities, grid_step);
       warn_of_all(mesh, distorted);
-      counts[0] += static_cast<double>(convert(mesh, distorted));
+      counts[0] += static_cast<double>(convert(mesh, distorted, error));
     }
     const std::vector<afemp::RangeFault> faults =
         afemp::range_faults(mesh, range(body.element_range), viscosities, grid_step);
@@ -66,7 +66,7 @@ void Hexahedra::convert(ParticleCarrier& particles, double grid_step) {
     switch (body.element_range.beyond) {
       case cases::BeyondRange::particles:
         for (const std::string& text : told) log::detail("{}\n  it becomes particles", text);
-        counts[0] += static_cast<double>(convert(mesh, beyond));
+        counts[0] += static_cast<double>(convert(mesh, beyond, error));
         break;
       case cases::BeyondRange::remove:
         for (const std::string& text : told) log::info("{}\n  it is deleted", text);
@@ -90,9 +90,23 @@ void Hexahedra::convert(ParticleCarrier& particles, double grid_step) {
   parallel::throw_together(state_.communicator, error);
 }
 
-/// Converts the chosen elements.
+/// Converts the chosen elements, or describes in `error` one that is not in small cells, where its particles would lose
+/// their affine fields (docs/theory/levels.md, 5).
 /// @returns number of converted elements
-std::size_t Hexahedra::convert(fem::Mesh& mesh, std::span<const std::uint8_t> chosen) {
+std::size_t Hexahedra::convert(fem::Mesh& mesh, std::span<const std::uint8_t> chosen, std::string& error) {
+  for (std::size_t e = 0; e < chosen.size(); ++e) {
+    if (chosen[e] == 0 || std::ranges::all_of(mesh.elements.corners[e], [&](std::uint32_t a) {
+          return state_.is_in_small_cells(mesh.nodes.position[a]);
+        }))
+      continue;
+    if (error.empty()) {
+      error =
+          describe(mesh, e * fem::points_per_element(mesh.quadrature),
+                   "it becomes particles, and is not in small cells: a region of 'domain.refinement' should "
+                   "hold this place");
+    }
+    return 0;
+  }
   const afemp::ConversionBalance balance =
       afemp::convert_elements(mesh, chosen, state_.particle_affine_inertia(), state_.particles,
                               state_.setup.bodies[mesh.body].discretization.lattice);

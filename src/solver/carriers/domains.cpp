@@ -11,6 +11,7 @@
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/parallel/threads.hpp"
 #include "src/material/fluid.hpp"
+#include "src/transfer/formulas.hpp"
 
 namespace whipple::solver::domains {
 
@@ -37,6 +38,25 @@ Eigen::SelfAdjointEigenSolver<Matrix3> principal_directions(const SymmetricTenso
   return Eigen::SelfAdjointEigenSolver<Matrix3>(moments);
 }
 
+/// Returns the longest half-edge of a domain, m. Of directions equal to round-off, as those of a cube, that nearest to the
+/// first axis is taken: round-off must not decide.
+Vector3 longest_half_edge(const SymmetricTensor& extent, bool planar) {
+  constexpr double equal = 1.0 - 1e-6;
+  const auto principal = principal_directions(extent, planar);
+  const auto& squares = principal.eigenvalues();
+  Eigen::Index first = 2;
+  while (first > 0 && squares[first - 1] >= equal * squares[2]) --first;
+  const auto longest = principal.eigenvectors().rightCols(3 - first);
+  Vector3 direction = longest.col(longest.cols() - 1);
+  for (int a = 0; longest.cols() > 1 && a < 3; ++a) {
+    const Vector3 along = longest * longest.row(a).transpose();  // the part of an axis in their plane
+    if (along.norm() < 0.5) continue;
+    direction = along.normalized();
+    break;
+  }
+  return std::sqrt(squares[2]) * direction;
+}
+
 /// Returns whether a particle's material remains continuous when it is stretched, and may be split further.
 bool may_be_divided(const Particles& particles, std::size_t p, const cases::Splitting& splitting,
                     Fluidity fluidity) {
@@ -57,6 +77,16 @@ bool fits(const grid::Geometry& geometry, const Vector3& position, const Vector3
 /// Longest half-edges of the particles to split, in ascending order of the particles.
 using Divisions = std::vector<std::pair<std::uint32_t, Vector3>>;
 
+/// Adds the division of a particle along its longest direction, unless a part of it would leave the domain.
+/// @param least  square of the half-edge (m^2) up to which it stays whole
+void add_division(Divisions& divisions, const Particles& particles, std::size_t p,
+                  const grid::Geometry& geometry, double least) {
+  const Vector3 half_edge = longest_half_edge(particles.extent[p], geometry.is_planar());
+  if (half_edge.squaredNorm() <= least) return;
+  if (fits(geometry, particles.position[p], half_edge))
+    divisions.emplace_back(static_cast<std::uint32_t>(p), half_edge);
+}
+
 /// Finds the particles in regions of small cells that are larger than those want them (docs/theory/levels.md, section 4):
 /// they came from large cells.
 Divisions find_entries(const State& state) {
@@ -76,13 +106,7 @@ Divisions find_entries(const State& state) {
       return geometry.size_in_section(volume, particles.position[p]) > most &&
              geometry.levels.is_refined(geometry.in_cells(particles.position[p]));
     });
-    for (const std::uint32_t i : large) {
-      const std::size_t p = first + i;
-      const auto principal = principal_directions(particles.extent[p], geometry.is_planar());
-      const Vector3 half_edge = std::sqrt(principal.eigenvalues()[2]) * principal.eigenvectors().col(2);
-      if (fits(geometry, particles.position[p], half_edge))
-        divisions.emplace_back(static_cast<std::uint32_t>(p), half_edge);
-    }
+    for (const std::uint32_t i : large) add_division(divisions, particles, first + i, geometry, 0.0);
   }
   return divisions;
 }
@@ -104,14 +128,8 @@ Divisions find_divisions(const State& state) {
       return largest_at_most(particles.extent[first + i]) > limit_at(first + i) &&
              may_be_divided(particles, first + i, splitting, fluid);
     });
-    for (const std::uint32_t i : long_ones) {
-      const std::size_t p = first + i;
-      const auto principal = principal_directions(particles.extent[p], geometry.is_planar());
-      if (principal.eigenvalues()[2] <= limit_at(p)) continue;
-      const Vector3 half_edge = std::sqrt(principal.eigenvalues()[2]) * principal.eigenvectors().col(2);
-      if (fits(geometry, particles.position[p], half_edge))
-        divisions.emplace_back(static_cast<std::uint32_t>(p), half_edge);
-    }
+    for (const std::uint32_t i : long_ones)
+      add_division(divisions, particles, first + i, geometry, limit_at(first + i));
   }
   return divisions;
 }
@@ -241,11 +259,9 @@ enum class Generation { next, same };
 double fit_affine_field(Particles& particles, std::size_t p, double before, double after) {
   if (before == after) return 0.0;
   Matrix3& c = particles.affine_velocity[p];
-  if (after > before) {
-    c *= std::sqrt(before / after);
-    return 0.0;
-  }
-  const double loss = 0.5 * (before - after) * c.squaredNorm();
+  const transfer::formulas::FittedField fitted = transfer::formulas::fit_field(before, after);
+  const double loss = fitted.loss * c.squaredNorm();
+  c *= fitted.factor;
   (particles.unresolved_energy.empty() ? particles.specific_internal_energy
                                        : particles.unresolved_energy)[p] += loss;
   return particles.mass[p] * loss;

@@ -82,7 +82,8 @@ class Hexahedra : public Carrier {
   void find_parts();
   double remove(fem::Mesh& mesh, std::span<const std::uint8_t> removed);
   void warn_of_all(const fem::Mesh& mesh, std::span<const std::uint8_t> distorted) const;
-  [[nodiscard]] std::size_t convert(fem::Mesh& mesh, std::span<const std::uint8_t> chosen);
+  [[nodiscard]] std::size_t convert(fem::Mesh& mesh, std::span<const std::uint8_t> chosen,
+                                    std::string& error);
 
   const Loads& loads_;
   std::vector<fem::Mesh> meshes_;

@@ -68,8 +68,7 @@ double ParticleCarrier::fastest() {
         for (std::size_t p = begin; p < end; ++p) {
           const double speed = particles.sound_speed[p] + particles.velocity[p].cwiseAbs().maxCoeff();
           // In coarse cells, twice as fast is as far.
-          const bool coarse =
-              two_levels && geometry.blend(particles.position[p]).level() == grid::Level::coarse;
+          const bool coarse = two_levels && geometry.level_at(particles.position[p]) == grid::Level::coarse;
           fastest = std::max(fastest, coarse ? 0.5 * speed : speed);
         }
         if (explosives.any()) fastest = std::max(fastest, explosives.fastest(begin, end));

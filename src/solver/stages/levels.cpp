@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/solver/stages/levels.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "src/core/parallel/mpi.hpp"
 
@@ -29,6 +33,22 @@ std::uint32_t mixed_at_plane(const State& state) {
   return grid::BlockGrid::not_mixed;
 }
 
+/// Describes a node of elements or bars that moves with the grid outside of the small cells; nothing: there is none.
+std::string node_outside(const State& state) {
+  const std::vector<Vector3>& position = state.transition.position;
+  const auto outside =
+      std::ranges::find_if(position, [&](const Vector3& x) { return !state.is_in_small_cells(x); });
+  if (outside == position.end()) return {};
+  const Vector3& x = *outside;
+  const std::uint32_t body = state.transition_body[static_cast<std::size_t>(outside - position.begin())];
+  return fmt::format(
+      "step {}, t = {} s, body \"{}\": a node of its elements or bars moves with the grid at ({}, {}, {}) m, "
+      "which is not in "
+      "small cells: a region of 'domain.refinement' should hold this place, two and a half large cells from "
+      "its faces",
+      state.run.step + 1, state.run.time, state.setup.bodies[body].name, x[0], x[1], x[2]);
+}
+
 }  // namespace
 
 void stop_at_mixed(const State& state, std::uint32_t particle, const std::string& what) {
@@ -45,6 +65,7 @@ void stop_at_mixed(const State& state, std::uint32_t particle, const std::string
 void watch_levels(State& state) {
   constexpr double strong = 0.1;  // of rho_0 c_0^2
   stop_at_mixed(state, mixed_at_plane(state), "material may part from a wall or its image");
+  parallel::throw_together(state.communicator, node_outside(state));
   for (const grid::MixedParticle& mixed : state.grid.mixed()) {
     const std::uint32_t body = state.particles.body[mixed.particle];
     const double c = state.setup.materials[body]->reference.sound_speed;

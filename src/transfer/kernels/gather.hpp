@@ -224,6 +224,11 @@ WHIPPLE_INLINE inline Advance<> of_point(const Advance<Vector>& sums, std::size_
           of_point(sums.heat, i)};
 }
 template <VectorRegister Vector>
+WHIPPLE_INLINE inline Moments<Lanes> of_point(const Moments<Vector>& sums, std::size_t i) {
+  return {of_point(sums.velocity, i), of_point(sums.increment, i), of_point(sums.change, i),
+          of_point(sums.loss, i)};
+}
+template <VectorRegister Vector>
 WHIPPLE_INLINE inline VelocityUpdate<> of_point(const VelocityUpdate<Vector>& sums, std::size_t i) {
   return {of_point(sums.after, i), of_point(sums.increment, i)};
 }
