@@ -2,6 +2,7 @@
 #include "src/quasi_static/equilibrium.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -13,6 +14,16 @@ double norm_of(std::span<const Vector3> forces) {
   double sum = 0.0;
   for (const Vector3& force : forces) sum += force.squaredNorm();
   return std::sqrt(sum);
+}
+
+/// Does work. @returns what it returns; its time, s, is added to `seconds`
+template <class Work>
+bool timed(double& seconds, Work&& work) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin = Clock::now();
+  const bool done = work();
+  seconds += std::chrono::duration<double>(Clock::now() - begin).count();
+  return done;
 }
 
 /// Holds displacements with their forces.
@@ -61,7 +72,7 @@ class Newton {
     trial.relative = scale > 0.0 ? trial.residual.norm() / scale : 0.0;
     return std::isfinite(trial.relative);
   }
-  bool advance(Trial& at);
+  bool advance(Trial& at, Convergence& result);
   /// Returns the node with the largest component of the residual.
   [[nodiscard]] std::size_t worst_node(const Trial& trial) const;
 
@@ -75,12 +86,17 @@ class Newton {
 };
 
 /// Performs one iteration. @returns false if no shorter step has a defined state
-bool Newton::advance(Trial& at) {
+bool Newton::advance(Trial& at, Convergence& result) {
   std::vector<double> tangents(particles_ * strains_ * strains_);
-  response_.differentiate(at.f, at.forces, tangents);
+  timed(result.tangent_seconds, [&] {
+    response_.differentiate(at.f, at.forces, tangents);
+    return true;
+  });
   const double given_left = 1.0 - at.given_factor;
   Eigen::VectorXd du;
-  if (!system_.solve(tangents, at.residual, given_left, du)) return false;
+  if (!timed(result.linear_seconds, [&] { return system_.solve(tangents, at.residual, given_left, du); })) {
+    return false;
+  }
   constexpr int most_halvings = 4;
   constexpr double enough = 0.8;
   // The line search asks for less work of the residual on the increment, not for a smaller residual: material that is
@@ -129,7 +145,7 @@ Convergence Newton::find() {
   if (defined) result.residuals.push_back(at.relative);
   while (defined && (at.given_factor < 1.0 || at.relative > control_.tolerance) &&
          result.iterations < control_.iterations) {
-    defined = advance(at);
+    defined = advance(at, result);
     ++result.iterations;
     if (defined) result.residuals.push_back(at.relative);
   }

@@ -25,6 +25,8 @@ struct Convergence {
   std::vector<Vector3> u;         ///< displacements of the active nodes, m
   std::vector<Matrix3> f;         ///< deformation gradients of the particles
   std::vector<Vector3> internal;  ///< forces of the nodes at the end, N
+  double tangent_seconds = 0.0;   ///< of the differences that give dT/df
+  double linear_seconds = 0.0;    ///< of assembly, factors and solutions of K
 };
 
 /// Finds the displacements of the nodes with which internal and external forces agree (eq. 3), by Newton's iteration

@@ -69,6 +69,9 @@ std::string of_splitting(const solver::Simulation& simulation) {
 std::vector<std::string> account_of(const cases::Case& setup, std::size_t body) {
   std::vector<std::string> lines;
   const cases::Body& of = setup.bodies[body];
+  if (of.discretization.has_elements() && !of.driven) {
+    lines.emplace_back("  its elements do not touch each other where the body folds");
+  }
   if (of.discretization.has_elements() && of.element_range.beyond == cases::BeyondRange::remove) {
     const bool touch = setup.contact_fields.parts(body) > 1;
     lines.push_back(fmt::format(

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Load steps without inertia on exact problems: order of convergence, and limit loads.
 
-usage: quasi_static.py column|beam|cook|cut|footing [--cells N]... [--shape NAME]... [--border X]... [--table] [--folder run/studies/quasi_static]
+usage: quasi_static.py column|beam|cook|cut|footing|tangent [--cells N]... [--shape NAME]... [--border X]... [--table] [--folder run/studies/quasi_static]
                        [--threads N] [--whipple EXE]
 
 column   50 m under its own weight, E = 1 MPa, Poisson's ratio 0, 20 load steps (shortens by 2 %), and under a hundred times the weight,
@@ -15,11 +15,14 @@ cook     cases/cook_membrane (rubber, Poisson's ratio 0.499) in 10 load steps: d
 cut      vertical cut of 8 m in clay of the strength c: gamma H/c at which no state of rest is found. Known: 3.776.
 footing  rough rigid strip on weightless clay, pushed down by 2 cm, half width 1 m: force over (2 + pi) c times the half width, when
          its limit is reached or at the end.
---cells: number over the height (column), the depth (beam), the held edge of 44 m (cook), the height (cut) or the half width (footing). Runs of the same program are
+tangent  what the tangents by differences cost: the footing under four laws (sinks by 0.3 m, 4 mm under those that yield), in the plane and
+         with fewer than 8 cells as the quarter of a square one in space, 10 steps, quadratic B-splines: iterations, user time, fractions of it (profile.json).
+--cells: number over the height (column), the depth (beam), the held edge of 44 m (cook), the height (cut) or the half width (footing, tangent). Runs of the same program are
 kept; --table runs nothing. A run that ends at its limit load is one that worked.
 """
 import argparse
 import csv
+import json
 import math
 import os
 import pathlib
@@ -31,6 +34,7 @@ import numpy as np
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[0] = str(ROOT)
 from report.particles import particles_of  # noqa: E402
+from studies.validation.bands import grid_study  # noqa: E402
 
 SHAPES = ("linear", "convected_gimp", "quadratic_bspline", "cubic_bspline")
 AT_LIMIT = 3  # exit code of whipple: the physics left its range
@@ -119,6 +123,15 @@ def last_row(run, table, column):
     return float(rows[-1][names.index(column)])
 
 
+def print_bands(found):
+    """What the grids of each function say (docs/theory/uncertainty.md); found: cell size and value by name."""
+    print("\n| shape function | finest grid | order | limit |\n" + "| --- " * 4 + "|")
+    for name, points in found.items():
+        study = grid_study(points)
+        order, limit = (f"{x:.3g}" if math.isfinite(x) else "–" for x in (study.order, study.limit))
+        print(f"| {name} | {study.value:.4g} +- {study.band:.2g}{'' if study.converged else f' ({study.state})'} | {order} | {limit} |")
+
+
 def control_of(border, kept=False):
     return f"border_stiffness = {border}\n" + ('grid = "kept"' if kept else "")
 
@@ -168,6 +181,7 @@ def beam(arguments):
     down, short = elastica(1e5 * end**2 / (12e6 / 0.96 / 12))
     print(f"elastica: {down * end:.3f} m down, {short * end:.3f} m shorter\n")
     print("| shape function | border stiffness | cells over the depth | load steps | down, m | shorter, m |\n" + "| --- " * 6 + "|")
+    found = {}
     for shape in arguments.shape:
         for border in arguments.border:
             for n in arguments.cells:
@@ -178,11 +192,15 @@ def beam(arguments):
                               {name: material(name, 1000, 12e6, 0.2) for name in ("beam", "tip")})
                 now = particles_of(run, "tip")["position"].mean(axis=0)
                 print(f"| {shape} | {border:g} | {n} | {last_row(run, 'history.csv', 'step'):.0f} | {-now[1]:.3f} | {end - now[0]:.3f} |", flush=True)
+                found.setdefault(f"{shape}, {border:g}, down, m", []).append((1 / n, -now[1]))
+                found.setdefault(f"{shape}, {border:g}, shorter, m", []).append((1 / n, end - now[0]))
+    print_bands(found)
 
 
 def cut(arguments):
     height, gravity = 8.0, 4.0
     print("| shape function | cells over the height | gamma H/c |\n" + "| --- " * 3 + "|")
+    found = {}
     for shape in arguments.shape:
         for n in arguments.cells:
             h = height / n
@@ -192,11 +210,15 @@ def cut(arguments):
             run = compute(arguments, f"cut_{shape}_{n}", text, {"clay": CLAY})
             time = last_row(run, "history.csv", "time")
             held = " (held)" if time >= 1.0 else ""
+            if not held:
+                found.setdefault(shape, []).append((h, time * gravity * 2000 * height / COHESION))
             print(f"| {shape} | {n} | {time * gravity * 2000 * height / COHESION:.3f}{held} |", flush=True)
+    print_bands(found)
 
 
 def footing(arguments):
     print("| shape function | cells over the half width | force over (2 + pi) c B/2 | at, cm |\n" + "| --- " * 4 + "|")
+    found = {}
     for shape in arguments.shape:
         for n in arguments.cells:
             h = 1.0 / n
@@ -208,6 +230,8 @@ def footing(arguments):
             run = compute(arguments, f"footing_{shape}_{n}", text, {"clay": CLAY, "footing": CLAY.replace('name = "clay"', 'name = "footing"')})
             force, time = last_row(run, "gauges.csv", "load.force_y"), last_row(run, "gauges.csv", "time")
             print(f"| {shape} | {n} | {force / ((2 + math.pi) * COHESION):.3f} | {2 * time:.2f} |", flush=True)
+            found.setdefault(shape, []).append((h, force / ((2 + math.pi) * COHESION)))
+    print_bands(found)
 
 
 def cook(arguments):
@@ -216,6 +240,7 @@ def cook(arguments):
     inertia = (case / "case.toml").read_text(encoding="utf-8").replace('volumetric = "cell"', 'volumetric = "point"')
     rest = inertia.replace('[[load]]\ndamping = "0.2 1/s"\n', "").replace("[artificial_viscosity]", "[contact]\nmethod = \"none\"\n[artificial_viscosity]")
     print("| scheme | shape function | cells, m | steps | user s | deflection, m |\n" + "| --- " * 6 + "|")
+    found = {}
     for scheme, shapes, text in (("quasi_static", arguments.shape, rest), ("symplectic", ("quadratic_bspline",), inertia)):
         for shape in shapes:
             for cell in [44 / n for n in arguments.cells] if scheme == "quasi_static" else [44 / arguments.cells[0]]:
@@ -228,11 +253,50 @@ def cook(arguments):
                     rows = list(csv.reader(file))
                 column = [name.split(" ")[0] for name in rows[0]].index("corner.y")
                 seconds = (run.parent / "seconds").read_text(encoding="utf-8")
-                print(f"| {scheme} | {shape} | {cell:.3g} | {last_row(run, 'history.csv', 'step'):.0f} | {seconds} | "
-                      f"{float(rows[-1][column]) - float(rows[1][column]):.4f} |", flush=True)
+                deflection = float(rows[-1][column]) - float(rows[1][column])
+                print(f"| {scheme} | {shape} | {cell:.3g} | {last_row(run, 'history.csv', 'step'):.0f} | {seconds} | {deflection:.4f} |", flush=True)
+                if scheme == "quasi_static":
+                    found.setdefault(shape, []).append((cell, deflection))
+    print_bands(found)
 
 
-PROBLEMS = {"column": (column, (8, 16, 32, 64, 128)), "beam": (beam, (2, 4, 8)), "cook": (cook, (22, 44, 88)), "cut": (cut, (8, 16, 32)), "footing": (footing, (4, 8, 16))}
+LAWS = {"elastic": ("[strength]\nmodel = \"elastic\"\n", 0.3), "neo-Hookean": ("[constitutive]\nmodel = \"neo_hookean\"\n", 0.3),
+        "von Mises": ("[strength]\nmodel = \"von_mises\"\nyield_stress = \"20 kPa\"\nhardening_modulus = \"0 Pa\"\n", 4e-3),
+        "Drucker-Prager": ("[strength]\nmodel = \"drucker_prager\"\nfriction_angle = \"20 deg\"\ncohesion = \"10 kPa\"\nmatch = \"plane_strain\"\n", 4e-3)}
+SQUARE = BODY.replace('"-1 m"', '"0 m"').replace('"1 m"', '"{z1:.17g} m"')
+
+
+def ground(name, law):
+    """Ground of E = 100 MPa and Poisson's ratio 0.3 under a law."""
+    return material(name, 2000, 1e8, 0.3).replace('[strength]\nmodel = "elastic"\n', law)
+
+
+def tangent(arguments):
+    print("| law | dimensions | cells over the half width | particles | load steps | iterations | user s | tangents, % | linear equations, % |\n" + "| --- " * 9 + "|")
+    for law, (text_of_law, depth) in LAWS.items():
+        for n in arguments.cells:
+            dimensions, h = 2 if n >= 8 else 3, 1.0 / n
+            faces = 'x_lower = "symmetry", x_upper = "symmetry", y_lower = "no_slip"'
+            text = HEAD.format(low=0, wide=3, high=4, cell=h, steps=10, shape="quadratic_bspline", control="", faces=faces)
+            body = BODY
+            if dimensions == 3:
+                text = text.replace('dimension = "plane_strain"\n', "").replace('m"]\nupper', 'm", "0 m"]\nupper').replace('m"]\ncell', 'm", "3 m"]\ncell')
+                text = text.replace(faces, faces + ', z_lower = "symmetry", z_upper = "symmetry"')
+                body = SQUARE
+            text += body.format(name="ground", x0=0, y0=0, x1=3, y1=3, z1=3)
+            text += body.format(name="footing", x0=0, y0=3, x1=1, y1=3 + h, z1=1) + f'driven = true\nvelocity = ["0 m/s", "-{depth} m/s", "0 m/s"]\n'
+            run = compute(arguments, f"tangent_{law.replace(' ', '_')}_{n}", text, {name: ground(name, text_of_law) for name in ("ground", "footing")})
+            with open(run / "profile.json", encoding="utf-8") as file:
+                profile = json.load(file)
+            seconds = {stage["stage"]: stage["seconds"] for stage in profile["stages"]}
+            of_step = sum(seconds[name] for name in ("load step", "tangents of the material", "linear equations"))
+            shares = " | ".join(f"{100 * seconds[name] / of_step:.1f}" for name in ("tangents of the material", "linear equations"))
+            counts = " | ".join(f"{last_row(run, 'history.csv', name):.0f}" for name in ("step", "newton_iterations"))
+            print(f"| {law} | {dimensions} | {n} | {profile['particles']} | {counts} | {(run.parent / 'seconds').read_text(encoding='utf-8')} | {shares} |", flush=True)
+
+
+PROBLEMS = {"column": (column, (8, 16, 32, 64, 128)), "beam": (beam, (2, 4, 8)), "cook": (cook, (22, 44, 88)), "cut": (cut, (8, 16, 32)), "footing": (footing, (4, 8, 16)),
+            "tangent": (tangent, (2, 3, 8, 16))}
 
 
 def main():

@@ -20,6 +20,7 @@ namespace whipple {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 struct Result {
   int code = -1;
@@ -236,6 +237,24 @@ TEST_F(CommandLine, AllErrorsOfACaseComeAtOnceAndNothingIsWritten) {
               HasSubstr("case.toml:3:1: error: unknown key 'domain.lowr', did you mean \"lower\"?"));
   EXPECT_THAT(result.err, HasSubstr("missing"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
+}
+
+TEST_F(CommandLine, CheckSaysWhatElementsOfABodyDoNotTouch) {
+  const std::string text =
+      "[domain]\nlower = [0, 0, 0]\nupper = [\"8 mm\", \"8 mm\", \"8 mm\"]\ncell_size = \"1 mm\"\n"
+      "[time]\nend = \"1 us\"\n[[body]]\nname = \"block\"\nmaterial = \"copper.toml\"\n"
+      "shape = { box = { lower = [\"2 mm\", \"2 mm\", \"2 mm\"], upper = [\"6 mm\", \"6 mm\", \"6 mm\"] } "
+      "}\n";
+  const std::string elements = "discretization = { method = \"finite_elements\" }\n";
+  const std::string folds = "do not touch each other where the body folds";
+  write("particles.toml", text);
+  write("elements.toml", text + elements);
+  write("pieces.toml", text + elements + "element_range = { beyond = \"remove\", pieces = \"fields\" }\n");
+  const Result particles = whipple("check particles.toml");
+  EXPECT_EQ(particles.code, 0);
+  EXPECT_THAT(particles.out, Not(HasSubstr(folds)));
+  EXPECT_THAT(whipple("check elements.toml").out, HasSubstr(folds));
+  EXPECT_THAT(whipple("check pieces.toml").out, HasSubstr("pieces that this parts touch each other"));
 }
 
 TEST_F(CommandLine, UnitsConvertsAndRefuses) {

@@ -30,9 +30,14 @@ struct Watch {
   }
 };
 
+struct Rebound {
+  double restitution;   // exact: 1
+  double contact_heat;  // over the kinetic energy
+};
+
 /// Two elastic bars of 20 mm meet head-on at 2 x 20 m/s; column of one cell. Exact: each leaves with its
 /// velocity reversed.
-double restitution(int cells, const std::string& of_left, const std::string& of_right) {
+Rebound rebound(int cells, const std::string& of_left, const std::string& of_right) {
   constexpr double length = MeetingBars::length, speed = MeetingBars::speed;
   const MeetingBars bars(cells);
   const Problem problem = bars.problem(of_left, of_right);
@@ -47,14 +52,14 @@ double restitution(int cells, const std::string& of_left, const std::string& of_
   });
   const BodySums left = sums_of(simulation, 0), right = sums_of(simulation, 1);
   const solver::Ledger& ledger = simulation.state().ledger;
-  const double result = right.momentum[0] / (right.mass * speed);
+  const Rebound result = {right.momentum[0] / (right.mass * speed),
+                          ledger.contact_heat / ledger.initial.kinetic_energy};
   std::printf(
       "bars of %d cells, %s on %s: restitution %.4f, contact heat %.2e, transfer heat %.2e of the kinetic "
       "energy, clearance %.2f cells, energy %.1e, momentum %.1e\n",
-      cells, of_left.empty() ? "particles" : "elements", of_right.empty() ? "particles" : "elements", result,
-      ledger.contact_heat / ledger.initial.kinetic_energy,
-      ledger.transfer_heat / ledger.initial.kinetic_energy, (right.centre[0] - left.centre[0] - length) / dx,
-      watch.energy, watch.momentum);
+      cells, of_left.empty() ? "particles" : "elements", of_right.empty() ? "particles" : "elements",
+      result.restitution, result.contact_heat, ledger.transfer_heat / ledger.initial.kinetic_energy,
+      (right.centre[0] - left.centre[0] - length) / dx, watch.energy, watch.momentum);
   EXPECT_LT(watch.energy, 1e-12);
   EXPECT_LT(watch.momentum, 1e-13);
   EXPECT_GE(ledger.contact_heat, 0.0);
@@ -66,10 +71,16 @@ double restitution(int cells, const std::string& of_left, const std::string& of_
 
 TEST(ElementContact, BarsReboundAndPart) {
   for (const auto& [left, right] : {std::pair(elements, elements), std::pair(elements, particles)}) {
-    const double coarse = restitution(20, left, right), fine = restitution(40, left, right);
-    EXPECT_GT(coarse, 0.92);
-    EXPECT_GT(fine, coarse);
-    EXPECT_LT(1.0 - fine, 0.75 * (1.0 - coarse));
+    const Rebound coarse = rebound(20, left, right), fine = rebound(40, left, right);
+    EXPECT_GT(coarse.restitution, 0.92);
+    EXPECT_GT(fine.restitution, coarse.restitution);
+    EXPECT_LT(1.0 - fine.restitution, 0.75 * (1.0 - coarse.restitution));
+    if (left != right) continue;
+    // The heat of contact is that of the outermost nodes, half a cell of each bar, which stop at once (5.7): h/(2 L).
+    for (const auto& [cells, heat] : {std::pair(20, coarse.contact_heat), std::pair(40, fine.contact_heat)}) {
+      EXPECT_GT(heat, 0.5 / cells);
+      EXPECT_LT(heat, 1.2 * 0.5 / cells);
+    }
   }
 }
 

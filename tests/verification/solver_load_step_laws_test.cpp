@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Load steps without inertia (docs/theory/quasi_static.md): driven bodies and the work of their force, every law of a
-// solid, limit loads, and what is refused.
+// solid, residuals that square, limit loads, and what is refused.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -97,6 +98,80 @@ TEST(LoadSteps, TakeEveryLawOfASolid) {
   }
 }
 
+/// Ground of E = 100 MPa and Poisson's ratio 0.3, under a law of its own.
+std::string ground(const std::string& name, const std::string& law) {
+  return write_material("quasi_static_" + name, "name = \"" + name + R"toml("
+source = "test"
+[eos]
+model = "mie_gruneisen"
+source = "E = 100 MPa, nu = 0.3"
+reference_density = "2000 kg/m^3"
+hugoniot_intercept = "204.1241452 m/s"
+hugoniot_slope = 1.0
+gruneisen = 1e-6
+heat_capacity = "1000 J/(kg K)"
+)toml" + law + "shear_modulus = \"38.461538 MPa\"\n");
+}
+
+const std::string von_mises_clay =
+    "[strength]\nmodel = \"von_mises\"\nsource = \"c = Y/sqrt 3\"\nyield_stress = \"20 kPa\"\n"
+    "hardening_modulus = \"0 Pa\"\n";
+
+/// A driven strip of half a width of 1 m that sinks by `depth` (m) into ground, in `steps` load steps.
+std::string footing(const std::string& material, double depth, int steps) {
+  return "[domain]\ndimension = \"plane_strain\"\nlower = [0, 0]\nupper = [3, 4]\ncell_size = 0.25\n"
+         "boundary = { x_lower = \"symmetry\", x_upper = \"symmetry\", y_lower = \"no_slip\" }\n"
+         "[time]\nend = 1\nscheme = \"quasi_static\"\n[quasi_static]\nsteps = " +
+         std::to_string(steps) + "\n[contact]\nmethod = \"none\"\n" +
+         BodyOptions{"ground", material, box({0, 0, -1}, {3, 3, 1})}.toml() +
+         BodyOptions{"footing", material, box({0, 3, -1}, {1, 3.25, 1}), {0, -depth, 0}, "driven = true\n"}
+             .toml();
+}
+
+// Tangents by differences make Newton's iteration square its residual: under a strip, for an elastic law of rates, a
+// potential, a yield stress and a cone. Those with a yield point do so once the particles that flow are found, down to
+// what a difference of 1e-7 is of the strain at which they yield, 2e-4.
+TEST(LoadSteps, ResidualsSquareForEveryKindOfLaw) {
+  struct Law {
+    std::string name, text;
+    double depth;   // m
+    double square;  // largest r_{n+1}/r_n^2
+    double linear;  // largest r_{n+1}/r_n at the end
+    double below;   // residual from which on it is asked for
+  };
+  for (const Law& law :
+       {Law{"elastic", "[strength]\nmodel = \"elastic\"\nsource = \"test\"\n", 0.3, 0.5, 1e-6, 0.05},
+        Law{"neo_hookean", "[constitutive]\nmodel = \"neo_hookean\"\nsource = \"test\"\n", 0.3, 0.5, 1e-6,
+            0.05},
+        Law{"von_mises", von_mises_clay, 2e-3, 20.0, 1e-3, 5e-3},
+        Law{"drucker_prager",
+            "[strength]\nmodel = \"drucker_prager\"\nsource = \"test\"\nfriction_angle = \"20 deg\"\n"
+            "cohesion = \"10 kPa\"\nmatch = \"plane_strain\"\n",
+            2e-3, 20.0, 1e-3, 5e-3}}) {
+    solver::Simulation simulation(
+        cases::read_case_text(footing(ground(law.name, law.text), law.depth, 4), "footing.toml"),
+        parallel::world());
+    run_to(simulation, 0.75);
+    simulation.advance(1.0);
+    const Particles& q = simulation.particles();
+    const auto flowing = std::ranges::count_if(q.plastic_strain, [](double x) { return x > 0.0; });
+    const std::vector<double>& r = simulation.equilibrium().residuals;
+    std::printf("%s, %td of %zu have flowed:", law.name.c_str(), flowing, q.size());
+    for (const double x : r) std::printf(" %.1e", x);
+    std::printf("\n");
+    const bool yields = law.linear > 1e-4;
+    EXPECT_EQ(flowing > static_cast<std::ptrdiff_t>(q.size()) / 10, yields) << law.name;
+    int squared = 0;
+    for (std::size_t i = 1; i + 1 < r.size(); ++i) {
+      if (r[i] > law.below) continue;
+      EXPECT_LT(r[i + 1], law.square * r[i] * r[i] + law.linear * r[i]) << law.name;
+      squared += law.square * r[i] > law.linear ? 1 : 0;
+    }
+    EXPECT_GE(squared, 1) << law.name;
+    EXPECT_LT(r.back(), 1e-8) << law.name;
+  }
+}
+
 TEST(LoadSteps, WhatTheyDoNotComputeIsRefusedByName) {
   const auto message_of = [](const std::string& text) {
     try {
@@ -131,24 +206,7 @@ TEST(LoadSteps, WhatTheyDoNotComputeIsRefusedByName) {
 
 // A cut that its material cannot carry ends at its limit load, with step, residuals and particle.
 TEST(LoadSteps, ALimitLoadIsNamed) {
-  const std::string clay = write_material("quasi_static_clay", R"toml(
-name = "clay"
-source = "test"
-[eos]
-model = "mie_gruneisen"
-source = "E = 100 MPa, nu = 0.3"
-reference_density = "2000 kg/m^3"
-hugoniot_intercept = "204.1241452 m/s"
-hugoniot_slope = 1.0
-gruneisen = 1e-6
-heat_capacity = "1000 J/(kg K)"
-[strength]
-model = "von_mises"
-source = "c = Y/sqrt 3"
-shear_modulus = "38.461538 MPa"
-yield_stress = "20 kPa"
-hardening_modulus = "0 Pa"
-)toml");
+  const std::string clay = ground("clay", von_mises_clay);
   solver::Simulation simulation(
       cases::read_case_text(
           "[domain]\ndimension = \"plane_strain\"\nlower = [0, 0]\nupper = [20, 10]\ncell_size = 1\n"

@@ -206,6 +206,8 @@ void LoadStep::perform(double until) {
       attempt.result = find_equilibrium(attempt.system, attempt.unknowns, attempt.response, supports,
                                         attempt.external_after, newton);
     });
+    state_.profile.reassign("load step", "tangents of the material", attempt.result.tangent_seconds);
+    state_.profile.reassign("load step", "linear equations", attempt.result.linear_seconds);
     state_.equilibrium.iterations += attempt.result.iterations;
     if (attempt.result.reached) {
       commit(attempt);
