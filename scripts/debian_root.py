@@ -13,7 +13,8 @@ import subprocess
 import sys
 
 SCRIPTS = pathlib.Path(__file__).resolve().parent
-ENVIRONMENT = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "DEBIAN_FRONTEND": "noninteractive", "LANG": "C.UTF-8"}
+# Without a home the compiler wrappers of Open MPI 5 do not start.
+ENVIRONMENT = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "DEBIAN_FRONTEND": "noninteractive", "LANG": "C.UTF-8", "HOME": "/root"}
 # Links that Debian makes when it installs, which does not happen to files that are unpacked only.
 ALTERNATIVES = ("blas/libblas.so.3", "lapack/liblapack.so.3")
 

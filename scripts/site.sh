@@ -50,6 +50,7 @@ if $cpp; then
     echo "OUTPUT_DIRECTORY = $folder/html"
     echo "HTML_OUTPUT = cpp"
     echo "INPUT = $(grep -v '^#' cmake/public_headers.txt | tr '\n' ' ')"
+    echo "HTML_EXTRA_STYLESHEET = docs/site/cpp.css"
     echo "GENERATE_LATEX = NO
 JAVADOC_AUTOBRIEF = YES
 EXTRACT_ALL = YES

@@ -30,7 +30,7 @@ if(WHIPPLE_PYTHON)
   set_tests_properties(site_formulas PROPERTIES LABELS fast TIMEOUT 120 SKIP_RETURN_CODE 77)
   add_test(NAME site_pages COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/site_pages.py ${PROJECT_SOURCE_DIR}
            ${CMAKE_CURRENT_BINARY_DIR}/site)
-  set_tests_properties(site_pages PROPERTIES LABELS "browser;long" TIMEOUT 300 COST 60 SKIP_RETURN_CODE 77)
+  set_tests_properties(site_pages PROPERTIES LABELS "browser;long" TIMEOUT 1800 COST 200 SKIP_RETURN_CODE 77)
   # What shells and man read, from the parser of the program.
   add_test(NAME app_completion COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/app_completion.py $<TARGET_FILE:whipple>
            ${CMAKE_CURRENT_BINARY_DIR}/app_completion)
@@ -79,7 +79,7 @@ if(TARGET whipple_python_eos AND WHIPPLE_PYTHON AND NOT WHIPPLE_SANITIZE)
   add_test(NAME packages_installed COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/installed/packages.py ${PROJECT_BINARY_DIR}
            ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/packages --install)
   set_tests_properties(packages PROPERTIES LABELS long TIMEOUT 600 COST 100 FIXTURES_SETUP packages)
-  set_tests_properties(packages_installed PROPERTIES LABELS long TIMEOUT 1200 COST 200 FIXTURES_REQUIRED packages SKIP_RETURN_CODE 77)
+  set_tests_properties(packages_installed PROPERTIES LABELS long TIMEOUT 2400 COST 200 FIXTURES_REQUIRED packages SKIP_RETURN_CODE 77)
 endif()
 
 # Where it is asked for in the same way: the program for another processor, and by other compilers; up to an hour each.

@@ -231,9 +231,16 @@ void write_preview(const Arguments& arguments, const std::string& page_file) {
              page.one_of == 1 ? "all particles" : fmt::format("about one of {} particles", page.one_of));
 }
 
-/// Checks that a path is not a folder.
-/// @throws InputError for a folder, with the case file in it
+/// Checks that a path is not a folder, and where it is nothing, whether a case that comes with the program is meant.
+/// @throws InputError for a folder, with the case file in it; for such a case, with its place
 void require_case_file(const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path) && path.is_relative() && !path.empty()) {
+    const std::optional<std::filesystem::path> own = process::data_if_there(path);
+    if (own) {
+      throw InputError(fmt::format("{}: there is no such file here; the one that comes with the program: {}",
+                                   path.string(), own->string()));
+    }
+  }
   if (!std::filesystem::is_directory(path)) return;
   if (std::filesystem::exists(path / "run.toml")) {
     throw InputError(

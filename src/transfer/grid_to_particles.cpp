@@ -18,7 +18,6 @@ namespace whipple::transfer {
 namespace {
 
 using grid::BlockGrid;
-using grid::Node;
 
 Vector3 vector(Lanes v) { return {v[0], v[1], v[2]}; }
 

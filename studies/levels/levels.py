@@ -14,6 +14,7 @@ Particle-steps count the particles that take part. Runs of the same program are 
 """
 import argparse
 import csv
+import json
 import math
 import pathlib
 import subprocess
@@ -68,8 +69,15 @@ def region_text(boxes):
     return "".join(lines)
 
 
+def mixed_of(arguments, case, settings):
+    """Part of the particles at the start that has functions of both sizes."""
+    command = [str(arguments.whipple), "check", str(case), "--json", *[word for setting in settings for word in ("--set", setting)]]
+    found = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+    return max((level["mixed_particles"] for level in found.get("levels", [])), default=0) / found["particles"]
+
+
 def run_of(arguments, problem, cell, way):
-    """Runs a problem unless it is there. @returns folder, its record or None"""
+    """Runs a problem unless it is there. @returns folder, its record or None, and prepare() that returns the case and its settings"""
     folder = arguments.folder / f"{problem}_{round(cell * 1e3)}_um_{way.replace(' ', '_')}"
 
     def prepare():
@@ -81,7 +89,7 @@ def run_of(arguments, problem, cell, way):
         path.write_text(text, encoding="utf-8")
         return path, [f"domain.cell_size={2 * cell if way == 'large' else cell} mm", "output.snapshot_every=1 us", *(SECTION if problem == "section" else [])]
 
-    return folder, timed_run(arguments, folder, prepare)
+    return folder, timed_run(arguments, folder, prepare), prepare
 
 
 def history(folder):
@@ -93,13 +101,13 @@ def history(folder):
 
 def print_problem(arguments, problem):
     measures = MEASURES[problem]
-    print(f"| cells, mm | way | {' | '.join(title for title, _, _ in measures.values())} | particles | steps | user time, s | memory, MiB | shocks at change |")
-    print("| " + " | ".join(["---"] * (7 + len(measures))) + " |")
+    print(f"| cells, mm | way | {' | '.join(title for title, _, _ in measures.values())} | particles | mixed at first | steps | user time, s | memory, MiB | shocks at change |")
+    print("| " + " | ".join(["---"] * (8 + len(measures))) + " |")
     for grid, cell in enumerate(CELLS[problem]):
         if arguments.grid and grid not in arguments.grid:
             continue
         for way in WAYS:
-            folder, kept = run_of(arguments, problem, cell, way)
+            folder, kept, prepare = run_of(arguments, problem, cell, way)
             if kept is None:
                 continue
             if kept["code"] != 0:
@@ -107,8 +115,9 @@ def print_problem(arguments, problem):
                 continue
             measured, rows = Measures(folder), history(folder)
             values = [f"{measured.single.get(name, math.nan) * scale:.{digits}f}" for name, (_, scale, digits) in measures.items()]
+            mixed = mixed_of(arguments, *prepare()) if way == "two sizes" else 0.0
             counted = rows.get("shocks_at_change", ["-"])[-1]
-            print(f"| {cell:g} | {way} | {' | '.join(values)} | {rows['particles'][-1]} | {rows['step'][-1]} | {kept['seconds']:.0f} | "
+            print(f"| {cell:g} | {way} | {' | '.join(values)} | {rows['particles'][-1]} | {mixed:.2f} | {rows['step'][-1]} | {kept['seconds']:.0f} | "
                   f"{kept['memory'] / 2**20:.0f} | {counted} |", flush=True)
 
 

@@ -2,19 +2,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How does a step scale with the cores of this machine, beside what studies/performance_model predicts from one core?
 
-usage: studies/scaling/scaling.py [--cores 1,2,4,8] [--quick] [--table] [--folder run/studies/scaling] [--whipple EXE]
+usage: studies/scaling/scaling.py [--cores 1,2,4,8] [--repeats 5] [--beyond 16,256,4096] [--quick] [--table]
+                                  [--folder run/studies/scaling] [--whipple EXE]
 
 Four series, each of one problem of `whipple bench`: of fixed size (strong) and with as many particles for each core (weak), by ranks
 of one thread and by threads of one rank. Writes scaling.json, scaling.md and scaling.png into the folder. Columns: time per particle
 and step; speed-up (work done in a second, over that of one core) and efficiency (speed-up over cores); the same of the reference
 kernel, whose threads share nothing, which bounds what any program gains on these cores; the speed-up that the model predicts with
 --latency and --bandwidth, and measured over predicted. Predictions are not adjusted to anything measured on more than one core.
-Machines should do nothing else meanwhile. --table renews the tables from what is in the folder.
+Machines should do nothing else meanwhile. With --repeats the series are measured in turn so many times: medians, and from the least
+to the greatest speed-up. --beyond: what the model predicts for more cores by ranks, in tables that say so. --table renews the tables
+from what is in the folder.
 """
 import argparse
 import json
 import os
 import pathlib
+import statistics
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -34,10 +38,10 @@ def default_cores():
     return sorted({*(2**k for k in range(available.bit_length()) if 2**k <= available), available})
 
 
-def measure(options, name):
+def measure(options, name, repeat):
     """Runs `whipple bench` for a series unless its file is there."""
     kind, way = SERIES[name]
-    file = options.folder / f"{name}.json"
+    file = options.folder / f"{name}_{repeat}.json"
     if not options.table:
         cores = ",".join(map(str, options.cores))
         by = ["--ranks", cores, "--threads", "1"] if way == "ranks" else ["--threads", cores]
@@ -67,13 +71,42 @@ def rows_of(measurements, latency, bandwidth, imbalance):
     return rows
 
 
+def combined(repeats):
+    """The rows of several measurements as one: medians, and the least and the greatest speed-up."""
+    result = []
+    for same in zip(*repeats):
+        row = {key: statistics.median(each[key] for each in same) for key in same[0]}
+        result.append(row | {"speed_ups": [min(each["speed_up"] for each in same), max(each["speed_up"] for each in same)]})
+    return result
+
+
+def predicted_rows(one, kind, numbers_of_cores, latency, bandwidth, imbalance):
+    """What the model predicts from one core for numbers of ranks that have not been measured: cores, particles, efficiency."""
+    rows = []
+    for cores in numbers_of_cores:
+        particles = one["particles"] * (cores if kind == "weak" else 1)
+        there = one | {"ranks": cores, "threads": 1, "particles": particles}
+        gain = one["ns_per_particle_step"] / predicted_nanoseconds(there, one, latency, bandwidth, imbalance)
+        rows.append({"cores": cores, "particles": particles, "speed_up": gain, "efficiency": gain / cores})
+    return rows
+
+
 def table_of(rows):
     """The rows as a table of Markdown."""
     lines = [f"| {' | '.join(HEAD)} |", f"|{' ---: |' * len(HEAD)}"]
     for row in rows:
-        lines.append(f"| {row['cores']} | {row['particles']:,} | {row['nanoseconds']:.1f} | {row['speed_up']:.2f} | {row['efficiency']:.0%} | "
-                     f"{row['kernel_speed_up']:.2f} | {row['predicted_speed_up']:.2f} | {row['measured_over_predicted']:.2f} |")
+        least, most = row.get("speed_ups", [row["speed_up"]] * 2)
+        spread = f" ({least:.2f} to {most:.2f})" if least < most else ""
+        lines.append(f"| {row['cores']:.0f} | {row['particles']:,.0f} | {row['nanoseconds']:.1f} | {row['speed_up']:.2f}{spread} | "
+                     f"{row['efficiency']:.0%} | {row['kernel_speed_up']:.2f} | {row['predicted_speed_up']:.2f} | "
+                     f"{row['measured_over_predicted']:.2f} |")
     return "\n".join(lines)
+
+
+def prediction_table(rows):
+    """Predictions as a table of Markdown that says what they are."""
+    lines = ["| predicted, not measured: cores | particles | speed-up | efficiency |", "| ---: | ---: | ---: | ---: |"]
+    return "\n".join(lines + [f"| {row['cores']} | {row['particles']:,} | {row['speed_up']:.1f} | {row['efficiency']:.0%} |" for row in rows])
 
 
 def draw(all_rows, file):
@@ -96,9 +129,14 @@ def draw(all_rows, file):
     figure.savefig(file, dpi=150)
 
 
+def whole_numbers(text):
+    """Whole numbers separated by commas."""
+    return sorted({int(word) for word in text.split(",")})
+
+
 def numbers(text):
     """Whole numbers separated by commas, of which one is 1."""
-    found = sorted({int(word) for word in text.split(",")})
+    found = whole_numbers(text)
     if found[0] != 1:
         raise argparse.ArgumentTypeError("the first number of cores is 1, with which the others are compared")
     return found
@@ -109,6 +147,8 @@ def main(arguments):
     parser.add_argument("--cores", type=numbers, default=default_cores())
     parser.add_argument("--strong", default=STRONG, help="problem of fixed size")
     parser.add_argument("--weak", default=WEAK, help="problem on one core that grows with the cores")
+    parser.add_argument("--repeats", type=int, default=1, help="measurements of each series")
+    parser.add_argument("--beyond", type=whole_numbers, default=[], help="more cores, predicted only")
     parser.add_argument("--quick", action="store_true", help="a fifth of the steps")
     parser.add_argument("--table", action="store_true", help="measure nothing")
     parser.add_argument("--folder", type=pathlib.Path, default=ROOT / "run/studies/scaling")
@@ -120,10 +160,16 @@ def main(arguments):
     options.folder = options.folder.resolve()
     options.whipple = options.whipple.resolve()
     options.folder.mkdir(parents=True, exist_ok=True)
-    all_rows = {name: rows_of(measure(options, name), options.latency, options.bandwidth, options.imbalance) for name in SERIES}
+    network = (options.latency, options.bandwidth, options.imbalance)
+    measured = [{name: measure(options, name, repeat) for name in SERIES} for repeat in range(1, options.repeats + 1)]
+    all_rows = {name: combined([rows_of(each[name], *network) for each in measured]) for name in SERIES}
     (options.folder / "scaling.json").write_text(json.dumps(all_rows, indent=1) + "\n", encoding="utf-8")
     problem = {"strong": f"`{options.strong}` of fixed size", "weak": f"`{options.weak}`, as many particles for each core"}
     text = "\n\n".join(f"{problem[kind]}, by {way}:\n\n{table_of(all_rows[name])}" for name, (kind, way) in SERIES.items())
+    for name, (kind, way) in SERIES.items() if options.beyond else ():
+        if way == "ranks":
+            one = next(m for m in measured[0][name] if m["ranks"] * m["threads"] == 1)
+            text += f"\n\n{problem[kind]}:\n\n{prediction_table(predicted_rows(one, kind, options.beyond, *network))}"
     (options.folder / "scaling.md").write_text(text + "\n", encoding="utf-8")
     draw(all_rows, options.folder / "scaling.png")
     print(text)

@@ -42,6 +42,23 @@ class Rows(unittest.TestCase):
             study.numbers("2,4")
         self.assertEqual(study.numbers("4,1,2"), [1, 2, 4])
 
+    def test_of_several_measurements_the_median_and_the_ends_are_shown(self):
+        repeats = [study.rows_of([measured(1, 1, 80.0), measured(1, 2, two)], 5e-7, 4e9, 1.02) for two in (50.0, 40.0, 64.0)]
+        rows = study.combined(repeats)
+        self.assertAlmostEqual(rows[1]["speed_up"], 1.6)
+        self.assertEqual([round(end, 6) for end in rows[1]["speed_ups"]], [1.25, 2.0])
+        self.assertIn("1.60 (1.25 to 2.00)", study.table_of(rows))
+        self.assertNotIn("to", study.table_of(rows).splitlines()[2].split("|")[4])
+
+    def test_what_is_beyond_the_cores_says_that_it_is_predicted(self):
+        one = measured(1, 1, 80.0)
+        weak, strong = (study.predicted_rows(one, kind, [16, 4096], 5e-7, 4e9, 1.02) for kind in ("weak", "strong"))
+        self.assertEqual([row["particles"] for row in weak], [16_000_000, 4_096_000_000])
+        self.assertEqual([row["particles"] for row in strong], [1_000_000, 1_000_000])
+        self.assertGreater(weak[1]["efficiency"], strong[1]["efficiency"])
+        self.assertLess(strong[1]["efficiency"], strong[0]["efficiency"])
+        self.assertIn("predicted, not measured", study.prediction_table(weak))
+
     def test_the_table_has_a_row_for_each_number_of_cores(self):
         lines = study.table_of(study.rows_of([measured(1, 1, 80.0), measured(1, 2, 40.0)], 5e-7, 4e9, 1.02)).splitlines()
         self.assertEqual(len(lines), 4)

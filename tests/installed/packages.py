@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The packages of cpack: what is in them, and the tarball from a folder of its own. With --install, those in FOLDER are
-installed in an empty Debian 12: a user without rights computes the first tutorial there, and removing the packages leaves
+installed in an empty Debian 12: a user without rights follows the tutorials there, and removing the packages leaves
 nothing. This takes mmdebstrap, the rights of root and a mirror of Debian, and therefore is done only if
 WHIPPLE_DEBIAN_MIRROR is set in the environment (to a mirror, or to "default"); otherwise the exit code is 77.
 
@@ -10,6 +10,7 @@ import pathlib
 import shutil
 import subprocess
 import sys
+import time
 
 BUILD, ROOT, FOLDER = (pathlib.Path(argument).resolve() for argument in sys.argv[1:4])
 sys.path[:0] = [str(ROOT / path) for path in ("tests/unit", "tests/installed", "scripts")]
@@ -17,6 +18,7 @@ from checks import require  # noqa: E402
 from debian_root import ENVIRONMENT, inside, make_root  # noqa: E402
 from roots import mirror_or_skip  # noqa: E402
 
+TUTORIALS = ("first_impact", "shield", "import", "steering", "own_metal", "python_study")  # all but that which compiles
 PROGRAM, LIBRARY, PYTHON = "whipple", "libwhipple-dev", "python3-whipple"
 HOLDS = {
     PROGRAM: ("usr/bin/whipple", "usr/bin/whipple-md", "usr/bin/whipple-fit", "usr/share/whipple/materials/copper.toml",
@@ -55,28 +57,44 @@ def check_tarball(tarball):
     output(moved / "bin/whipple", "check", "whipple_shield/case.toml", "--brief", cwd=moved / "share/whipple/cases")
 
 
+class Clock:
+    """Tells how long the parts of a newcomer's way take."""
+
+    def __init__(self):
+        self.begin = time.monotonic()
+
+    def part(self, what):
+        now = time.monotonic()
+        print(f"{now - self.begin:5.0f} s  {what}", flush=True)
+        self.begin = now
+
+
 def check_clean_root(packages, mirror):
-    root = FOLDER / "root"
+    root, clock = FOLDER / "root", Clock()
     make_root(root, mirror=mirror)
     (root / "packages").mkdir()
     for name in (PROGRAM, PYTHON):
         shutil.copy(packages[name], root / "packages")
-    shutil.copy(ROOT / "docs/tutorials/first_impact.md", root / "packages")
-    shutil.copy(ROOT / "tests/unit/tutorial.py", root / "packages")
-    shutil.copy(ROOT / "tests/unit/checks.py", root / "packages")
+    for file in (*(f"docs/tutorials/{name}.md" for name in TUTORIALS), "tests/unit/tutorial.py", "tests/unit/checks.py"):
+        shutil.copy(ROOT / file, root / "packages")
     before = set(output("find", root / "usr", "-path", "*whipple*").splitlines())
     within = inside(root)
+    clock.part("an empty Debian 12")
     output(*within, "apt-get", "update", "-qq", env=ENVIRONMENT)
-    output(*within, "sh", "-c", "apt-get install -y -qq --no-install-recommends /packages/*.deb python3-h5py python3-matplotlib", env=ENVIRONMENT)
+    output(*within, "sh", "-c", "apt-get install -y -qq /packages/*.deb", env=ENVIRONMENT)
+    clock.part("packages of the program and of Python, with what they depend on and recommend, fetched and installed")
     output(*within, "useradd", "--create-home", "user", env=ENVIRONMENT)
     user = (*within, "su", "user", "-c")
     require('"version"' in output(*user, "whipple version --json", env=ENVIRONMENT), "the version")
-    print(output(*user, "/usr/bin/python3 /packages/tutorial.py /packages/first_impact.md /home/user/first", env=ENVIRONMENT), end="")
+    clock.part("first start")
+    for name in TUTORIALS:
+        print(output(*user, f"/usr/bin/python3 /packages/tutorial.py /packages/{name}.md /home/user/{name} --within 600", env=ENVIRONMENT), end="")
+        clock.part(f"commands of the tutorial {name}")
     output(*user, "/usr/bin/python3 -c 'import whipple.eos; whipple.eos.material(\"copper\")'", env=ENVIRONMENT)
     output(*within, "apt-get", "purge", "-y", "-qq", PROGRAM, PYTHON, env=ENVIRONMENT)
     after = set(output("find", root / "usr", "-path", "*whipple*").splitlines())
     require(after == before, f"left behind: {sorted(after - before)[:5]}")
-    print("installed into an empty Debian 12, run there by a user, removed")
+    clock.part("removed")
 
 
 def built():

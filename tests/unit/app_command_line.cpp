@@ -366,6 +366,10 @@ TEST_F(CommandLine, NaturalMistakesAreNamedWithTheirRemedy) {
   const Result folder = whipple("run .");
   EXPECT_EQ(folder.code, 2);
   EXPECT_THAT(folder.err, HasSubstr("is a folder: give the case file, ./case.toml"));
+  const Result elsewhere = whipple("check cases/dam_break/case.toml");
+  EXPECT_EQ(elsewhere.code, 2);
+  EXPECT_THAT(elsewhere.err, HasSubstr("the one that comes with the program: /"));
+  EXPECT_THAT(elsewhere.err, HasSubstr("/cases/dam_break/case.toml"));
   write("Cu.eam", "copper\n29 63.5 3.6 fcc\n");
   EXPECT_THAT(whipple("fit Cu.eam").err, HasSubstr("simulate first, whipple md PLAN.toml"));
   EXPECT_THAT(whipple("eos audit 'Al 6061-T6'").err, HasSubstr("did you mean \"aluminium_6061_t6\""));

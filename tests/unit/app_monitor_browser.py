@@ -155,8 +155,9 @@ def main():
         address, key = re.search(r"(http://[0-9.:]+)/#([0-9a-f]+) ", monitor.stdout.readline()).groups()
         with Browser(*found, FOLDER / "profile") as browser:
             check_run(browser, address, key)
-            steady = subprocess.Popen([WHIPPLE, "run", CASE, "-o", runs / "steady", "--quiet", "--threads", "1", "--set", "time.end=1 s",
-                                       "--set", "output.snapshot_every=1 ms"])
+            closed = [f"domain.boundary.{axis}_{side}=symmetry" for axis in "xyz" for side in ("lower", "upper")]  # nothing leaves: it goes on
+            steady = subprocess.Popen([WHIPPLE, "run", CASE, "-o", runs / "steady", "--quiet", "--threads", "1",
+                                       *[word for key in ("time.end=1 s", "output.snapshot_every=1 ms", *closed) for word in ("--set", key)]])
             while not (runs / "steady" / "history.csv").exists():
                 require(steady.poll() is None, "the steady run ends")
                 time.sleep(0.05)

@@ -65,6 +65,10 @@ class Browser:
             raise RuntimeError(f"{answer['error']}: {answer['message'][:300]}")
         return answer
 
+    def command(self, name, **parameters):
+        """Gives a command of the DevTools protocol, for what the WebDriver protocol has not: sizes and colours of a device."""
+        return self.do("POST", "/goog/cdp/execute", {"cmd": name, "params": parameters})
+
     def open(self, url):
         self.do("POST", "/url", {"url": url})
 

@@ -5,8 +5,9 @@ Usage: tutorial.py PAGE.md FOLDER [--pictures] [--within SECONDS]
 
 A block with a file name after its language (```toml impact.toml) is written to that file; ```sh runs, and ```python runs
 as a program; ```text shows lines of the output of the block before it, with "…" for what differs from run to run. Other
-blocks are shown only. With --pictures the picture after a comment <!-- picture: PATH --> is renewed from that file. The
-blocks have SECONDS (default 240) together; what they leave running is ended with the page, however that ends.
+blocks are shown only. None leaves the folder, since a reader goes on in the same shell. With --pictures the picture after
+a comment <!-- picture: PATH --> is renewed from that file. The blocks have SECONDS (default 240) together; what they leave
+running is ended with the page, however that ends.
 """
 import contextlib
 import os
@@ -73,6 +74,7 @@ def main(groups):
             (FOLDER / file).parent.mkdir(parents=True, exist_ok=True)
             (FOLDER / file).write_text(content, encoding="utf-8")
         elif language in COMMANDS:
+            require(not re.search("^cd ", content, re.MULTILINE), f"{PAGE.name}: a reader's shell is elsewhere then:\n{content}")
             said, ran = run(COMMANDS[language], content, deadline, groups), ran + 1
         elif language == "text":
             for line in filter(None, (line.strip() for line in content.split("\n"))):

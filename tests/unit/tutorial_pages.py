@@ -21,6 +21,7 @@ PAGES = {  # name: (blocks, seconds, exit code, what is said)
     "says_something_else": ((("sh", BACKGROUND + "echo 17"), ("text", "18")), 60, 1, "not printed: '18'"),
     "does_not_end": ((("sh", BACKGROUND), ("sh", "echo begun; until [[ -f nothing ]]; do sleep 0.1; done")), 1, 1, "not done within 1 s"),
     "deaf": ((("sh", "trap '' TERM; " + BACKGROUND + "sleep 300"),), 1, 1, "not done within 1 s"),
+    "leaves": ((("sh", BACKGROUND), ("sh", "mkdir elsewhere\ncd elsewhere")), 60, 1, "a reader's shell is elsewhere"),
     "does_nothing": ((("toml", "a = 1"),), 60, 1, "0 blocks run"),
 }
 
@@ -45,5 +46,5 @@ def check(name, blocks, seconds, code, said):
 shutil.rmtree(FOLDER, ignore_errors=True)
 FOLDER.mkdir(parents=True)
 left = [check(name, *of) for name, of in PAGES.items()]
-require(sum(left) == 5, f"{sum(left)} pages left something running")
+require(sum(left) == 6, f"{sum(left)} pages left something running")
 print(f"{len(PAGES)} pages, nothing goes on")

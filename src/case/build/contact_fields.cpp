@@ -136,8 +136,8 @@ void warn_of_gaps(const Case& setup, ContactFields& found) {
 
 unsigned ContactFields::count() const {
   unsigned all = count_of(of_body);
-  for (std::size_t b = 0; b < pieces.size(); ++b) {
-    if (pieces[b] != 0) all = std::max(all, pieces[b] + fields_of_pieces);
+  for (const std::uint8_t first : pieces) {
+    if (first != 0) all = std::max(all, first + fields_of_pieces);
   }
   return all;
 }

@@ -19,11 +19,29 @@ std::filesystem::path find_executable(const std::string& name) {
   return path;
 }
 
-std::filesystem::path find_data(const std::filesystem::path& relative) {
-  std::filesystem::path installed = own_executable().parent_path().parent_path() / "share/whipple" / relative;
+namespace {
+
+struct Locations {
+  std::filesystem::path installed, in_source;
+};
+
+Locations locations(const std::filesystem::path& relative) {
+  return {.installed = own_executable().parent_path().parent_path() / "share/whipple" / relative,
+          .in_source = std::filesystem::path(WHIPPLE_SOURCE_FOLDER) / relative};
+}
+
+}  // namespace
+
+std::optional<std::filesystem::path> data_if_there(const std::filesystem::path& relative) {
+  const auto [installed, in_source] = locations(relative);
   if (std::filesystem::exists(installed)) return installed;
-  std::filesystem::path in_source = std::filesystem::path(WHIPPLE_SOURCE_FOLDER) / relative;
   if (std::filesystem::exists(in_source)) return in_source;
+  return std::nullopt;
+}
+
+std::filesystem::path find_data(const std::filesystem::path& relative) {
+  if (const auto found = data_if_there(relative)) return *found;
+  const auto [installed, in_source] = locations(relative);
   throw InputError(fmt::format("'{}' is missing: neither {} nor {} exists", relative.string(),
                                installed.string(), in_source.string()));
 }
@@ -34,11 +52,7 @@ std::filesystem::path find_experiment(const std::string& name) {
   if (!path.has_parent_path()) {
     std::filesystem::path file = path;
     if (!file.has_extension()) file += ".csv";
-    try {
-      return find_data(std::filesystem::path("eos/data") / file);
-    } catch (const InputError&) {
-      // Reported below, with the folders as the user wrote them.
-    }
+    if (const auto found = data_if_there(std::filesystem::path("eos/data") / file)) return *found;
   }
   throw InputError(
       fmt::format("no experiment '{}': neither a file nor one of the data that come with the program "

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 /// Locations of the other executables and the data of the project: in the build tree, or in an installation.
@@ -19,6 +20,9 @@ std::filesystem::path find_executable(const std::string& name);
 /// built.
 /// @throws InputError naming both locations if it is in neither
 std::filesystem::path find_data(const std::filesystem::path& relative);
+
+/// Returns the path that find_data returns, none if there is nothing in either location.
+std::optional<std::filesystem::path> data_if_there(const std::filesystem::path& relative);
 
 /// Finds a table of measurements: a path, or a bare file name of those that come with the program (eos/data).
 /// @throws InputError if there is no such file

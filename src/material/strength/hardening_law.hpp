@@ -12,10 +12,10 @@ namespace whipple::strength {
 ///   sqrt(3/2 (s - a):(s - a)) = Y(ep),  da = 2/3 H d(plastic strain),
 /// W. Prager, Proc. Inst. Mech. Eng. 169 (1955) 41; for this surface H. Ziegler's rule, Quart. Appl. Math. 17 (1959)
 /// 55, is equivalent. A law derives from HardeningLaw<Law> and has flow(plastic_strain) -> FlowStress.
-template <class Law>
-struct HardeningLaw : ElasticConstants {
-  double yield_stress = 0.0;       ///< A, Pa
-  double kinematic_modulus = 0.0;  ///< H, Pa
+template <class Law>                      // an aggregate, as its laws are
+struct HardeningLaw : ElasticConstants {  // NOLINT(bugprone-crtp-constructor-accessibility)
+  double yield_stress = 0.0;              ///< A, Pa
+  double kinematic_modulus = 0.0;         ///< H, Pa
 
   static ParameterTable<Law> parameters(const ParameterTable<Law>& own) {
     ParameterTable<Law> table = {

@@ -86,9 +86,8 @@ class ReachCopy {
   }
 
  private:
-  static std::size_t index(int x, int y, int z) {
-    return static_cast<std::size_t>((x * edge + y) * edge_z + z);
-  }
+  static constexpr std::size_t number(int n) { return static_cast<std::size_t>(n); }
+  static std::size_t index(int x, int y, int z) { return number((x * edge + y) * edge_z + z); }
 
   /// Calls f(nodes of the owning block, index in it, index here) for every node of the reach whose block is
   /// active; no particle reaches the others.
@@ -105,8 +104,7 @@ class ReachCopy {
         if (owner == grid::BlockGrid::no_slot) return;
         auto* nodes = grid.nodes(static_cast<std::size_t>(owner), field);
         for (int n = from; n < to; ++n) {
-          f(nodes, first + map.node[static_cast<std::size_t>(n + skipped)],
-            here + static_cast<std::size_t>(n));
+          f(nodes, first + map.node[number(n + skipped)], here + number(n));
         }
       };
       using Number = std::integral_constant<int, before>;
@@ -116,12 +114,12 @@ class ReachCopy {
       part(2, Behind{}, std::integral_constant<int, edge>{});
     };
     for (int x = 0; x < edge; ++x) {
-      const auto ux = static_cast<std::size_t>(x + skipped);
+      const std::size_t ux = number(x + skipped);
       if constexpr (edge_z == 1) {
         row(map.block[ux], 1, false, block.node(map.node[ux], 0, 0), index(x, 0, 0));
       } else {
         for (int y = 0; y < edge; ++y) {
-          const auto uy = static_cast<std::size_t>(y + skipped);
+          const std::size_t uy = number(y + skipped);
           row(map.block[ux], map.block[uy], true, block.node(map.node[ux], map.node[uy], 0), index(x, y, 0));
         }
       }

@@ -137,7 +137,7 @@ struct TransferSums {
     Vector heat = formulas::heat_of_velocity(sums.loss, change);
     if constexpr (affine) {
       const double inertia = Shape::second_moment * cell_size * cell_size;  // sum N r r^T in one direction
-      Vector per_inertia =
+      auto per_inertia =
           by_points<Vector>([&](std::size_t) WHIPPLE_INLINE { return broadcast(1.0 / inertia); });
       if constexpr (requires { points.unrelaxed; }) {  // some carry no affine field: theirs stays 0
         per_inertia *= by_points<Vector>(

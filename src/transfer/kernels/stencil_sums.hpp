@@ -104,8 +104,8 @@ class Direction<Vector, QuadraticBSpline> {
 
   template <class Group>
   WHIPPLE_INLINE Direction(const Group& group, std::size_t a, const Cells& cells) {
-    const Vector x = by_points<Vector>(
-        [&](std::size_t m) WHIPPLE_INLINE { return broadcast(group.place[m]->from_first(a)); });
+    const auto x = by_points<Vector>([&](std::size_t m)
+                                         WHIPPLE_INLINE { return broadcast(group.place[m]->from_first(a)); });
     const Vector y = x - 1.0, to_first = y - 0.5, to_last = y + 0.5;
     a_ = multiply_add(cells.slope_smoothing[a] * y, 0.25 - y * y, to_first);  // (2.9)
     before_ = 0.5 * to_first * to_first;
