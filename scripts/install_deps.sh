@@ -27,6 +27,7 @@ packages=(
   libgtest-dev libgmock-dev libbenchmark-dev
   python3-numpy python3-h5py python3-matplotlib python3-dev pybind11-dev
   clang-format-19
+  dpkg-dev file
 )
 list=false names=false
 for argument in "$@"; do
