@@ -242,19 +242,13 @@ class CaseWriter {
     }
     const double spacing = std::cbrt(greatest / body.material.density);
     const bool alike = least > 0.0 && greatest - least <= 1e-3 * greatest;
-    const auto boxes = alike ? boxes_of_points(places, spacing, most_boxes_of_points) : std::nullopt;
     body.held.lower -= Vector3::Constant(0.5 * spacing);
     body.held.upper += Vector3::Constant(0.5 * spacing);
     body.held.shortest_edge = spacing;
-    if (!boxes) {
-      body.shape = shape_of_points(import_, part.name, units_, places, masses);
-      remark(body.shape.empty() ? Outcome::missing : Outcome::converted, *part.block,
-             fmt::format("{}: {} points that fill no cubic lattice of equal particles{}", part.name,
-                         places.size(),
-                         body.shape.empty() ? ", some without mass" : ": its particles, in a file"));
-      add_row(body, "SPH points as given", places.size(), total);
-      return !body.shape.empty();
-    }
+    if (!alike) return points_as_given(body, places, masses, total);
+    const std::optional<std::vector<LatticeBox>> boxes =
+        boxes_of_points(places, spacing, most_boxes_of_points);
+    if (!boxes) return points_as_given(body, places, masses, total);
     std::string list;
     for (const LatticeBox& box : *boxes) {
       list += fmt::format("{}{{ box = {{ lower = {}, upper = {} }} }}", list.empty() ? "" : ",\n  ",
@@ -264,6 +258,18 @@ class CaseWriter {
     add_row(body, fmt::format("SPH points of a cubic lattice, {} boxes", boxes->size()), places.size(),
             total);
     return true;
+  }
+  /// Converts points that fill no lattice. @returns whether they have masses
+  bool points_as_given(Body& body, const std::vector<Vector3>& places, const std::vector<double>& masses,
+                       double total) {
+    const Part& part = *body.part;
+    body.shape = shape_of_points(import_, part.name, units_, places, masses);
+    remark(
+        body.shape.empty() ? Outcome::missing : Outcome::converted, *part.block,
+        fmt::format("{}: {} points that fill no cubic lattice of equal particles{}", part.name, places.size(),
+                    body.shape.empty() ? ", some without mass" : ": its particles, in a file"));
+    add_row(body, "SPH points as given", places.size(), total);
+    return !body.shape.empty();
   }
   void add_row(const Body& body, const std::string& shape, std::size_t count, double mass) {
     import_.bodies.push_back({body.part->name,
