@@ -134,7 +134,8 @@ struct DescribeOptions {
 
 /// Returns the schema of the files of a topic; by default that of case files.
 std::string schema_of(const DescribeOptions& options) {
-  const Topic& topic = find_topic(options.topic.empty() ? "case" : options.topic);
+  const std::string wanted = options.topic.empty() ? "case" : options.topic;
+  const Topic& topic = find_topic(wanted);
   if (topic.schema == nullptr || !options.name.empty()) {
     std::vector<std::string> files;
     for (const Topic& other : topics()) {
