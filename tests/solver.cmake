@@ -20,7 +20,7 @@ whipple_test(test_contact STARTS_MPI SOURCES property/contact_pressing_test.cpp 
              DEPENDS whipple_run LABELS fast)
 whipple_test(test_levels STARTS_MPI SOURCES verification/solver_levels_test.cpp DEPENDS whipple_run GTest::gmock LABELS fast)
 whipple_test(test_cracks STARTS_MPI SOURCES verification/solver_cracks_test.cpp verification/solver_fragment_size_test.cpp DEPENDS whipple_run LABELS fast)
-whipple_test(test_quasi_static STARTS_MPI SOURCES verification/solver_quasi_static_test.cpp verification/solver_load_step_laws_test.cpp verification/solver_load_step_rings_test.cpp DEPENDS whipple_solver GTest::gmock LABELS fast)
+whipple_test(test_quasi_static STARTS_MPI SOURCES verification/solver_quasi_static_test.cpp verification/solver_load_step_laws_test.cpp verification/solver_load_step_rings_test.cpp unit/quasi_static_tangent_test.cpp DEPENDS whipple_solver whipple_quasi_static GTest::gmock LABELS fast)
 # The steady flow of grains: half a minute.
 whipple_test(test_granular_flow STARTS_MPI SOURCES verification/solver_granular_flow_test.cpp DEPENDS whipple_solver LABELS long)
 whipple_test(test_driven STARTS_MPI SOURCES verification/solver_driven_test.cpp verification/solver_tool_test.cpp verification/solver_friction_wall_test.cpp verification/solver_averages_test.cpp verification/solver_loads_test.cpp verification/solver_water_test.cpp verification/solver_many_bodies_test.cpp verification/solver_tank_test.cpp verification/solver_cavitation_test.cpp property/device_of_tests.cpp DEPENDS whipple_solver LABELS fast)

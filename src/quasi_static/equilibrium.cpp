@@ -89,7 +89,7 @@ class Newton {
 bool Newton::advance(Trial& at, Convergence& result) {
   std::vector<double> tangents(particles_ * strains_ * strains_);
   timed(result.tangent_seconds, [&] {
-    response_.differentiate(at.f, at.forces, tangents);
+    response_.tangents(at.f, at.forces, tangents);
     return true;
   });
   const double given_left = 1.0 - at.given_factor;

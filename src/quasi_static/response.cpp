@@ -16,30 +16,35 @@ Response::Response(const Particles& before, std::vector<Group> groups, int strai
       gradient_(before.size()),
       moved_(before.size()) {}
 
-/// Updates the trial state from that of the beginning.
-void Response::update(std::span<const Matrix3> f) {
-  trial_ = static_cast<const MaterialPoints&>(before_);
-  for (std::size_t g = 0; g < groups_.size(); ++g) {
-    const Group& group = groups_[g];
-    const double dt = group.settings.time_step;
-    constexpr std::size_t points = 1024;
-    std::vector<MaterialReport> of_chunk((group.count + points - 1) / points);
-    const auto update_chunk = [&](std::size_t chunk) {
-      const std::size_t first = group.first + chunk * points,
-                        last = std::min(first + points, group.first + group.count);
-      for (std::size_t p = first; p < last; ++p) gradient_[p] = (f[p] - Matrix3::Identity()) / dt;
-      of_chunk[chunk] =
-          update_material_and_energy(*group.material, trial_, first, last,
-                                     std::span(gradient_).subspan(first, last - first), group.settings);
-    };
-    if (of_chunk.size() < 4) {
-      for (std::size_t chunk = 0; chunk < of_chunk.size(); ++chunk) update_chunk(chunk);
-    } else {
-      parallel::for_each_uneven(of_chunk.size(), update_chunk);
-    }
-    reports_[g] = {};
-    for (const MaterialReport& report : of_chunk) reports_[g].merge(report);
+/// Updates the trial state of a group from that of the beginning.
+MaterialReport Response::update(std::span<const Matrix3> f, const Group& group) {
+  const double dt = group.settings.time_step;
+  constexpr std::size_t points = 1024;
+  std::vector<MaterialReport> of_chunk((group.count + points - 1) / points);
+  const auto update_chunk = [&](std::size_t chunk) {
+    const std::size_t first = group.first + chunk * points,
+                      last = std::min(first + points, group.first + group.count);
+    for (std::size_t p = first; p < last; ++p) gradient_[p] = (f[p] - Matrix3::Identity()) / dt;
+    of_chunk[chunk] =
+        update_material_and_energy(*group.material, trial_, first, last,
+                                   std::span(gradient_).subspan(first, last - first), group.settings);
+  };
+  if (of_chunk.size() < 4) {
+    for (std::size_t chunk = 0; chunk < of_chunk.size(); ++chunk) update_chunk(chunk);
+  } else {
+    parallel::for_each_uneven(of_chunk.size(), update_chunk);
   }
+  MaterialReport sum;
+  for (const MaterialReport& report : of_chunk) sum.merge(report);
+  return sum;
+}
+
+/// Updates the trial state of groups. @returns their reports
+std::vector<MaterialReport> Response::update(std::span<const Matrix3> f, std::span<const Group> groups) {
+  trial_ = static_cast<const MaterialPoints&>(before_);
+  std::vector<MaterialReport> reports;
+  for (const Group& group : groups) reports.push_back(update(f, group));
+  return reports;
 }
 
 void Response::collect(const MaterialPoints& points, std::span<const Matrix3> f,
@@ -61,7 +66,7 @@ void Response::at_beginning(std::span<double> forces) const {
 }
 
 bool Response::evaluate(std::span<const Matrix3> f, std::span<double> forces) {
-  update(f);
+  reports_ = update(f, groups_);
   collect(trial_, f, forces);
   if (!std::ranges::all_of(forces, [](double x) { return std::isfinite(x); })) return false;
   return std::ranges::all_of(reports_, [](const MaterialReport& report) {
@@ -69,8 +74,17 @@ bool Response::evaluate(std::span<const Matrix3> f, std::span<double> forces) {
   });
 }
 
-void Response::differentiate(std::span<const Matrix3> f, std::span<const double> forces,
-                             std::span<double> tangents) {
+void Response::tangents(std::span<const Matrix3> f, std::span<const double> forces, std::span<double> out) {
+  update(f, groups_);
+  std::vector<Group> others;
+  for (const Group& group : groups_) {
+    if (!closed_tangents(group, before_, trial_, f, strains_, out)) others.push_back(group);
+  }
+  if (!others.empty()) differences(f, forces, others, out);
+}
+
+void Response::differences(std::span<const Matrix3> f, std::span<const double> forces,
+                           std::span<const Group> groups, std::span<double> out) {
   constexpr double step = 1e-7;  // the root of the precision, within a factor of 10
   const auto m = static_cast<std::size_t>(strains_);
   std::vector<double> beside(forces.size());
@@ -78,12 +92,15 @@ void Response::differentiate(std::span<const Matrix3> f, std::span<const double>
     std::ranges::copy(f, moved_.begin());
     const auto [row, column] = component(strains_, static_cast<int>(k));
     for (Matrix3& moved : moved_) moved(row, column) += step;
-    update(moved_);
+    update(moved_, groups);
     collect(trial_, moved_, beside);
-    for_each(before_.size(), [&](std::size_t p) {
-      for (std::size_t i = 0; i < m; ++i)
-        tangents[(m * p + i) * m + k] = (beside[m * p + i] - forces[m * p + i]) / step;
-    });
+    for (const Group& group : groups) {
+      for_each(group.count, [&](std::size_t in_group) {
+        const std::size_t p = group.first + in_group;
+        for (std::size_t i = 0; i < m; ++i)
+          out[(m * p + i) * m + k] = (beside[m * p + i] - forces[m * p + i]) / step;
+      });
+    }
   }
 }
 

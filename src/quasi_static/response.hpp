@@ -8,16 +8,10 @@
 
 #include "src/material/update.hpp"
 #include "src/particles/particles.hpp"
+#include "src/quasi_static/closed_tangent.hpp"
 #include "src/quasi_static/supports.hpp"
 
 namespace whipple::quasi_static {
-
-/// Describes the particles of a body and how their material is updated.
-struct Group {
-  const Material* material;
-  std::size_t first, count;  ///< particles [first, first + count)
-  UpdateSettings settings;
-};
 
 /// Computes the stresses of particles as functions of their deformation over a load step, from their state at its
 /// beginning, which stays as it is: any model of the library, by the update of a time step with L = (f - 1)/dt.
@@ -33,23 +27,22 @@ class Response {
   bool evaluate(std::span<const Matrix3> f, std::span<double> forces);
   /// Computes T of the beginning, where f is the identity.
   void at_beginning(std::span<double> forces) const;
-  /// Computes dT/df of all particles by differences (eq. 4): row by row, `strains`^2 numbers per particle, from `forces`
-  /// at `f`. The trial state is lost.
-  void differentiate(std::span<const Matrix3> f, std::span<const double> forces, std::span<double> tangents);
+  /// Computes dT/df of all particles (eq. 4), row by row, `strains`^2 numbers per particle: in closed form where the law
+  /// has one, otherwise by differences from `forces` at `f`. The trial state is lost.
+  void tangents(std::span<const Matrix3> f, std::span<const double> forces, std::span<double> out);
+  /// Computes dT/df of the particles of groups by differences. The trial state is lost.
+  void differences(std::span<const Matrix3> f, std::span<const double> forces, std::span<const Group> groups,
+                   std::span<double> out);
 
   /// Returns the state after the last `evaluate`.
   [[nodiscard]] const MaterialPoints& trial() const { return trial_; }
   /// Returns the reports of the last `evaluate`, one of each group.
   [[nodiscard]] std::span<const MaterialReport> reports() const { return reports_; }
-
-  /// Returns row and column of a component of f and T: xx, xy, yx, yy in the plane, then zz of rings; by rows in space.
-  static std::array<int, 2> component(int strains, int k) {
-    if (strains == 9) return {k / 3, k % 3};
-    return k == 4 ? std::array{2, 2} : std::array{k / 2, k % 2};
-  }
+  [[nodiscard]] std::span<const Group> groups() const { return groups_; }
 
  private:
-  void update(std::span<const Matrix3> f);
+  std::vector<MaterialReport> update(std::span<const Matrix3> f, std::span<const Group> groups);
+  MaterialReport update(std::span<const Matrix3> f, const Group& group);
   void collect(const MaterialPoints& points, std::span<const Matrix3> f, std::span<double> forces) const;
 
   const Particles& before_;

@@ -41,7 +41,7 @@ Slopes slopes_of(const Supports& supports, std::size_t p, const Reached& reached
   const int m = supports.strains();
   Slopes all;
   for (int k = 0; k < m; ++k) {
-    const auto [row, column] = Response::component(m, k);
+    const auto [row, column] = component(m, k);
     const auto i = static_cast<std::size_t>(k);
     if (row == 2 && m == 5) {  // the hoop of a ring
       all.direction[i] = 1;

@@ -15,7 +15,7 @@ cook     cases/cook_membrane (rubber, Poisson's ratio 0.499) in 10 load steps: d
 cut      vertical cut of 8 m in clay of the strength c: gamma H/c at which no state of rest is found. Known: 3.776.
 footing  rough rigid strip on weightless clay, pushed down by 2 cm, half width 1 m: force over (2 + pi) c times the half width, when
          its limit is reached or at the end.
-tangent  what the tangents by differences cost: the footing under four laws (sinks by 0.3 m, 4 mm under those that yield), in the plane and
+tangent  what the tangents cost: the footing under four laws (sinks by 0.3 m, 4 mm under those that yield), in the plane and
          with fewer than 8 cells as the quarter of a square one in space, 10 steps, quadratic B-splines: iterations, user time, fractions of it (profile.json).
 --cells: number over the height (column), the depth (beam), the held edge of 44 m (cook), the height (cut) or the half width (footing, tangent). Runs of the same program are
 kept; --table runs nothing. A run that ends at its limit load is one that worked.

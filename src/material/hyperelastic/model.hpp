@@ -50,6 +50,7 @@ class HyperelasticModel final : public Constitutive {
       relaxing_.push_back(declare(declared[1 + i]));
     }
   }
+  [[nodiscard]] const Law& law() const { return constants_; }
   [[nodiscard]] std::string_view model() const override { return Law::name; }
   [[nodiscard]] std::string constants(const Material&) const override {
     Law copy = constants_;

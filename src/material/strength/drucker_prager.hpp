@@ -11,6 +11,7 @@
 #include "src/core/base/words.hpp"
 #include "src/material/strength/brittle.hpp"
 #include "src/material/strength/dilatant.hpp"
+#include "src/material/strength/return_slopes.hpp"
 
 namespace whipple::strength {
 
@@ -114,6 +115,26 @@ struct DruckerPrager : Dilatant {
     if (!(excess > 0.0) || !(point.pressure < end)) return 0.0;
     const double increment = excess / (3.0 * point.modulus + point.stiffness * slope * psi);
     return std::min({psi * increment, room(point.distension), (end - point.pressure) / point.stiffness});
+  }
+  /// Returns M on the cone and 0 on Y_max, and the slopes of the growth of (8) of docs/theory/soil.md.
+  [[nodiscard]] ReturnSlopes slopes(const ReturnedPoint& point) const {
+    if (!point.flows) return {};
+    const double slope = prepared.slope, psi = prepared_dilation * remaining(point.distension);
+    const bool on_cone = prepared.cohesion + slope * point.pressure < maximum_strength;
+    ReturnSlopes out{.stress_by_trial = 0.0, .stress_by_pressure = on_cone ? slope : 0.0};
+    if (!(point.growth > 0.0)) return out;
+    const double end = (maximum_strength - prepared.cohesion) / slope;
+    const double before = point.pressure - point.stiffness * point.growth;  // pressure without the growth
+    const double resistance = 3.0 * point.modulus + point.stiffness * slope * psi;
+    const double by_flow = psi * (point.trial - prepared.cohesion - slope * before) / resistance;
+    const double to_end = (end - before) / point.stiffness;
+    if (by_flow <= room(point.distension) && by_flow <= to_end) {
+      out.growth_by_trial = psi / resistance;
+      out.growth_by_pressure = -slope * psi / resistance;
+    } else if (to_end <= room(point.distension)) {
+      out.growth_by_pressure = -1.0 / point.stiffness;
+    }
+    return out;
   }
 };
 

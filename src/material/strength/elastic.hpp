@@ -5,6 +5,7 @@
 
 #include "src/material/strength/elastic_constants.hpp"
 #include "src/material/strength/flow_law_model.hpp"
+#include "src/material/strength/return_slopes.hpp"
 
 namespace whipple::strength {
 
@@ -23,6 +24,7 @@ struct Elastic : ElasticConstants {
     return std::numeric_limits<double>::infinity();
   }
   [[nodiscard]] double increment(double, double, double, double, double, double) const { return 0.0; }
+  [[nodiscard]] ReturnSlopes slopes(const ReturnedPoint&) const { return {}; }
 };
 
 using ElasticModel = FlowLawModel<Elastic>;

@@ -6,6 +6,7 @@
 #include "src/core/base/error.hpp"
 #include "src/material/strength/hardening_law.hpp"
 #include "src/material/strength/law_formulas.hpp"
+#include "src/material/strength/return_slopes.hpp"
 
 namespace whipple::strength {
 
@@ -49,6 +50,14 @@ struct VonMises : HardeningLaw<VonMises> {
   [[nodiscard]] double increment(double trial, double plastic_strain, double /*temperature*/, double modulus,
                                  double solid, double /*dt*/) const {
     return formulas::linear_return(*this, trial, plastic_strain, modulus, solid);
+  }
+  /// Returns dY/dq = w B/(3 G + w B) while it hardens, 0 on the plateau.
+  [[nodiscard]] ReturnSlopes slopes(const ReturnedPoint& point) const {
+    if (!point.flows) return {};
+    const double hardening = point.factor * hardening_modulus, stiffness = 3.0 * point.modulus + hardening;
+    const double yield = point.factor * formulas::linear_hardening(*this, point.plastic_strain).value;
+    const double hardened = yield + hardening * (point.trial - yield) / stiffness;
+    return {.stress_by_trial = hardened < point.factor * maximum_flow_stress ? hardening / stiffness : 0.0};
   }
 };
 
