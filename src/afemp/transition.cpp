@@ -69,7 +69,7 @@ class Neighbourhood {
   }
   static grid::BlockCoordinate block_of(const Cell& cell) {
     // Shifts of negative numbers round down, as required.
-    return {cell[0] >> 2, cell[1] >> 2, cell[2] >> 2};
+    return {{cell[0] >> 2, cell[1] >> 2, cell[2] >> 2}};
   }
   static std::uint64_t bit(const Cell& cell) {
     return std::uint64_t{1} << cube.node(cell[0] & 3, cell[1] & 3, cell[2] & 3);

@@ -230,46 +230,41 @@ class CaseWriter {
     body.method = Method::lattice;
     std::vector<Vector3> places;
     std::vector<double> masses;
-    double least = 0.0, greatest = 0.0, total = 0.0;
+    double least = 0.0, greatest = 0.0, total = 0.0, density = body.material.density;
     for (const SphPoint& point : part.points) {
-      const double mass =
-          point.mass < 0.0 ? -point.mass * body.material.density : point.mass;  // negative: volume
+      const double mass = point.mass < 0.0 ? -point.mass * density : point.mass;  // negative: volume
       least = places.empty() ? mass : std::min(least, mass);
       greatest = std::max(greatest, mass);
       total += mass;
       masses.push_back(mass);
       places.push_back(place_of(model_, part, point.node));
     }
-    const double spacing = std::cbrt(greatest / body.material.density);
-    const bool alike = least > 0.0 && greatest - least <= 1e-3 * greatest;
-    body.held.lower -= Vector3::Constant(0.5 * spacing);
-    body.held.upper += Vector3::Constant(0.5 * spacing);
-    body.held.shortest_edge = spacing;
-    if (!alike) return points_as_given(body, places, masses, total);
-    const std::optional<std::vector<LatticeBox>> boxes =
-        boxes_of_points(places, spacing, most_boxes_of_points);
-    if (!boxes) return points_as_given(body, places, masses, total);
+    const double spacing = body.held.shortest_edge = std::cbrt(greatest / density);
+    body.held.lower.array() -= 0.5 * spacing;
+    body.held.upper.array() += 0.5 * spacing;
+    if (least <= 0.0 || greatest - least > 1e-3 * greatest) return as_given(body, places, masses, total);
+    const auto boxes = boxes_of_points(places, spacing, most_boxes_of_points);
+    if (!boxes) return as_given(body, places, masses, total);
     std::string list;
     for (const LatticeBox& box : *boxes) {
       list += fmt::format("{}{{ box = {{ lower = {}, upper = {} }} }}", list.empty() ? "" : ",\n  ",
                           vector(box.lower, dimension::length), vector(box.upper, dimension::length));
     }
     body.shape = boxes->size() == 1 ? list : fmt::format("{{ union = [{}] }}", list);
-    add_row(body, fmt::format("SPH points of a cubic lattice, {} boxes", boxes->size()), places.size(),
-            total);
+    const std::string shape = fmt::format("SPH points of a cubic lattice, {} boxes", boxes->size());
+    add_row(body, shape, places.size(), total);
     return true;
   }
   /// Converts points that fill no lattice. @returns whether they have masses
-  bool points_as_given(Body& body, const std::vector<Vector3>& places, const std::vector<double>& masses,
-                       double total) {
-    const Part& part = *body.part;
-    body.shape = shape_of_points(import_, part.name, units_, places, masses);
-    remark(
-        body.shape.empty() ? Outcome::missing : Outcome::converted, *part.block,
-        fmt::format("{}: {} points that fill no cubic lattice of equal particles{}", part.name, places.size(),
-                    body.shape.empty() ? ", some without mass" : ": its particles, in a file"));
+  bool as_given(Body& body, const std::vector<Vector3>& places, const std::vector<double>& masses,
+                double total) {
+    body.shape = shape_of_points(import_, body.part->name, units_, places, masses);
+    const bool whole = !body.shape.empty();
+    remark(whole ? Outcome::converted : Outcome::missing, *body.part->block,
+           fmt::format("{}: {} points that fill no cubic lattice of equal particles{}", body.part->name,
+                       places.size(), whole ? ": its particles, in a file" : ", some without mass"));
     add_row(body, "SPH points as given", places.size(), total);
-    return !body.shape.empty();
+    return whole;
   }
   void add_row(const Body& body, const std::string& shape, std::size_t count, double mass) {
     import_.bodies.push_back({body.part->name,

@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "src/material/eos_strength/eos_strength.hpp"
 #include "src/material/hyperelastic/model.hpp"
 #include "src/material/hyperelastic/neo_hookean.hpp"
 #include "src/material/strength/drucker_prager.hpp"
@@ -152,7 +153,7 @@ void tangent_of(const Law& law, strength::ReturnedPoint returned, bool late, con
         motion.rotated_by(row, column, turned) + 2.0 * returned.modulus * deviator(strain_by);
     const double q_by = returned.trial > 0.0 ? 1.5 * contracted(trial, trial_by) / returned.trial : 0.0;
     const auto stress_by = [&](double pressure_by) -> Matrix3 {
-      if (!returned.flows) return trial_by;
+      if (!returned.flows) return Matrix3(trial_by);
       const double by = slopes.stress_by_trial * q_by + slopes.stress_by_pressure * pressure_by;
       return kept * trial_by + (by - kept * q_by) / returned.trial * trial;
     };
@@ -293,8 +294,9 @@ bool closed_tangents(const Group& group, const Particles& before, const Material
     of_rubber(rubber->law(), group, before, after, f, strains, tangents);
     return true;
   }
-  if (material.constitutive->model() != "eos_strength" || !material.failure.empty() ||
-      material.eos->initial_distension() > 1.0 || material.strength->kinematic_modulus() > 0.0 ||
+  if (dynamic_cast<const material::EosStrength*>(material.constitutive.get()) == nullptr ||
+      !material.failure.empty() || material.eos->initial_distension() > 1.0 ||
+      material.strength->kinematic_modulus() > 0.0 ||
       group.settings.rotation != material::StressRotation::hughes_winget)
     return false;
   const strength::Strength* const strength = material.strength.get();

@@ -45,7 +45,7 @@ TEST(Registers, TreatNaNAndZerosAsNumbersDo) {
     EXPECT_TRUE(same(less[l], b[l])) << l;
     EXPECT_TRUE(same(more[l], b[l])) << l;
   }
-#if WHIPPLE_AVX2
+#if WHIPPLE_WIDE_KERNELS
   if (kernel_set() != KernelSet::wide) return;
   std::array<double, 8> wide_less, wide_more;
   Wide::run([&]() WHIPPLE_INLINE {
