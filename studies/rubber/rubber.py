@@ -2,16 +2,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Rubber that keeps its volume: inflation against the closed form, and the checkerboard of the pressure.
 
-usage: rubber.py inflation|checkerboard [--cells N]... [--folder run/studies/rubber] [--threads N] [--whipple EXE]
+usage: rubber.py inflation|checkerboard [--cells N]... [--damping RATE]... [--folder run/studies/rubber] [--threads N] [--whipple EXE]
 
 inflation     a hollow cylinder (plane strain) and a hollow sphere of neo-Hookean rubber, outer radius 20 mm, inner one 10 mm, bulk over shear
               modulus 500, means over cells, filled with gas that is given a pressure at once and comes to rest by damping: the pressure of
               the gas over the shear modulus beside the closed form of incompressible rubber at the stretch of the inner wall, which follows
-              from a particle in the middle of the wall (the volume inside it is kept) and from the volume of the gas.
+              from a particle in the middle of the wall (the volume inside it is kept) and from the volume of the gas; pressure of the particles
+              about its mean over a cell, root mean square over the shear modulus, in the middle half of the wall.
 checkerboard  two disks of this rubber, and the rings of cases/rubber_rings with it, collide: pressure at every particle and as means over
               cells. Part of the pressure that alternates from cell to cell: root mean square of (4 p - 2 (four neighbours) + (four at the
               corners)) / 16 of the means over cells, which no quadratic field has, and of the pressure within a cell about its mean,
               both over the root mean square of the pressure, while the bodies touch; energy error; speed of parting over that of meeting.
+--damping: rates, 1/s, by default 600 (five oscillations) and 3000 (none).
 --cells: number over the thickness of the wall (inflation), the width of the rings or a sixth of the disks (checkerboard).
 """
 import argparse
@@ -97,8 +99,9 @@ def closed_form(kind, stretch, radius=INNER):
     return 2 / outer + 1 / (2 * outer**4) - 2 / stretch - 1 / (2 * stretch**4)
 
 
-def inflate(arguments, kind, pressure, cells):
-    """Name, stretch by the wall, stretch by the gas, pressure of the gas over the shear modulus, kinetic over internal energy."""
+def inflate(arguments, kind, pressure, cells, damping):
+    """Stretch by the wall, stretch by the gas, pressure of the gas, in the wall and its closed form over the shear modulus, pressure within cells
+    over it, kinetic over internal energy, energy error."""
     cell = (OUTER - INNER) / cells
     n = 2 if kind == "cylinder" else 3
     shapes = {"cylinder": ('tube = {{ base = ["0 mm", "0 mm", "-1 mm"], axis = "z", height = "2 mm", inner_radius = "{a} mm", outer_radius = "{b} mm" }}',
@@ -131,12 +134,12 @@ initial = {{ pressure = "{pressure:.17g} Pa", density = "10 kg/m^3" }}
 contact_group = "both"
 shape = {{ {inside} }}
 [[load]]
-damping = "600 1/s"
+damping = "{damping:g} 1/s"
 [output]
 snapshot_every = "12 ms"
 fields = ["mass", "volume", "pressure", "stress", "id"]
 """
-    run = program(arguments, f"{kind}_{pressure:.0f}_{cells}", text, {"rubber": RUBBER, "gas": GAS})
+    run = program(arguments, f"{kind}_{pressure:.0f}_{cells}_{damping:g}", text, {"rubber": RUBBER, "gas": GAS})
     now, began, gas = particles_of(run, "wall"), particles_of(run, "wall", 0.0), particles_of(run, "gas")
     before = {number: place for number, place in zip(began["id"], np.linalg.norm(began["position"], axis=1))}
     radius = 1e3 * np.linalg.norm(now["position"], axis=1)
@@ -149,26 +152,30 @@ fields = ["mass", "volume", "pressure", "stress", "id"]
     weight = now["volume"][chosen]
     in_wall = (weight * radial).sum() / weight.sum() / SHEAR
     form = (weight * closed_form(kind, (radius / first)[chosen], first[chosen])).sum() / weight.sum()
+    cells_of = np.unique(np.floor(1e3 * now["position"][chosen, :2] / cell).astype(int), axis=0, return_inverse=True)[1].ravel()
+    of_cells = np.bincount(cells_of, weight * now["pressure"][chosen]) / np.bincount(cells_of, weight)
+    within = math.sqrt((weight * (now["pressure"][chosen] - of_cells[cells_of]) ** 2).sum() / weight.sum()) / SHEAR
     gas_began = particles_of(run, "gas", 0.0)
     swollen = (gas["volume"].sum() / gas_began["volume"].sum()) ** (1 / n)
     mean = (gas["pressure"] * gas["volume"]).sum() / gas["volume"].sum()
     names, rows = history(run)
     kinetic = rows[-1, names.index("kinetic_energy")] / rows[-1, names.index("internal_energy")]
-    return inner[chosen].mean() / INNER, swollen, mean / SHEAR, in_wall, form, kinetic, energy_error(run)
+    return inner[chosen].mean() / INNER, swollen, mean / SHEAR, in_wall, form, within, kinetic, energy_error(run)
 
 
 def inflation(arguments):
-    print("| body | cells | stretch of the inner wall | radial pressure in the wall/G | closed form | difference | pressure of the gas/G | closed form | difference "
-          "| stretch by the gas | kinetic/internal | energy error |\n" + "| --- " * 12 + "|")
+    print("| body | damping, 1/s | cells | stretch of the inner wall | radial pressure in the wall/G | closed form | difference | pressure within cells/G | pressure of the gas/G "
+          "| closed form | difference | stretch by the gas | kinetic/internal | energy error |\n" + "| --- " * 14 + "|")
     for kind in ("cylinder", "sphere"):
         for stretch in (1.25, 1.5):
             volume = stretch ** (2 if kind == "cylinder" else 3)
             pressure = closed_form(kind, stretch) * SHEAR * volume**GAMMA
-            for cells in arguments.cells or (5, 10, 20):
-                at, by_gas, found, in_wall, form, kinetic, error = inflate(arguments, kind, pressure, cells)
-                exact = closed_form(kind, at)
-                print(f"| {kind} | {cells} | {at:.4f} | {in_wall:.4f} | {form:.4f} | {100 * (in_wall / form - 1):+.2f} % | {found:.4f} | {exact:.4f} "
-                      f"| {100 * (found / exact - 1):+.1f} % | {by_gas:.4f} | {kinetic:.0e} | {error:.0e} |", flush=True)
+            for damping in arguments.damping or (600, 3000):
+                for cells in arguments.cells or (5, 10, 20):
+                    at, by_gas, found, in_wall, form, within, kinetic, error = inflate(arguments, kind, pressure, cells, damping)
+                    exact = closed_form(kind, at)
+                    print(f"| {kind} | {damping:g} | {cells} | {at:.4f} | {in_wall:.4f} | {form:.4f} | {100 * (in_wall / form - 1):+.2f} % | {within:.3f} | {found:.4f} "
+                          f"| {exact:.4f} | {100 * (found / exact - 1):+.1f} % | {by_gas:.4f} | {kinetic:.0e} | {error:.0e} |", flush=True)
 
 
 def uneven(run, cell, times):
@@ -254,6 +261,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("problem", choices=("inflation", "checkerboard"))
     parser.add_argument("--cells", type=int, action="append")
+    parser.add_argument("--damping", type=float, action="append")
     parser.add_argument("--folder", type=pathlib.Path, default=ROOT / "run/studies/rubber")
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--whipple", type=pathlib.Path, default=ROOT / "build/release/bin/whipple")

@@ -24,7 +24,8 @@ HOLDS = {
     PROGRAM: ("usr/bin/whipple", "usr/bin/whipple-md", "usr/bin/whipple-fit", "usr/share/whipple/materials/copper.toml",
               "usr/share/man/man1/whipple.1.gz", "usr/share/bash-completion/completions/whipple",
               "usr/share/zsh/vendor-completions/_whipple", "usr/share/fish/vendor_completions.d/whipple.fish",
-              "usr/share/whipple/cases/whipple_shield/case.toml", "usr/share/doc/whipple/copyright"),
+              "usr/share/whipple/cases/whipple_shield/case.toml", "usr/share/doc/whipple/copyright",
+              "usr/share/doc/whipple/docs/tutorials/first_impact.md", "usr/share/doc/whipple/docs/manual/input_reference.md"),
     LIBRARY: ("usr/include/whipple/solver/simulation.hpp", "usr/share/doc/libwhipple-dev/copyright"),
     PYTHON: ("usr/lib/python3/dist-packages/whipple/runs.py", "usr/share/doc/python3-whipple/copyright"),
 }
