@@ -338,6 +338,13 @@ hugoniot_intercept = [400.0]
 """
 
 
+def holds(process, number):
+    """Whether a process holds a signal back, to ask for it."""
+    status = pathlib.Path(f"/proc/{process.pid}/status").read_text(encoding="utf-8")
+    mask = next(line for line in status.splitlines() if line.startswith("SigBlk:"))
+    return bool(int(mask.split()[1], 16) >> (number - 1) & 1)
+
+
 def ctrl_c():
     """A signal ends the drawing of samples, the preparation of points and the drawing of figures at once."""
     (FOLDER / "fitted.toml").write_text(FITTED, encoding="utf-8")
@@ -346,7 +353,7 @@ def ctrl_c():
     samples = FOLDER / "many_samples.toml"
     samples.write_text('case = "fitted_case.toml"\n[[vary]]\nkey = "body.0.material"\ncovariance = true\n[sample]\ncount = 100000\n')
     process = subprocess.Popen(command(samples, FOLDER / "many_samples"), stderr=subprocess.PIPE, text=True)
-    time.sleep(0.3)
+    wait_for(lambda: holds(process, signal.SIGINT), "the program's hold on signals")
     process.send_signal(signal.SIGINT)
     message = process.communicate(timeout=10)[1]
     require(process.returncode == 128 + signal.SIGINT and not (FOLDER / "many_samples").exists(), f"{process.returncode} {message}")
