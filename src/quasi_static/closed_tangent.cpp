@@ -33,7 +33,7 @@ struct PressureSlopes {
                  std::vector<double> energy, const std::vector<double>& distension)
       : squared_speed(density.size()), by_energy(density.size()) {
     const std::size_t n = density.size();
-    std::vector<double> pressure(n), moved(n), temperature(n), speed(n), distended = distension;
+    std::vector<double> pressure(n), moved(n), temperature(n), speed(n), distended;
     const auto evaluate = [&](std::vector<double>& p) {
       distended = distension;
       static_cast<void>(eos.evaluate({density, energy, p, temperature, speed, {}, {}, distended}));

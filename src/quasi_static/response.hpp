@@ -30,17 +30,16 @@ class Response {
   /// Computes dT/df of all particles (eq. 4), row by row, `strains`^2 numbers per particle: in closed form where the law
   /// has one, otherwise by differences from `forces` at `f`. The trial state is lost.
   void tangents(std::span<const Matrix3> f, std::span<const double> forces, std::span<double> out);
-  /// Computes dT/df of the particles of groups by differences. The trial state is lost.
-  void differences(std::span<const Matrix3> f, std::span<const double> forces, std::span<const Group> groups,
-                   std::span<double> out);
 
   /// Returns the state after the last `evaluate`.
   [[nodiscard]] const MaterialPoints& trial() const { return trial_; }
   /// Returns the reports of the last `evaluate`, one of each group.
   [[nodiscard]] std::span<const MaterialReport> reports() const { return reports_; }
-  [[nodiscard]] std::span<const Group> groups() const { return groups_; }
 
  private:
+  /// Computes dT/df of the particles of groups by differences. The trial state is lost.
+  void differences(std::span<const Matrix3> f, std::span<const double> forces, std::span<const Group> groups,
+                   std::span<double> out);
   std::vector<MaterialReport> update(std::span<const Matrix3> f, std::span<const Group> groups);
   MaterialReport update(std::span<const Matrix3> f, const Group& group);
   void collect(const MaterialPoints& points, std::span<const Matrix3> f, std::span<double> forces) const;
