@@ -36,6 +36,8 @@ struct ShieldArguments {
   std::string input, output, cell_size, body = "wall";
   std::vector<std::string> shots, speeds;
   shields::Model model = shields::Model::section;
+  shields::FoamModel foam = shields::CaseOptions{}.foam;
+  std::uint64_t seed = shields::CaseOptions{}.seed;
   double most_across = shields::CaseOptions{}.most_across;
   bool outcome = false, dry_run = false, json = false;
 };
@@ -74,8 +76,11 @@ std::vector<shields::Shot> read_input(const ShieldArguments& arguments) {
 }
 
 shields::CaseOptions case_options(const ShieldArguments& arguments) {
-  shields::CaseOptions options{
-      .model = arguments.model, .cell_size = {}, .most_across = arguments.most_across};
+  shields::CaseOptions options{.model = arguments.model,
+                               .foam = arguments.foam,
+                               .seed = arguments.seed,
+                               .cell_size = {},
+                               .most_across = arguments.most_across};
   if (!arguments.cell_size.empty())
     options.cell_size = option_quantity("--cell-size", arguments.cell_size, "m", range::positive());
   return options;
@@ -111,6 +116,7 @@ Json case_as_json(const Planned& planned) {
   for (const shields::Plate& plate : layout.plates)
     sheets.push_back({{"name", plate.name}, {"cells", plate.cells}, {"resolved", plate.resolved}});
   return {{"model", word_of(layout.model)},
+          {"foam", layout.foam ? Json(word_of(layout.foam_model)) : Json(nullptr)},
           {"cell_size", layout.cell_size},
           {"chosen_by", layout.chosen_by},
           {"cells_across_sphere", layout.cells_across},
@@ -118,7 +124,7 @@ Json case_as_json(const Planned& planned) {
           {"resolved", shields::not_resolved(layout).empty()},
           {"particles", std::round(layout.particles)},
           {"end", layout.end},
-          {"materials", shields::remarks_on_materials(planned.shot.impact)}};
+          {"materials", shields::remarks_on_materials(planned.shot.impact, layout)}};
 }
 
 Json as_json(const Planned& planned) {
@@ -177,7 +183,8 @@ void print_plan(const std::vector<Planned>& all) {
                fmt::join(cells, ", "), layout.particles);
     const std::string thin = shields::not_resolved(layout);
     if (!thin.empty()) fmt::print("  not resolved: {}\n", thin);
-    for (const std::string& remark : shields::remarks_on_materials(impact)) fmt::print("  {}\n", remark);
+    for (const std::string& remark : shields::remarks_on_materials(impact, layout))
+      fmt::print("  {}\n", remark);
   }
 }
 
@@ -320,6 +327,10 @@ void add_shield_command(CLI::App& app) {
   add_word_option(
       *command, "--model", arguments->model,
       "section: through the axis, normal impact (default) | space: a quarter, or half if oblique");
+  add_word_option(*command, "--foam", arguments->foam,
+                  "layer: a porous material (default) | struts: of random cells, in space");
+  command->add_option("--seed", arguments->seed, "Selects one of many random foams (default: 1)")
+      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1'000'000'000}));
   command
       ->add_option("--cell-size", arguments->cell_size, "Edge of the cells (default: by sphere and sheets)")
       ->type_name("LENGTH");

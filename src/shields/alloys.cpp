@@ -24,8 +24,8 @@ constexpr std::string_view al_6061 = "aluminium_6061_fracture_mie_gruneisen.toml
 constexpr std::string_view al_7075 = "aluminium_7075_mie_gruneisen.toml";
 constexpr std::string_view none;
 
-// Alloys share a material where their yield stresses differ by less than 11 %; softer tempers have none. Two exceptions
-// say so in their remark: 99.9 % and 2024-T351.
+// Alloys share a material where their yield stresses differ by less than 11 %; softer tempers have none. Three
+// exceptions say so in their remark: 99.9 %, 2024-T351 and 6101-T6.
 constexpr auto table = std::to_array<Alloy>({
     {"99.9%", 2700.0, 10e6, 15.0, al_1100,
      "1100-O, yield stress 34 MPa, stands for purer aluminium of 10 MPa"},
@@ -46,6 +46,7 @@ constexpr auto table = std::to_array<Alloy>({
     {"6061-CMG", 2700.0, 198e6, 77.0, none, ""},
     {"6061-T6", 2700.0, 276e6, 95.0, al_6061, ""},
     {"6061-T651", 2700.0, 276e6, 95.0, al_6061, ""},
+    {"6101-T6", 2700.0, 193e6, 71.0, al_6061, "strength of 6061-T6, yield stress 276 instead of 193 MPa"},
     {"7075-O", 2800.0, 103e6, 60.0, none, ""},
     {"7075-T6", 2800.0, 503e6, 150.0, al_7075, ""},
     {"7075-T651", 2800.0, 503e6, 150.0, al_7075, ""},

@@ -27,6 +27,8 @@ std::string heading_of(const Impact& impact) {
   for (const Bumper& bumper : impact.shield.bumpers)
     sheets += fmt::format("{:.4g} mm {}, {:.4g} mm apart, ", 1e3 * bumper.sheet.thickness, bumper.sheet.alloy,
                           1e3 * bumper.spacing);
+  if (impact.shield.foam.density > 0.0)
+    sheets += fmt::format("foam of {:.4g} kg/m^3, ", impact.shield.foam.density);
   sheets += fmt::format("{:.4g} mm {}", 1e3 * impact.shield.wall.thickness, impact.shield.wall.alloy);
   const double angle = sphere.angle * 180.0 / std::numbers::pi;
   return fmt::format("{}{}{:.4g} mm {} sphere at {:.4g} km/s{} on {}", impact.name,
@@ -49,6 +51,23 @@ std::string plate_shape(const Plate& plate, bool oblique) {
   return fmt::format("cylinder = {{ center = {}, axis = \"z\", radius = {}, height = {} }}",
                      point({0.0, 0.0, plate.front + 0.5 * plate.thickness}), mm(plate.radius),
                      mm(plate.thickness));
+}
+
+std::string foam_shape(const Impact& impact, const Layout& layout, bool oblique) {
+  const Plate& foam = *layout.foam;
+  if (layout.foam_model == FoamModel::layer) return plate_shape(foam, oblique);
+  const double rear = foam.front + foam.thickness;
+  return fmt::format(
+      "foam = {{ lower = {}, upper = {}, cell = {}, structure = \"voronoi\", form = \"open\", "
+      "relative_density = {:.6g}, seed = {} }}",
+      point({oblique ? foam.along[0] : 0.0, 0.0, foam.front}),
+      point({oblique ? foam.along[1] : foam.radius, foam.radius, rear}), mm(impact.shield.foam.cell),
+      impact.shield.foam.density / alloy_named(impact.shield.foam.alloy).density, layout.seed);
+}
+
+std::string_view foam_material(const Foam& foam, FoamModel model) {
+  return model == FoamModel::struts ? material_of(foam.alloy)
+                                    : "aluminium_foam_6101_t6_layer_mie_gruneisen.toml";
 }
 
 std::string domain_text(const Layout& layout, bool oblique) {
@@ -75,7 +94,8 @@ std::string case_text(const Impact& impact, const Layout& layout) {
   std::string text = fmt::format("# Written by whipple shield. Cell size: {}.\n", layout.chosen_by);
   const std::string thin = not_resolved(layout);
   if (!thin.empty()) text += fmt::format("# Not resolved: {}.\n", thin);
-  for (const std::string& remark : remarks_on_materials(impact)) text += fmt::format("# {}\n", remark);
+  for (const std::string& remark : remarks_on_materials(impact, layout))
+    text += fmt::format("# {}\n", remark);
   text += fmt::format("title = {}\n", toml_string(heading_of(impact)));
   text += domain_text(layout, oblique);
   text += fmt::format("\n[time]\nend = {}\n", us(layout.end));
@@ -87,6 +107,9 @@ std::string case_text(const Impact& impact, const Layout& layout) {
     const Plate& plate = layout.plates[k];
     text += body_text(plate.name, material_of(sheet_of(impact.shield, k).alloy), plate_shape(plate, oblique));
   }
+  if (layout.foam)
+    text += body_text(layout.foam->name, foam_material(impact.shield.foam, layout.foam_model),
+                      foam_shape(impact, layout, oblique));
   text += "\n[[stop]]\nwhen = \"decided\"  # docs/manual/shields.md, \"Outcome\"\nbody = \"wall\"\n";
   text += fmt::format(
       "\n[output]\nsnapshot_every = {}\nfields = [\"density\", \"temperature\", \"plastic_strain\", "
@@ -113,7 +136,7 @@ std::string study_text(const Impact& impact, const Layout& layout, const std::ve
       mm(0.05 * 0.5 * std::sqrt(between[0] * between[1])), mm(layout.cell_size), mm(layout.cell_size / 1.4));
 }
 
-std::vector<std::string> remarks_on_materials(const Impact& impact) {
+std::vector<std::string> remarks_on_materials(const Impact& impact, const Layout& layout) {
   std::vector<std::string> remarks;
   const auto remark_on = [&](const std::string& part, const std::string& name) {
     const Alloy& alloy = alloy_named(name);
@@ -123,6 +146,7 @@ std::vector<std::string> remarks_on_materials(const Impact& impact) {
   remark_on("Sphere", impact.projectile.alloy);
   for (const Bumper& bumper : impact.shield.bumpers) remark_on("Bumper", bumper.sheet.alloy);
   remark_on("Wall", impact.shield.wall.alloy);
+  if (layout.foam && layout.foam_model == FoamModel::struts) remark_on("Foam", impact.shield.foam.alloy);
   return remarks;
 }
 

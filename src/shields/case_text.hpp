@@ -21,6 +21,6 @@ std::string study_text(const Impact& impact, const Layout& layout, const std::ve
                        const std::array<double, 2>& between);
 
 /// Lists where a library material differs from its alloy; empty: nowhere.
-std::vector<std::string> remarks_on_materials(const Impact& impact);
+std::vector<std::string> remarks_on_materials(const Impact& impact, const Layout& layout);
 
 }  // namespace whipple::shields

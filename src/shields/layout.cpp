@@ -8,11 +8,13 @@
 #include <numbers>
 
 #include "src/core/base/error.hpp"
+#include "src/shields/alloys.hpp"
 
 namespace whipple::shields {
 namespace {
 
 constexpr double cells_per_sphere = 12.0, cells_per_bumper = 4.0, cells_per_wall = 6.0, least_cells = 2.0;
+constexpr double density_of_layer = 189.0;  // kg/m^3, of the foam of the library
 constexpr double cone = 0.5;  // tangent of the half-angle of the cone of debris that the wall covers
 
 /// Chooses the cell size: the coarsest that gives sphere, bumpers and wall their cells, but not finer than the cap.
@@ -64,6 +66,19 @@ void place_sheets(const Impact& impact, Layout& layout) {
   place("wall", impact.shield.wall.thickness, reach_of(impact.shield.wall.thickness));
 }
 
+/// Fills the spacing with foam, as wide as the bumper and, in an oblique flight, as long as the wall.
+void place_foam(const Impact& impact, const CaseOptions& options, Layout& layout) {
+  if (!(impact.shield.foam.density > 0.0)) return;
+  const Plate &bumper = layout.plates.front(), &wall = layout.plates.back();
+  layout.foam_model = options.foam;
+  layout.seed = options.seed;
+  layout.foam = bumper;
+  layout.foam->name = "foam";
+  layout.foam->front = bumper.thickness;
+  layout.foam->thickness = wall.front - bumper.thickness;
+  layout.foam->along[1] = std::max(bumper.along[1], wall.along[1]);
+}
+
 void place_domain(const Impact& impact, Layout& layout) {
   const double d = impact.projectile.diameter, h = layout.cell_size, margin = 4.0 * h;
   const Plate& wall = layout.plates.back();
@@ -79,6 +94,12 @@ void place_domain(const Impact& impact, Layout& layout) {
   const double behind = std::max(5.0 * wall.thickness, 4.0 * d);
   layout.upper = {to_cells(upper + margin), to_cells(side + margin),
                   to_cells(wall.front + wall.thickness + behind)};
+}
+
+/// Returns the part of the foam's volume that particles fill.
+double filled(const Impact& impact, const Layout& layout) {
+  const Foam& foam = impact.shield.foam;
+  return layout.foam_model == FoamModel::struts ? foam.density / alloy_named(foam.alloy).density : 1.0;
 }
 
 /// Chooses the times: debris at a quarter of the impact speed has arrived, and the wall has then had the time in which
@@ -97,17 +118,43 @@ void count_particles(const Impact& impact, Layout& layout) {
   if (layout.model == Model::section) {
     volume = 0.5 * std::numbers::pi * r * r;
     for (const Plate& plate : layout.plates) volume += plate.radius * plate.thickness;
+    if (layout.foam) volume += layout.foam->radius * layout.foam->thickness;
     layout.particles = volume / (spacing * spacing);
     return;
   }
   const double copies = oblique ? 2.0 : 4.0;
   volume = 4.0 / 3.0 * std::numbers::pi * r * r * r / copies;
-  for (const Plate& plate : layout.plates) {
+  const auto volume_of = [&](const Plate& plate) {
     const double face = oblique ? (plate.along[1] - plate.along[0]) * plate.radius
                                 : std::numbers::pi * plate.radius * plate.radius / copies;
-    volume += face * plate.thickness;
-  }
+    return face * plate.thickness;
+  };
+  for (const Plate& plate : layout.plates) volume += volume_of(plate);
+  if (layout.foam) volume += volume_of(*layout.foam) * filled(impact, layout);
   layout.particles = volume / (spacing * spacing * spacing);
+}
+
+/// @throws InputError if no case is made of the foam
+void check_foam(const Impact& impact, const CaseOptions& options) {
+  const Foam& foam = impact.shield.foam;
+  if (!(foam.density > 0.0)) return;
+  const auto refuse = [&](const std::string& reason) {
+    throw InputError(fmt::format("{}: {}", impact.name, reason));
+  };
+  if (impact.shield.bumpers.size() != 1)
+    refuse(
+        fmt::format("foam fills the spacing of one bumper, the shield has {}", impact.shield.bumpers.size()));
+  if (options.foam == FoamModel::layer) {
+    if (std::abs(foam.density - density_of_layer) > 0.05 * density_of_layer)
+      refuse(fmt::format("the foam of the library has {:.4g} kg/m^3, this one {:.4g}: use --foam struts",
+                         density_of_layer, foam.density));
+    return;
+  }
+  if (options.model == Model::section) refuse("struts have no section: use --model space, or --foam layer");
+  if (!(foam.cell > 0.0)) refuse("struts need the size of the foam's cells: shield.foam.cell");
+  const double solid = alloy_named(foam.alloy).density;
+  if (!(foam.density < solid))
+    refuse(fmt::format("foam of {:.4g} kg/m^3 is denser than its alloy, {:.4g}", foam.density, solid));
 }
 
 }  // namespace
@@ -117,14 +164,16 @@ Layout layout_of(const Impact& impact, const CaseOptions& options) {
     throw InputError(
         fmt::format("{}: a section is for normal impact, the angle is {:.4g} degrees: use --model space",
                     impact.name, impact.projectile.angle * 180.0 / std::numbers::pi));
-  if (impact.shield.stuffing.areal_density > 0.0 || impact.shield.foam.density > 0.0)
-    throw InputError(fmt::format("{}: no case is made of {}, which only the equations know", impact.name,
-                                 impact.shield.foam.density > 0.0 ? "foam" : "stuffing"));
+  if (impact.shield.stuffing.areal_density > 0.0)
+    throw InputError(
+        fmt::format("{}: no case is made of stuffing, which only the equations know", impact.name));
+  check_foam(impact, options);
   Layout layout;
   layout.model = options.model;
   choose_cells(impact, options, layout);
   layout.cells_across = impact.projectile.diameter / layout.cell_size;
   place_sheets(impact, layout);
+  place_foam(impact, options, layout);
   place_domain(impact, layout);
   choose_times(impact, layout);
   count_particles(impact, layout);

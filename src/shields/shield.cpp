@@ -62,8 +62,14 @@ ParameterTable<Stuffing> Stuffing::parameters() {
 ParameterTable<Foam> Foam::parameters() {
   return {real("density", &Foam::density, "kg/m^3", range::non_negative(),
                "of open-cell foam, pores included, that fills the spacing")
-              .optional()};
+              .optional(),
+          real("cell", &Foam::cell, "m", range::non_negative(),
+               "size of its cells, the cube root of their volume: for cases with its struts")
+              .optional(),
+          text("alloy", &Foam::alloy, "designation of the alloy of its struts").optional()};
 }
+
+void Foam::check(const Impact& /*impact*/, const input::Faults& faults) const { check_alloy(alloy, faults); }
 
 ParameterTable<Projectile> Projectile::parameters() {
   return {

@@ -49,9 +49,12 @@ struct Stuffing {
 
 /// Describes an open-cell foam that fills the spacing between two sheets.
 struct Foam {
-  double density = 0.0;  ///< kg/m^3 with its pores; 0: none
+  double density = 0.0;           ///< kg/m^3 with its pores; 0: none
+  double cell = 0.0;              ///< m, cube root of the volume of a cell; 0: not known
+  std::string alloy = "6101-T6";  ///< of its struts
 
   static ParameterTable<Foam> parameters();
+  void check(const Impact& impact, const input::Faults& faults) const;
 };
 
 /// Describes a shield: bumpers in the order in which they are struck, and the wall that must hold.

@@ -109,6 +109,13 @@ const std::vector<Known>& known_columns() {
        positive,
        [](Shot& s, double x) { s.impact.shield.wall.thickness = x; },
        {}},
+      {"foam density",
+       "kg/m^3",
+       optional,
+       positive,
+       [](Shot& s, double x) { s.impact.shield.foam.density = x; },
+       {}},
+      {"foam cell", "m", optional, positive, [](Shot& s, double x) { s.impact.shield.foam.cell = x; }, {}},
       {"result", "", optional, {}, {}, [](Shot& s, const std::string& t) { s.result = result_of(t); }},
   };
   return all;

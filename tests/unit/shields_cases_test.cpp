@@ -202,6 +202,68 @@ TEST(CaseText, IsAValidCaseOfEachModel) {
   EXPECT_NEAR(half.bodies[0].velocity.z(), 3100.0 * std::sqrt(0.5), 1e-4);
 }
 
+Impact panel(double angle = 0.0) {
+  const TemporaryFolder folder;
+  Impact impact = read_shots(written(folder, "panels.csv",
+                                     "shot,sphere,diameter [mm],angle [degree],velocity [km/s],bumper,bumper "
+                                     "thickness [mm],spacing [mm],wall,wall thickness [mm],foam density "
+                                     "[g/cm3],foam cell [mm],result\n"
+                                     "F,2017-T4,1.2,0,6.9,6061-T6,0.254,12.7,6061-T6,0.254,0.189,2.087,NP\n"))
+                      .front()
+                      .impact;
+  impact.projectile.angle = angle;
+  return impact;
+}
+
+// The foam fills the spacing: as a porous material of its density, or as struts of its relative density.
+TEST(CaseText, FoamOfPanelsIsALayerOrStruts) {
+  const Impact normal = panel();
+  EXPECT_DOUBLE_EQ(normal.shield.foam.density, 189.0);
+  const cases::Case section = read_text_of_case(case_text(normal, layout_of(normal, {})));
+  ASSERT_EQ(section.bodies.size(), 4U);
+  EXPECT_EQ(section.bodies[3].name, "foam");
+  EXPECT_THAT(section.bodies[3].material, HasSubstr("foam_6101"));
+
+  for (const double angle : {0.0, 0.25 * std::numbers::pi}) {
+    const Impact impact = panel(angle);
+    const CaseOptions options{.model = Model::space, .foam = FoamModel::struts, .seed = 7};
+    const Layout layout = layout_of(impact, options);
+    const std::string text = case_text(impact, layout);
+    EXPECT_THAT(text, HasSubstr("Foam of 6101-T6"));
+    EXPECT_THAT(text, HasSubstr("seed = 7"));
+    const cases::Case space = read_text_of_case(text);
+    ASSERT_EQ(space.bodies.size(), 4U);
+    const auto& struts = *space.bodies[3].shape;
+    const auto bounds = struts.bounds();
+    EXPECT_NEAR(bounds.lower.z(), 0.254e-3, 1e-12);
+    EXPECT_NEAR(bounds.upper.z(), 12.954e-3, 1e-12);
+    EXPECT_NEAR(struts.volume() / (bounds.upper - bounds.lower).prod(), 0.07, 1e-9);
+    EXPECT_EQ(bounds.lower.x() < 0.0, angle > 0.0);
+    EXPECT_GE(bounds.upper.x(), layout.plates[0].along[1]);
+    Impact bare = impact;
+    bare.shield.foam.density = 0.0;
+    EXPECT_GT(layout.particles, 1.5 * layout_of(bare, options).particles);
+  }
+}
+
+TEST(Layout, RefusesFoamThatNoCaseIsMadeOf) {
+  const auto refused = [](const CaseOptions& options, const std::function<void(Impact&)>& change) {
+    return fault_of([&] {
+      Impact impact = panel();
+      change(impact);
+      static_cast<void>(layout_of(impact, options));
+    });
+  };
+  const CaseOptions struts{.model = Model::space, .foam = FoamModel::struts};
+  EXPECT_THAT(refused({.foam = FoamModel::struts}, [](Impact&) {}), HasSubstr("--model space"));
+  EXPECT_THAT(refused(struts, [](Impact& i) { i.shield.foam.cell = 0.0; }), HasSubstr("shield.foam.cell"));
+  EXPECT_THAT(refused(struts, [](Impact& i) { i.shield.foam.density = 2700.0; }), HasSubstr("denser"));
+  EXPECT_THAT(refused({}, [](Impact& i) { i.shield.foam.density = 108.0; }), HasSubstr("--foam struts"));
+  EXPECT_THAT(refused({}, [](Impact& i) { i.shield.bumpers.push_back(i.shield.bumpers[0]); }),
+              HasSubstr("one bumper, the shield has 2"));
+  EXPECT_THAT(refused({}, [](Impact& i) { i.shield.stuffing.areal_density = 1.0; }), HasSubstr("stuffing"));
+}
+
 TEST(CaseText, RefusesAlloysWithoutMaterial) {
   Impact impact = ryan_impact();
   impact.shield.wall.alloy = "3003-H12";
@@ -209,7 +271,7 @@ TEST(CaseText, RefusesAlloysWithoutMaterial) {
   EXPECT_THAT(fault, HasSubstr("no material for the alloy \"3003-H12\""));
   EXPECT_THAT(fault, HasSubstr("2219-T87: aluminium_2219_t87_mie_gruneisen.toml"));
   impact.shield.wall.alloy = "2219-T851";
-  const auto remarks = remarks_on_materials(impact);
+  const auto remarks = remarks_on_materials(impact, layout_of(impact, {}));
   ASSERT_EQ(remarks.size(), 1U);
   EXPECT_THAT(remarks[0], HasSubstr("Wall of 2219-T851"));
 }
@@ -237,7 +299,7 @@ TEST(Alloys, ShareAMaterialWhereTheirYieldStressesAreClose) {
     });
     ASSERT_NE(own, alloys().end()) << alloy.name;
     const double difference = std::abs(alloy.yield - own->yield) / std::max(alloy.yield, own->yield);
-    const bool exception = alloy.name == "99.9%" || alloy.name == "2024-T351";
+    const bool exception = alloy.name == "99.9%" || alloy.name == "2024-T351" || alloy.name == "6101-T6";
     EXPECT_EQ(difference > 0.11, exception) << alloy.name << ": " << difference;
     EXPECT_EQ(alloy.remark.find("yield stress") != std::string_view::npos, exception) << alloy.name;
     shared += exception ? 0 : 1;
