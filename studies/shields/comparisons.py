@@ -24,6 +24,11 @@ studies.shields.tile_control`): with the mean load of the grains, which crowd in
 with a tile in the order of the SHA-256 of their names. Speed: of the rear half of the wall, which decides; over spread: over that of the
 load spread over the wall; rim: distance in which the rim stops it over the thickness, failed from 1 on."""
 
+PANELS = """All normal shots on half an inch of aluminium foam between equal sheets in the open data, chosen before any was computed
+(`python3 -m studies.shields.foam_panels`). Struts: a quarter of random cells, mirrored, three seeds; layer: a section through a porous
+material of the same density; none: the sheets alone, which must fail where the panel does. Verdict: of the majority; left: least fraction of the wall's
+thickness that connected material keeps, by seed."""
+
 
 def defeated(outcome):
     return None if outcome == "undecided" else outcome in DEFEATS
@@ -162,3 +167,31 @@ def cloud_section(rows):
         lines += ["## Onset of melting behind the bumper of Ryan's shield", "", MELTING, "",
                   *table(["km/s", *(f"{title}, {cell:g} mm" for title in ("debris melted", "sphere melted", "median size") for cell in cells)], body)]
     return lines
+
+
+def majority(outcomes):
+    """Whether most of the decided outcomes are failures; None where none is decided or as many are as are not."""
+    decided = [value for value in map(defeated, outcomes) if value is not None]
+    failed = sum(decided)
+    return None if 2 * failed == len(decided) else 2 * failed > len(decided)
+
+
+def panel_section(rows):
+    """Outcomes of panels of foam, by what stands for the foam. rows: of foam_outcomes.csv"""
+    if not rows:
+        return []
+    lines, counts = [], []
+    for kind in dict.fromkeys((row["foam"], row["cell size [mm]"]) for row in rows):
+        members = sorted((row for row in rows if (row["foam"], row["cell size [mm]"]) == kind), key=lambda row: (row["shot"], row["seed"] or ""))
+        right = 0
+        shots = list(dict.fromkeys(row["shot"] for row in members))
+        for shot in shots:
+            of_shot = [row for row in members if row["shot"] == shot]
+            verdict = majority([row["outcome"] for row in of_shot])
+            measured = of_shot[0]["measured"]
+            right += verdict is not None and verdict == (measured == "P")
+            lines.append([shot, measured, *kind, ", ".join(row["outcome"] for row in of_shot), {None: "-", True: "P", False: "NP"}[verdict],
+                          ", ".join(row["left"] or "-" for row in of_shot), f"{statistics.median(float(row['seconds']) for row in of_shot):.0f}"])
+        counts.append([*kind, len(shots), right])
+    return ["## Panels of foam", "", *PANELS.splitlines(), "", *table(["foam", "cells, mm", "shots", "right"], counts),
+            *table(["shot", "measured", "foam", "cells, mm", "outcome", "verdict", "left", "s"], sorted(lines, key=lambda line: line[0]))]

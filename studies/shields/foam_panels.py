@@ -24,7 +24,7 @@ FILE = page.HERE / "foam_outcomes.csv"
 KEYS = ["shot", "foam", "cell size [mm]", "seed"]
 COLUMNS = [*KEYS, "measured", "outcome", "time [us]", "reason", *three_dimensions.MEASURES, "particles", "seconds", "revision"]
 MODELS = {"struts": "space", "layer": "section", "none": "space"}
-VARIANTS = [("struts", "0.16", seeds) for seeds in ("1", "2", "3")] + [("layer", "0.064", ""), ("layer", "0.045", ""), ("none", "0.16", "")] + \
+VARIANTS = [("struts", "0.16", seed) for seed in ("1", "2", "3")] + [("layer", "0.064", ""), ("layer", "0.045", ""), ("none", "0.16", "")] + \
            [("struts", "0.125", seed) for seed in ("1", "2", "3")]
 
 

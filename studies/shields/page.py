@@ -256,9 +256,9 @@ def section_repeats(rows):
             *(table(["shot", "repeated with", "outcome", "repeated"], changed) if changed else ["No outcome has another word.", ""])]
 
 
-def page(models, calibrating, repeats=None, of_sections=(), in_space=(), of_dust=(), of_clouds=()):
+def page(models, calibrating, repeats=None, of_sections=(), in_space=(), of_dust=(), of_clouds=(), of_foam=()):
     """Text of the page, of shots by model; repeats: rows of outcomes of tiles, by what is different; of_sections: rows of repeats.csv;
-    in_space: of three_dimensions.csv; of_dust: of tile_control.csv; of_clouds: of clouds.csv."""
+    in_space: of three_dimensions.csv; of_dust: of tile_control.csv; of_clouds: of clouds.csv; of_foam: of foam_outcomes.csv."""
     shots = next(iter(models.values()))
     named = [f"- {name}: {why}" for name, why in calibrating.items()]
     return "\n".join(["# Shields: predictions and shots", "",
@@ -268,7 +268,7 @@ def page(models, calibrating, repeats=None, of_sections=(), in_space=(), of_dust
                       *model_section(models, calibrating),
                       *comparisons.space_section(in_space, {s.name: s.run.outcome for s in models.get("section", []) if s.run}, {s.name: s.failed for s in shots}),
                       *comparisons.control_section(of_dust), *repeat_section(models.get("tile", []), repeats or {}), *section_repeats(of_sections),
-                      *comparisons.cloud_section(of_clouds),
+                      *comparisons.cloud_section(of_clouds), *comparisons.panel_section(of_foam),
                       "## Calibrating shots", "", "In no score of runs:", "", *named, ""])
 
 
@@ -282,7 +282,8 @@ def main():
     models = by_model(shots, read_csv(arguments.outcomes))
     calibrating = {row["shot"]: row["why"] for row in read_csv(HERE / "calibrating.csv")}
     text = page(models, calibrating, {title: read_csv(HERE / file) for title, file in REPEATS.items()},
-                read_csv(HERE / "repeats.csv"), read_csv(HERE / "three_dimensions.csv"), read_csv(HERE / "tile_control.csv"), read_csv(HERE / "clouds.csv"))
+                read_csv(HERE / "repeats.csv"), read_csv(HERE / "three_dimensions.csv"), read_csv(HERE / "tile_control.csv"), read_csv(HERE / "clouds.csv"),
+                read_csv(HERE / "foam_outcomes.csv"))
     arguments.output.write_text(text, encoding="utf-8")
     print(text)
 

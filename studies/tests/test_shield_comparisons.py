@@ -7,7 +7,7 @@ import unittest
 
 import numpy as np
 
-from studies.shields import clouds, comparisons, curve, page, pictures, scores, three_dimensions, tile, tile_control
+from studies.shields import clouds, comparisons, curve, foam_panels, page, pictures, scores, three_dimensions, tile, tile_control
 
 DELAYS = np.linspace(-0.1, 0.3, 401)
 LOAD = tile.Load(7.5, 0.1, 5.0, 0.4, DELAYS, np.ones(401), 0.8, 0.05)
@@ -44,6 +44,33 @@ class Choice(unittest.TestCase):
         rows = page.read_csv(page.HERE / "outcomes.csv")
         self.assertNotIn("CR-915/E-44", tile_control.chosen(rows, 100))  # its verdict is of a section
         self.assertEqual(tile_control.chosen(rows, 3), tile_control.chosen(rows[::-1], 100)[:3])
+
+
+class Panels(unittest.TestCase):
+    def test_the_majority_of_seeds_decides(self):
+        self.assertIs(comparisons.majority(["perforated", "bulge", "detached spall"]), True)
+        self.assertIs(comparisons.majority(["perforated", "bulge", "whole"]), False)
+        self.assertIsNone(comparisons.majority(["perforated", "bulge", "undecided"]))
+        self.assertIsNone(comparisons.majority(["undecided"]))
+
+    def test_right_ones_are_counted_by_what_stands_for_the_foam(self):
+        def row(shot, measured, foam, seed, outcome):
+            return {"shot": shot, "measured": measured, "foam": foam, "cell size [mm]": "0.16", "seed": seed, "outcome": outcome, "left": "0.5", "seconds": "9"}
+
+        rows = [row("a", "P", "struts", str(seed), outcome) for seed, outcome in ((1, "perforated"), (2, "bulge"), (3, "perforated"))]
+        rows += [row("b", "NP", "struts", "1", "perforated"), row("a", "P", "layer", "", "bulge")]
+        lines = comparisons.panel_section(rows)
+        self.assertIn("| struts | 0.16 | 2 | 1 |", lines)
+        self.assertIn("| layer | 0.16 | 1 | 0 |", lines)
+        self.assertEqual(comparisons.panel_section([]), [])
+
+    def test_every_shot_and_seed_has_its_own_case(self):
+        commands_of = [foam_panels.command_of("whipple", "t", "a/1", *variant) for variant in foam_panels.VARIANTS]
+        self.assertEqual(len({tuple(map(str, words)) for words in commands_of}), len(foam_panels.VARIANTS))
+        with tempfile.TemporaryDirectory() as folder:
+            bare = foam_panels.table_of("none", pathlib.Path(folder)).read_text(encoding="utf-8")
+        self.assertNotIn("foam", bare)
+        self.assertEqual(bare.count("\n"), 5)
 
 
 class Dust(unittest.TestCase):
