@@ -65,6 +65,11 @@ bool Case::holds(const Body& body, Vector3 point) const {
   return body.shape->contains(point);
 }
 
+bool Case::may_hold(const Body& body, Vector3 point, double radius) const {
+  if (geometry.is_planar()) point[2] = 1e-6 * geometry.cell_size;
+  return body.shape->may_hold(point, radius);
+}
+
 bool Case::has_elements() const {
   return std::ranges::any_of(bodies, [](const Body& body) { return body.discretization.has_elements(); });
 }

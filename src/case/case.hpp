@@ -77,6 +77,8 @@ struct Case {
   /// Returns whether a body contains a point; in two dimensions whether its section does, evaluated just above z = 0,
   /// the side that models with a mirror plane there include.
   [[nodiscard]] bool holds(const Body& body, Vector3 point) const;
+  /// Returns whether a point within `radius` (m) of this one may be in a body; false only where none is.
+  [[nodiscard]] bool may_hold(const Body& body, Vector3 point, double radius) const;
   /// Returns all gauges, with those of the tracers last.
   [[nodiscard]] std::vector<Gauge> all_gauges() const;
 };

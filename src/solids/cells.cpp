@@ -52,28 +52,44 @@ Cells::Cells(std::vector<Vector3> seeds, double spacing)
   seeds_ = std::move(sorted);
 }
 
-Cells::Distances Cells::distances(const Vector3& point) const {
+template <class F>
+void Cells::for_each_near(const Vector3& point, F&& f) const {
   constexpr std::int64_t reach = 2;  // bins: seeds farther than two spacings are no neighbours of the cell
   const std::array<std::int64_t, 3> bin = raster_.bin_of(point);
   // The bins along z lie next to each other.
-  const auto for_each_near = [&](auto&& f) {
-    const std::int64_t from = std::max<std::int64_t>(0, bin[2] - reach),
-                       to = std::min(raster_.count[2] - 1, bin[2] + reach);
-    for (std::int64_t i = std::max<std::int64_t>(0, bin[0] - reach);
-         i <= std::min(raster_.count[0] - 1, bin[0] + reach); ++i) {
-      for (std::int64_t j = std::max<std::int64_t>(0, bin[1] - reach);
-           j <= std::min(raster_.count[1] - 1, bin[1] + reach); ++j) {
-        for (std::size_t s = begins_[raster_.index({i, j, from})]; s < begins_[raster_.index({i, j, to}) + 1];
-             ++s) {
-          f(s);
-        }
+  const std::int64_t from = std::max<std::int64_t>(0, bin[2] - reach),
+                     to = std::min(raster_.count[2] - 1, bin[2] + reach);
+  for (std::int64_t i = std::max<std::int64_t>(0, bin[0] - reach);
+       i <= std::min(raster_.count[0] - 1, bin[0] + reach); ++i) {
+    for (std::int64_t j = std::max<std::int64_t>(0, bin[1] - reach);
+         j <= std::min(raster_.count[1] - 1, bin[1] + reach); ++j) {
+      for (std::size_t s = begins_[raster_.index({i, j, from})]; s < begins_[raster_.index({i, j, to}) + 1];
+           ++s) {
+        f(s);
       }
     }
-  };
+  }
+}
+
+// A face of x's cell lies (|x - s|^2 - |x - o|^2)/(2 |s - o|) >= (|x - s| - |x - o|)/2 from x, where o is the seed of the
+// cell, and |x - o| is at most the distance of the nearest seed of another point plus that of the two points.
+std::size_t Cells::near(const Vector3& point, double radius, double reach) const {
+  double least = std::numeric_limits<double>::infinity();
+  for_each_near(point, [&](std::size_t s) { least = std::min(least, (seeds_[s] - point).squaredNorm()); });
+  const double farthest = std::sqrt(least) + 2.0 * (radius + reach);
+  if (farthest > 2.0 * raster_.edge) return seeds_.size();  // more than what is visited
+  std::size_t count = 0;
+  for_each_near(point, [&](std::size_t s) {
+    count += (seeds_[s] - point).squaredNorm() <= farthest * farthest ? 1 : 0;
+  });
+  return count;
+}
+
+Cells::Distances Cells::distances(const Vector3& point) const {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   double least = infinity;
   std::size_t own = 0;
-  for_each_near([&](std::size_t s) {
+  for_each_near(point, [&](std::size_t s) {
     const double square = (seeds_[s] - point).squaredNorm();
     if (square < least) {
       least = square;
@@ -81,7 +97,7 @@ Cells::Distances Cells::distances(const Vector3& point) const {
     }
   });
   Distances distances{infinity, infinity};
-  for_each_near([&](std::size_t s) {
+  for_each_near(point, [&](std::size_t s) {
     if (s == own) return;
     const double square = (seeds_[s] - point).squaredNorm();
     // A face is no nearer than half of the difference of the two distances.

@@ -22,9 +22,16 @@ class Cells {
     double face, second;
   };
   [[nodiscard]] Distances distances(const Vector3& point) const;
+  /// Counts the seeds that may hold a point within `radius` of this one, or have a face within `reach` of it: of a point
+  /// that is nearer than `reach` to n faces there are n + 1.
+  [[nodiscard]] std::size_t near(const Vector3& point, double radius, double reach) const;
   [[nodiscard]] std::size_t size() const { return seeds_.size(); }
 
  private:
+  /// Calls f(seed) for the seeds within two spacings of a point, and some more.
+  template <class F>
+  void for_each_near(const Vector3& point, F&& f) const;
+
   std::vector<Vector3> seeds_;  // sorted by bin
   std::vector<std::size_t> begins_;
   Raster raster_;

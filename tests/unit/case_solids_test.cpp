@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "src/core/base/random_bits.hpp"
 #include "tests/unit/shape_support.hpp"
 
 namespace whipple::cases::shape_test {
@@ -121,6 +122,36 @@ TEST(Solids, FoamsHaveTheDensityAskedFor) {
           EXPECT_EQ(shape_of(shape->toml())->toml(), shape->toml());
         }
       }
+    }
+  }
+}
+
+/// No point is inside within a distance at which the shape says that none is; it says so of most of a thin foam.
+TEST(Solids, FoamsKnowWhereTheyHaveNoMaterial) {
+  for (const char* structure : {"kelvin", "voronoi"}) {
+    for (const char* form : {"open", "closed"}) {
+      const auto foam = shape_of(fmt::format(
+          R"({{ foam = {{ lower = ["0 m", "0 m", "0 m"], upper = ["4 m", "4 m", "4 m"], cell = "1 m",
+               structure = "{}", form = "{}", relative_density = 0.05, seed = 3 }} }})",
+          structure, form));
+      std::size_t empty = 0, number = 0;
+      const auto next = [&number] {
+        ++number;
+        return Vector3(uniform(7, 3 * number), uniform(7, 3 * number + 1), uniform(7, 3 * number + 2));
+      };
+      constexpr double radius = 0.06;
+      for (int place = 0; place < 4000; ++place) {
+        const Vector3 center = 4.0 * next();
+        if (foam->may_hold(center, radius)) continue;
+        ++empty;
+        for (int k = 0; k < 20; ++k) {
+          const Vector3 offset = radius * (2.0 * next() - Vector3::Ones());
+          EXPECT_FALSE(offset.norm() <= radius && foam->contains(center + offset));
+        }
+      }
+      EXPECT_GT(empty, std::string(form) == "open" ? 2000U : 800U)
+          << structure << " " << form << " " << empty;
+      EXPECT_TRUE(foam->may_hold({2.0, 2.0, 2.0}, 10.0));
     }
   }
 }

@@ -27,6 +27,7 @@ std::optional<Site> partial_site(const Case& setup, const Body& body, const Latt
                                  const Vector3& point) {
   const int parts = setup.geometry.is_planar() ? 12 : 4, parts_z = setup.geometry.is_planar() ? 1 : parts;
   const double all = parts * parts * parts_z;
+  if (!setup.may_hold(body, point, 0.5 * lattice.spacing.norm())) return std::nullopt;
   const Vector3 part(lattice.spacing[0] / parts, lattice.spacing[1] / parts, lattice.spacing[2] / parts_z);
   const Vector3 middle(0.5 * (parts - 1), 0.5 * (parts - 1), 0.5 * (parts_z - 1));
   double count = 0;

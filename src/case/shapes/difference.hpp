@@ -34,6 +34,9 @@ class Difference final : public Shape {
     return from_->contains(point) &&
            std::ranges::none_of(minus_, [&](const auto& part) { return part->contains(point); });
   }
+  [[nodiscard]] bool may_hold(const Vector3& point, double radius) const override {
+    return from_->may_hold(point, radius);
+  }
   [[nodiscard]] Bounds bounds() const override { return from_->bounds(); }
   [[nodiscard]] double volume() const override { return counted_volume(*this); }
   void visit(const std::function<void(const Shape&)>& f) const override {

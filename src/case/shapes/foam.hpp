@@ -67,6 +67,9 @@ class Foam final : public Filling, public Made<Foam, FoamKeys> {
   /// Returns the thickness of a wall, and of a strut about twice the distance of its corners from the faces.
   [[nodiscard]] double smallest_extent(const Vector3&) const override { return 2.0 * threshold(); }
   [[nodiscard]] std::string toml() const override { return shape_as_toml(keys_); }
+  [[nodiscard]] bool may_hold(const Vector3& point, double radius) const override {
+    return cells_.near(point, radius, threshold()) > (keys_.form == FoamForm::closed ? 1 : 2);
+  }
 
  private:
   [[nodiscard]] double level(const Vector3& point) const override {

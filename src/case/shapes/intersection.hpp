@@ -23,6 +23,9 @@ class Intersection final : public Shape {
   [[nodiscard]] bool contains(const Vector3& point) const override {
     return std::ranges::all_of(parts_, [&](const auto& part) { return part->contains(point); });
   }
+  [[nodiscard]] bool may_hold(const Vector3& point, double radius) const override {
+    return std::ranges::all_of(parts_, [&](const auto& part) { return part->may_hold(point, radius); });
+  }
   [[nodiscard]] Bounds bounds() const override {
     Bounds all = parts_.front()->bounds();
     for (const auto& part : parts_) {

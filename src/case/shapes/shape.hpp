@@ -47,6 +47,9 @@ class Shape {
   };
   virtual ~Shape() = default;
   [[nodiscard]] virtual bool contains(const Vector3& point) const = 0;
+  /// Returns whether a point within `radius` of this one may be inside; false only where none is. It spares shapes that
+  /// take long to evaluate most of a lattice.
+  [[nodiscard]] virtual bool may_hold(const Vector3& /*point*/, double /*radius*/) const { return true; }
   [[nodiscard]] virtual Bounds bounds() const = 0;
   /// Returns the volume (m^3), to assess a discretization: exact for primitives, to about 1e-3 for combinations.
   [[nodiscard]] virtual double volume() const = 0;
