@@ -126,7 +126,7 @@ bool keeps_to_planes_only(const fem::Nodes& nodes, std::size_t a, const grid::Ge
   for (int axis = 0; axis < 3; ++axis) {
     if ((nodes.constrained[a] & fem::constraint::axis(axis)) == 0) continue;
     if (nodes.prescribed[a][axis] != 0.0) return false;
-    const auto lower = static_cast<std::size_t>(2 * axis);
+    const std::size_t lower = 2 * static_cast<std::size_t>(axis);
     const auto keeps = [&](std::size_t face) {
       return geometry.boundary[face] == grid::Boundary::symmetry &&
              geometry.is_in_plane(face, nodes.position[a]);
@@ -367,7 +367,7 @@ Vector3 stop_at_faces(fem::Nodes& nodes, const grid::Geometry& geometry, double 
       const double next = nodes.position[a][axis] + dt * motion.end[a][axis];
       const bool low = next < geometry.lower[axis];
       if (!low && next <= geometry.upper(axis)) continue;
-      const auto face = static_cast<std::size_t>(2 * axis + (low ? 0 : 1));
+      const std::size_t face = 2 * static_cast<std::size_t>(axis) + (low ? 0 : 1);
       if (geometry.boundary[face] == grid::Boundary::outflow) continue;
       const double plane = low ? geometry.lower[axis] : geometry.upper(axis);
       // The displacement ends on the face. Work is computed with the mean velocity; for interface nodes this is that of

@@ -15,7 +15,7 @@ constexpr std::array<double, 12> numbers = {1.5,   -2.25, 3.0, -0.1, 7.0,  0.3,
                                             -11.0, 5.5,   2.0, 9.75, -4.0, 0.7};
 
 TEST(Registers, DoLaneByLaneWhatNumbersDo) {
-  const Lanes a = load<Lanes>(&numbers[0]), b = load<Lanes>(&numbers[4]), c = load<Lanes>(&numbers[8]);
+  const auto a = load<Lanes>(&numbers[0]), b = load<Lanes>(&numbers[4]), c = load<Lanes>(&numbers[8]);
   const Lanes sum = multiply_add(a, b, c), less = minimum(a, b), more = maximum(a, b);
   for (std::size_t l = 0; l < 4; ++l) {
     const double x = load<double>(&numbers[l]), y = numbers[4 + l], z = numbers[8 + l];
