@@ -15,6 +15,7 @@
 namespace whipple::solids {
 namespace {
 
+constexpr std::int64_t farthest_neighbour = 2;  // spacings
 constexpr double margin = 2.5;  // spacings around the box, so that its cells have all neighbours
 
 void require_few(const Vector3& edges, double spacing) {
@@ -53,16 +54,15 @@ Cells::Cells(std::vector<Vector3> seeds, double spacing)
 }
 
 template <class F>
-void Cells::for_each_near(const Vector3& point, F&& f) const {
-  constexpr std::int64_t reach = 2;  // bins: seeds farther than two spacings are no neighbours of the cell
+void Cells::for_each_near(const Vector3& point, std::int64_t spacings, F&& f) const {
   const std::array<std::int64_t, 3> bin = raster_.bin_of(point);
   // The bins along z lie next to each other.
-  const std::int64_t from = std::max<std::int64_t>(0, bin[2] - reach),
-                     to = std::min(raster_.count[2] - 1, bin[2] + reach);
-  for (std::int64_t i = std::max<std::int64_t>(0, bin[0] - reach);
-       i <= std::min(raster_.count[0] - 1, bin[0] + reach); ++i) {
-    for (std::int64_t j = std::max<std::int64_t>(0, bin[1] - reach);
-         j <= std::min(raster_.count[1] - 1, bin[1] + reach); ++j) {
+  const std::int64_t from = std::max<std::int64_t>(0, bin[2] - spacings),
+                     to = std::min(raster_.count[2] - 1, bin[2] + spacings);
+  for (std::int64_t i = std::max<std::int64_t>(0, bin[0] - spacings);
+       i <= std::min(raster_.count[0] - 1, bin[0] + spacings); ++i) {
+    for (std::int64_t j = std::max<std::int64_t>(0, bin[1] - spacings);
+         j <= std::min(raster_.count[1] - 1, bin[1] + spacings); ++j) {
       for (std::size_t s = begins_[raster_.index({i, j, from})]; s < begins_[raster_.index({i, j, to}) + 1];
            ++s) {
         f(s);
@@ -75,21 +75,23 @@ void Cells::for_each_near(const Vector3& point, F&& f) const {
 // cell, and |x - o| is at most the distance of the nearest seed of another point plus that of the two points.
 std::size_t Cells::near(const Vector3& point, double radius, double reach) const {
   double least = std::numeric_limits<double>::infinity();
-  for_each_near(point, [&](std::size_t s) { least = std::min(least, (seeds_[s] - point).squaredNorm()); });
+  for_each_near(point, farthest_neighbour,
+                [&](std::size_t s) { least = std::min(least, (seeds_[s] - point).squaredNorm()); });
   const double farthest = std::sqrt(least) + 2.0 * (radius + reach);
-  if (farthest > 2.0 * raster_.edge) return seeds_.size();  // more than what is visited
+  if (farthest > static_cast<double>(farthest_neighbour) * raster_.edge)
+    return seeds_.size();  // more than what is visited
   std::size_t count = 0;
-  for_each_near(point, [&](std::size_t s) {
+  for_each_near(point, farthest_neighbour, [&](std::size_t s) {
     count += (seeds_[s] - point).squaredNorm() <= farthest * farthest ? 1 : 0;
   });
   return count;
 }
 
-Cells::Distances Cells::distances(const Vector3& point) const {
+Cells::Distances Cells::distances_by(const Vector3& point, std::int64_t spacings, double& matters) const {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   double least = infinity;
   std::size_t own = 0;
-  for_each_near(point, [&](std::size_t s) {
+  for_each_near(point, spacings, [&](std::size_t s) {
     const double square = (seeds_[s] - point).squaredNorm();
     if (square < least) {
       least = square;
@@ -97,7 +99,7 @@ Cells::Distances Cells::distances(const Vector3& point) const {
     }
   });
   Distances distances{infinity, infinity};
-  for_each_near(point, [&](std::size_t s) {
+  for_each_near(point, spacings, [&](std::size_t s) {
     if (s == own) return;
     const double square = (seeds_[s] - point).squaredNorm();
     // A face is no nearer than half of the difference of the two distances.
@@ -109,7 +111,14 @@ Cells::Distances Cells::distances(const Vector3& point) const {
       distances.second = face;
     }
   });
+  matters = std::sqrt(least) + 2.0 * distances.second;
   return distances;
+}
+
+Cells::Distances Cells::distances(const Vector3& point) const {
+  double matters = 0.0;
+  const Distances distances = distances_by(point, 1, matters);
+  return matters <= raster_.edge ? distances : distances_by(point, farthest_neighbour, matters);
 }
 
 std::vector<Vector3> kelvin_seeds(const Vector3& lower, const Vector3& upper, double spacing) {

@@ -28,9 +28,11 @@ class Cells {
   [[nodiscard]] std::size_t size() const { return seeds_.size(); }
 
  private:
-  /// Calls f(seed) for the seeds within two spacings of a point, and some more.
+  /// Calls f(seed) for the seeds within so many spacings of a point, and some more.
   template <class F>
-  void for_each_near(const Vector3& point, F&& f) const;
+  void for_each_near(const Vector3& point, std::int64_t spacings, F&& f) const;
+  /// Computes the distances from those seeds alone, and that beyond which a seed cannot change them.
+  [[nodiscard]] Distances distances_by(const Vector3& point, std::int64_t spacings, double& matters) const;
 
   std::vector<Vector3> seeds_;  // sorted by bin
   std::vector<std::size_t> begins_;
