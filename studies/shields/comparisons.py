@@ -26,8 +26,8 @@ load spread over the wall; rim: distance in which the rim stops it over the thic
 
 PANELS = """All normal shots on half an inch of aluminium foam between equal sheets in the open data, chosen before any was computed
 (`python3 -m studies.shields.foam_panels`). Struts: a quarter of random cells, mirrored, three seeds; layer: a section through a porous
-material of the same density; none: the sheets alone, which must fail where the panel does. Verdict: of the majority; left: least fraction of the wall's
-thickness that connected material keeps, by seed."""
+material of the same density; none: the sheets alone. Verdict: of the majority; left: least fraction of the wall's thickness that
+connected material keeps, by seed."""
 
 
 def defeated(outcome):
@@ -183,15 +183,16 @@ def panel_section(rows):
     lines, counts = [], []
     for kind in dict.fromkeys((row["foam"], row["cell size [mm]"]) for row in rows):
         members = sorted((row for row in rows if (row["foam"], row["cell size [mm]"]) == kind), key=lambda row: (row["shot"], row["seed"] or ""))
-        right = 0
+        failed = right = 0
         shots = list(dict.fromkeys(row["shot"] for row in members))
         for shot in shots:
             of_shot = [row for row in members if row["shot"] == shot]
             verdict = majority([row["outcome"] for row in of_shot])
             measured = of_shot[0]["measured"]
+            failed += verdict is True
             right += verdict is not None and verdict == (measured == "P")
             lines.append([shot, measured, *kind, ", ".join(row["outcome"] for row in of_shot), {None: "-", True: "P", False: "NP"}[verdict],
                           ", ".join(row["left"] or "-" for row in of_shot), f"{statistics.median(float(row['seconds']) for row in of_shot):.0f}"])
-        counts.append([*kind, len(shots), right])
-    return ["## Panels of foam", "", *PANELS.splitlines(), "", *table(["foam", "cells, mm", "shots", "right"], counts),
+        counts.append([*kind, len(shots), failed, "-" if kind[0] == "none" else right])
+    return ["## Panels of foam", "", *PANELS.splitlines(), "", *table(["foam", "cells, mm", "shots", "failed", "right"], counts),
             *table(["shot", "measured", "foam", "cells, mm", "outcome", "verdict", "left", "s"], sorted(lines, key=lambda line: line[0]))]

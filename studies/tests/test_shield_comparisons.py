@@ -60,8 +60,8 @@ class Panels(unittest.TestCase):
         rows = [row("a", "P", "struts", str(seed), outcome) for seed, outcome in ((1, "perforated"), (2, "bulge"), (3, "perforated"))]
         rows += [row("b", "NP", "struts", "1", "perforated"), row("a", "P", "layer", "", "bulge")]
         lines = comparisons.panel_section(rows)
-        self.assertIn("| struts | 0.16 | 2 | 1 |", lines)
-        self.assertIn("| layer | 0.16 | 1 | 0 |", lines)
+        self.assertIn("| struts | 0.16 | 2 | 2 | 1 |", lines)
+        self.assertIn("| layer | 0.16 | 1 | 0 | 0 |", lines)
         self.assertEqual(comparisons.panel_section([]), [])
 
     def test_every_shot_and_seed_has_its_own_case(self):
