@@ -32,8 +32,7 @@ def table_of(foam, work):
     """File of the shots; without the columns of foam where there is none."""
     if foam != "none":
         return SHOTS
-    lines = [line for line in SHOTS.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
-    rows = list(csv.DictReader(lines))
+    rows = page.read_csv(SHOTS)
     bare = work / "without_foam.csv"
     work.mkdir(parents=True, exist_ok=True)
     with open(bare, "w", newline="", encoding="utf-8") as out:
