@@ -31,6 +31,21 @@ class Waves(unittest.TestCase):
         self.assertAlmostEqual(found[0][2], 1e-6, delta=2e-9)
         self.assertAlmostEqual(largest, 630.0)
 
+    def test_pressure_of_a_second_wave_both_ways(self):
+        # 1000 kg/m^3; first wave 5 km/s with 200 m/s: 1 GPa, 1041.67 kg/m^3; then to 500 m/s at 4 km/s in space: 1 + 1.1875 GPa.
+        first = (1e9, 200.0, 0.0)
+        self.assertAlmostEqual(study.as_second_wave(first, 1000.0, 500.0, 4000.0), 2.1875e9, delta=1.0)
+        # Seen by a gauge that moves: the second wave runs (4000 - 200)/0.96 m/s in the coordinates of the material at rest.
+        arrivals = study.RECORD_DEPTH / 5000.0, study.RECORD_DEPTH / (3800.0 / 0.96)
+        waves = (0.0, 200.0, arrivals[0]), (0.0, 0.0, arrivals[1])
+        self.assertAlmostEqual(study.by_arrivals(*waves, 1000.0, 500.0), 2.1875e9, delta=1.0)
+
+    def test_the_record_is_read(self):
+        rows = study.records()
+        self.assertEqual(len(rows), 18)
+        for velocity, shock, pressure in rows:  # rho0 Us up with the density of the data base
+            self.assertAlmostEqual(pressure / (7857.3 * velocity * shock), 1.0, delta=1e-3)
+
 
 if __name__ == "__main__":
     unittest.main()
