@@ -58,13 +58,13 @@ def residuals(report):
 
 def coverage(report):
     """Returns kind, number of data and of curves, fractions within 68 and 95 %, half-width and rms in percent of data predicted without
-    their curve."""
-    return rows_below(report, "each curve predicted without itself", 2, 4)
+    their curve, and the factor of their errors."""
+    return rows_below(report, "each curve predicted without itself", 2, 5)
 
 
-COVERAGE = ["data", "number", "curves", "within 68 %", "within 95 %", "half-width %", "rms %"]
+COVERAGE = ["data", "number", "curves", "within 68 %", "within 95 %", "half-width %", "rms %", "widened"]
 COVERAGE_IS = ("Coverage: each curve predicted by all others (fit.md, section 10); median half-width of the 95 % band of the prediction and rms "
-               "deviation in percent of the same scales:\n\n")
+               "deviation in percent of the same scales; factor of the errors of such predictions:\n\n")
 
 
 def outcomes(audit):

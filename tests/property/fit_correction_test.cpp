@@ -14,6 +14,8 @@
 #include "eos/model_equation_of_state.hpp"
 #include "eos/models/three_phase_model.hpp"
 #include "md_fitting/fit/correction/correction_fit.hpp"
+#include "md_fitting/fit/correction/correction_prior.hpp"
+#include "md_fitting/fit/correction/stability.hpp"
 #include "md_fitting/fit/vapour_fit.hpp"
 #include "src/core/base/error.hpp"
 #include "tests/property/fit_measured.hpp"
@@ -162,6 +164,40 @@ TEST(FitCorrection, LimitsOfStabilityHoldInTheFitAndItsSamples) {
   }
   EXPECT_THAT([&] { fit_correction({points, constants, constants}, 0, 1); },
               ThrowsMessage<StateError>(HasSubstr("below half of those of GRAY at V/V0 = ")));
+}
+
+// A melt whose entropy is that of the crystal has no melting temperature: the limits say so, and GRAY alone violates none.
+TEST(FitCorrection, LimitsKeepOneMeltingTemperature) {
+  const eos::GrayFreeEnergy gray(true_constants());
+  const CorrectionGrids grids = correction_grids({}, gray);
+  const std::vector<StabilityLimit> limits = stability_limits(gray, grids);
+  Eigen::VectorXd c = Eigen::VectorXd::Zero(grids.size());
+  EXPECT_TRUE(worst_violations(limits, c, 1).empty());
+  const double entropy = gray.constants().melting_entropy / gray.constants().molar_mass;
+  for (std::size_t i = 0; i < grids.fluid.volumes; ++i) {
+    for (std::size_t k = 0; k < grids.fluid.temperatures; ++k) {
+      const double u = std::min(grids.fluid.temperature_centre(k), 0.9);
+      c[static_cast<Eigen::Index>(grids.common.size() + i * grids.fluid.temperatures + k)] =
+          entropy * grids.fluid.temperature * u / (1.0 - u);  // F = dS T
+    }
+  }
+  const std::vector<std::size_t> violated = worst_violations(limits, c, 1);
+  ASSERT_FALSE(violated.empty());
+  EXPECT_LT(limits[violated.front()].volume, 1.1 * gray.constants().reference_specific_volume);
+}
+
+// The thermal parts of the fluid must not fall to zero where it has data: T* = 2/3 of the hottest, 3 T_m0 at least.
+TEST(FitCorrection, TheFluidReachesItsHottestState) {
+  const eos::GrayFreeEnergy gray(true_constants());
+  const double T = gray.constants().melting_temperature, V = gray.constants().reference_specific_volume;
+  CorrectionData data;
+  data.data.push_back(
+      {.kind = "fluid, pressure", .terms = {{PhaseSurface::fluid, V, 2.0 * T, {.F_V = -1.0}}}});
+  EXPECT_EQ(correction_grids(data, gray).fluid.temperature, 3.0 * T);
+  data.data.front().terms.front().temperature = 9.0 * T;
+  EXPECT_NEAR(correction_grids(data, gray).fluid.temperature, 6.0 * T, 1e-9 * T);
+  data.data.front().terms.front().surface = PhaseSurface::solid;
+  EXPECT_EQ(correction_grids(data, gray).fluid.temperature, 3.0 * T);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Curves that are left out and predicted: beside a solution without them, and the coverage of draws.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -86,6 +87,44 @@ TEST(LeftOutCurves, CoverWhatTheyStateForDrawsOfTheirOwn) {
   }
   EXPECT_NEAR(inside_68, 0.68, 0.01);
   EXPECT_NEAR(inside_95, 0.95, 0.005);
+}
+
+/// Draws of curves that deviate by more than their stated covariance says.
+TEST(LeftOutCurves, AreWidenedToWhatTheOthersDeviate) {
+  constexpr Index curves = 12, states = 2, count = curves * states;
+  constexpr double too_small = 9.0;
+  MatrixXd signal(count, count), errors = MatrixXd::Zero(count, count);
+  std::vector<LeftOutDatum> data;
+  for (Index i = 0; i < count; ++i) {
+    for (Index j = 0; j < count; ++j) {
+      const double apart = 0.7 * static_cast<double>(i / states - j / states);
+      const double same = i % states == j % states ? 1.0 : 0.5;
+      signal(i, j) = same * std::exp(-0.5 * std::abs(apart));
+    }
+    errors(i, i) = 0.001;
+    data.push_back({.kind = "fluid, pressure", .curve = fmt::format("{:02}", i / states), .group = "fluid"});
+  }
+  const MatrixXd root = MatrixXd(signal + errors).llt().matrixL();
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  double widened = 0.0, inside = 0.0, inside_as_stated = 0.0;
+  constexpr int draws = 400;
+  for (int k = 0; k < draws; ++k) {
+    VectorXd x(count);
+    for (Index i = 0; i < count; ++i) x[i] = normal(random);
+    const MatrixXd stated = signal / too_small + errors;
+    const LeftOutCurves found = left_out_curves(data, root * x, stated, errors).front();
+    widened += found.widened / draws;
+    inside += found.inside_95 / draws;
+    for (LeftOutDatum& datum : data) datum.group.clear();
+    const LeftOutCurves alone = left_out_curves(data, root * x, stated, errors).front();
+    EXPECT_EQ(alone.widened, 1.0);
+    inside_as_stated += alone.inside_95 / draws;
+    for (LeftOutDatum& datum : data) datum.group = "fluid";
+  }
+  EXPECT_NEAR(widened, 3.0, 0.15);
+  EXPECT_NEAR(inside, 0.93, 0.02);  // the factor of 22 deviations scatters
+  EXPECT_LT(inside_as_stated, 0.55);
 }
 
 }  // namespace

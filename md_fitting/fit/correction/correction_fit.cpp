@@ -69,13 +69,20 @@ class Problem {
     return stable(rows, VectorXd::Zero(prior_.rows()));
   }
   /// Returns coefficients drawn from the posterior distribution: a draw from before the data, moved by what the data
-  /// say of it (Matheron's rule).
-  VectorXd draw(std::mt19937_64& random) const {
+  /// say of it (Matheron's rule), its distance from the most probable ones widened as the predictions of left-out curves:
+  /// the part of the fluid as that of its isochores, the common part as those of the crystal.
+  VectorXd draw(std::mt19937_64& random, const VectorXd& best,
+                std::span<const LeftOutCurves> left_out) const {
     const VectorXd before = prior_root_ * normal(prior_root_.cols(), random);
     const VectorXd noise = noise_.lower() * normal(rows_.values.size(), random);
     Rows rows = rows_;
     rows.values += noise;
-    return stable(rows, before);
+    VectorXd c = stable(rows, before);
+    const auto common = static_cast<Index>(grids_.common.size());
+    c.head(common) = best.head(common) + widened(left_out, "isochore") * (c - best).head(common);
+    c.tail(c.size() - common) =
+        best.tail(c.size() - common) + widened(left_out, "fluid") * (c - best).tail(c.size() - common);
+    return c;
   }
   [[nodiscard]] eos::CorrectedGrayConstants constants(const VectorXd& c) const {
     return {constants_, part(grids_.common, c.head(static_cast<Index>(grids_.common.size()))),
@@ -256,6 +263,15 @@ class Problem {
     return before + gain * VectorXd(sigma.solve(rows.values - rows.matrix * before));
   }
 
+  static double widened(std::span<const LeftOutCurves> left_out, std::string_view group) {
+    for (const LeftOutCurves& kind : left_out) {
+      if (group_of(kind.kind) == group) return kind.widened;
+    }
+    return 1.0;
+  }
+  /// Pressures and energies of one sort of curve are widened together: "fluid, pressure" belongs to "fluid".
+  static std::string group_of(const std::string& kind) { return kind.substr(0, kind.find(',')); }
+
   /// Returns how the data of each curve are predicted by all others: states of one isotherm, isochore, Hugoniot, film or
   /// table, pressures and energies together.
   [[nodiscard]] std::vector<LeftOutCurves> left_out(const Rows& rows) const {
@@ -264,7 +280,11 @@ class Problem {
       const CorrectionDatum& datum = data_.data[i];
       // The line of GRAY is kept, not known.
       const bool is_known = datum.row != CorrectionRowKind::kept;
-      data.push_back({.kind = datum.kind, .curve = datum.curve, .scale = datum.scale, .is_known = is_known});
+      data.push_back({.kind = datum.kind,
+                      .curve = datum.curve,
+                      .group = group_of(datum.kind),
+                      .scale = datum.scale,
+                      .is_known = is_known});
     }
     return left_out_curves(data, rows.values,
                            rows.matrix * prior_ * rows.matrix.transpose() + rows.covariance, rows.covariance);
@@ -332,7 +352,7 @@ CorrectionResult fit_with(const CorrectionSource& source, int samples, std::uint
   int refused = 0;
   while (static_cast<int>(result.samples.size()) < samples) {
     try {
-      eos::CorrectedGrayConstants sample = problem.constants(problem.draw(random));
+      eos::CorrectedGrayConstants sample = problem.constants(problem.draw(random, best, result.left_out));
       require_material(sample);
       result.samples.push_back(std::move(sample));
     } catch (const std::runtime_error& error) {  // InputError or StateError
@@ -371,13 +391,13 @@ std::string correction_text(const CorrectionResult& result) {
       "in percent of rho0 C^2 (pressures of condensed states), 3RT (energies), RT/V and RT (films), of the "
       "heat "
       "of fusion, and of the melting temperature\n";
-  text +=
-      fmt::format("\n{:<38} {:>5} {:>7} {:>9} {:>9} {:>12} {:>8}\n", "each curve predicted without itself",
-                  "", "curves", "in 68 %", "in 95 %", "half-width %", "rms %");
+  text += fmt::format("\n{:<38} {:>5} {:>7} {:>9} {:>9} {:>12} {:>8} {:>8}\n",
+                      "each curve predicted without itself", "", "curves", "in 68 %", "in 95 %",
+                      "half-width %", "rms %", "widened");
   for (const LeftOutCurves& kind : result.left_out) {
-    text +=
-        fmt::format("{:<38} {:>5} {:>7} {:>9.2f} {:>9.2f} {:>12.3f} {:>8.3f}\n", kind.kind, kind.data,
-                    kind.curves, kind.inside_68, kind.inside_95, 100.0 * kind.half_width, 100.0 * kind.rms);
+    text += fmt::format("{:<38} {:>5} {:>7} {:>9.2f} {:>9.2f} {:>12.3f} {:>8.3f} {:>8.2f}\n", kind.kind,
+                        kind.data, kind.curves, kind.inside_68, kind.inside_95, 100.0 * kind.half_width,
+                        100.0 * kind.rms, kind.widened);
   }
   text += "sizes in units of those expected:";
   for (const CorrectionSize& size : result.sizes) text += fmt::format(" {} {:.2f};", size.name, size.factor);

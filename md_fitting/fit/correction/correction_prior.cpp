@@ -16,7 +16,7 @@ using eos::FreeEnergyGrid;
 // Steps of ln V and numbers of functions of the temperature.
 constexpr double common_step = 0.06, fluid_step = 0.12;
 constexpr std::size_t temperatures = 10;
-constexpr double fluid_temperature = 3.0;  ///< T* of the fluid over that of the common part, T_m0
+constexpr double fluid_temperature = 3.0;  ///< T* of the fluid over that of the common part, T_m0, at least
 /// The grids begin at this fraction of the densest volume, and end at this multiple of the most dilute one.
 constexpr double below = 0.75, beyond = 3.0;
 constexpr double least_fluid_end = 4.0;  ///< V/V0 without dilute data
@@ -101,16 +101,19 @@ MatrixXd covariance(const FreeEnergyGrid& grid, const Part& part) {
 
 CorrectionGrids correction_grids(const CorrectionData& data, const eos::GrayFreeEnergy& gray) {
   const double V0 = gray.constants().reference_specific_volume, T = gray.constants().melting_temperature;
-  double least = V0, greatest = least_fluid_end * V0;
+  double least = V0, greatest = least_fluid_end * V0, hottest = 0.0;
   for (const CorrectionDatum& datum : data.data) {
     for (const SurfaceTerm& term : datum.terms) {
       least = std::min(least, term.volume);
       greatest = std::max(greatest, beyond * term.volume);
+      if (term.surface == PhaseSurface::fluid) hottest = std::max(hottest, term.temperature);
     }
   }
   least *= below;
+  // The thermal parts of the fluid do not end before its hottest datum.
+  const double to_hottest = hottest * (1.0 - thermal_from) / thermal_from;
   return {grid(least, common_end * V0, T, common_step),
-          grid(least, greatest, fluid_temperature * T, fluid_step)};
+          grid(least, greatest, std::max(fluid_temperature * T, to_hottest), fluid_step)};
 }
 
 std::vector<CorrectionPart> correction_parts(const CorrectionGrids& grids, double energy,

@@ -17,6 +17,41 @@ using Eigen::VectorXd;
 
 constexpr double of_68 = 0.99446, of_95 = 1.95996;  ///< standard deviations
 
+constexpr std::size_t least_others = 4;  ///< curves that a factor is taken from
+constexpr double greatest_factor = 30.0;
+
+/// Holds the prediction of a datum from all other curves.
+struct Prediction {
+  std::size_t datum = 0;
+  double deviation = 0.0, variance = 0.0, error = 0.0;  ///< variances: of the prediction alone, of the datum
+
+  [[nodiscard]] double whole(double factor) const { return factor * factor * variance + error; }
+};
+using Curve = std::vector<Prediction>;
+
+/// Returns the factor of the standard deviations of predictions at which the mean of (deviation/error)^2 is 1, at least 1.
+/// @param without  a curve that is not counted
+double factor_of(std::span<const Curve* const> curves, const Curve* without = nullptr) {
+  const auto excess = [&](double factor) {
+    double sum = 0.0, count = 0.0;
+    for (const Curve* curve : curves) {
+      if (curve == without) continue;
+      for (const Prediction& p : *curve) {
+        sum += p.deviation * p.deviation / p.whole(factor);
+        count += 1.0;
+      }
+    }
+    return sum - count;
+  };
+  if (curves.size() <= least_others || excess(1.0) <= 0.0) return 1.0;
+  double low = 0.0, high = std::log(greatest_factor);
+  for (int i = 0; i < 40; ++i) {
+    const double middle = 0.5 * (low + high);
+    (excess(std::exp(middle)) > 0.0 ? low : high) = middle;
+  }
+  return std::exp(high);
+}
+
 /// Collects the deviations of one kind.
 struct Sums {
   LeftOutCurves of_kind{};
@@ -24,15 +59,15 @@ struct Sums {
   std::vector<double> half_widths{};
   std::string last_curve{};
 
-  void add(const LeftOutDatum& datum, double deviation, double variance, double error) {
+  void add(const LeftOutDatum& datum, const Prediction& p, double factor) {
     ++of_kind.data;
     if (last_curve != datum.curve) ++of_kind.curves;
     last_curve = datum.curve;
-    const double whole = std::sqrt(variance);
-    of_kind.inside_68 += std::abs(deviation) <= of_68 * whole ? 1.0 : 0.0;
-    of_kind.inside_95 += std::abs(deviation) <= of_95 * whole ? 1.0 : 0.0;
-    squares += std::pow(deviation / datum.scale, 2);
-    half_widths.push_back(of_95 * std::sqrt(std::max(variance - error, 0.0)) / std::abs(datum.scale));
+    const double whole = std::sqrt(p.whole(factor));
+    of_kind.inside_68 += std::abs(p.deviation) <= of_68 * whole ? 1.0 : 0.0;
+    of_kind.inside_95 += std::abs(p.deviation) <= of_95 * whole ? 1.0 : 0.0;
+    squares += std::pow(p.deviation / datum.scale, 2);
+    half_widths.push_back(of_95 * factor * std::sqrt(p.variance) / std::abs(datum.scale));
   }
   [[nodiscard]] LeftOutCurves result() {
     of_kind.inside_68 /= of_kind.data;
@@ -63,13 +98,30 @@ std::vector<LeftOutCurves> left_out_curves(std::span<const LeftOutDatum> data, c
     if (datum.is_known && place.emplace(datum.kind, kinds.size()).second)
       kinds.emplace_back().of_kind.kind = datum.kind;
   }
+  std::vector<Curve> predicted;
+  predicted.reserve(curves.size());
+  std::map<std::string, std::vector<const Curve*>> groups;
   for (const auto& [name, rows] : curves) {
     const MatrixXd of_curve = inverse_of_symmetric(Q(rows, rows));
     const VectorXd deviations = of_curve * VectorXd(weighted(rows));
+    Curve& curve = predicted.emplace_back();
     for (std::size_t k = 0; k < rows.size(); ++k) {
       const auto i = static_cast<Index>(k);
-      const LeftOutDatum& datum = data[static_cast<std::size_t>(rows[k])];
-      kinds[place.at(datum.kind)].add(datum, deviations[i], of_curve(i, i), errors(rows[k], rows[k]));
+      const double error = errors(rows[k], rows[k]);
+      curve.push_back(
+          {static_cast<std::size_t>(rows[k]), deviations[i], std::max(of_curve(i, i) - error, 0.0), error});
+    }
+    groups[data[curve.front().datum].group].push_back(&curve);
+  }
+  for (const auto& [group, members] : groups) {
+    const double of_all = group.empty() ? 1.0 : factor_of(members);
+    for (const Curve* curve : members) {
+      const double factor = group.empty() ? 1.0 : factor_of(members, curve);
+      for (const Prediction& prediction : *curve) {
+        Sums& kind = kinds[place.at(data[prediction.datum].kind)];
+        kind.of_kind.widened = of_all;
+        kind.add(data[prediction.datum], prediction, factor);
+      }
     }
   }
   std::vector<LeftOutCurves> results;

@@ -15,12 +15,14 @@ struct LeftOutCurves {
   int data = 0, curves = 0;
   double inside_68 = 0.0, inside_95 = 0.0;  ///< fraction within both errors, of prediction and datum
   double half_width = 0.0;  ///< median half-width of the 95 % band of the prediction, over the scale
+  double widened = 1.0;     ///< factor of the standard deviations of predictions, of all curves of the group
   double rms = 0.0;         ///< of datum less prediction, over the scale
 };
 
 /// Names what a datum belongs to.
 struct LeftOutDatum {
   std::string kind, curve;
+  std::string group{};   ///< of kinds whose predictions are widened by one factor; empty: not widened
   double scale = 1.0;    ///< of the kind, in the unit of the datum
   bool is_known = true;  ///< otherwise it stays and is not predicted
 };
@@ -28,6 +30,11 @@ struct LeftOutDatum {
 /// Predicts the data curve by curve from all others, exactly for a linear problem: with the inverse Q of the covariance of
 /// all residuals r the data of a curve deviate by Q_cc^-1 (Q r)_c, with covariance Q_cc^-1 (Dubrule, Math. Geol. 15 (1983)
 /// 687). Sizes and limits of the problem stay those of all data.
+///
+/// Predictions of a group are widened by the factor s >= 1 at which the mean of (deviation/error)^2 is 1, error^2 = s^2
+/// variance of the prediction + that of the datum (Bachoc, Comput. Stat. Data Anal. 66 (2013) 55: where a covariance is not
+/// that of the data, prediction errors that are seen set its size better than the likelihood). The s of a curve is that of
+/// the other curves of its group, of which at least four are needed.
 /// @param data        the first rows; those beyond them are kept (limits of stability)
 /// @param covariance  of all residuals: of the corrections before the data, and of the errors
 /// @param errors      of the data alone

@@ -14,6 +14,9 @@ using eos::GrayPoint;
 constexpr double least_heat_capacity = 0.5, least_modulus = 0.4;
 /// Least bulk modulus of the supercritical fluid in units of R T/V, from this multiple of GRAY's critical temperature on.
 constexpr double least_gas_modulus = 0.05, supercritical = 1.2;
+/// Least entropy of melting, and least distance of the free energies at half and at twice the melting temperature, at equal
+/// volumes in units of those of GRAY: one melting temperature at every volume.
+constexpr double least_melting = 0.2;
 /// States of which GRAY's bulk modulus is below this fraction of rho0 C^2 are near a spinodal.
 constexpr double near_spinodal = 0.1;
 
@@ -32,6 +35,16 @@ class Limits {
     if (condensed && modulus > near_spinodal * modulus_)
       push(surface, V, T, {.F_VV = V / modulus}, least_modulus - 1.0);
   }
+  /// Adds that crystal and melt of one volume have one melting temperature, between half and twice that of GRAY.
+  void add_melting(double V, double melting) {
+    for (const double share : {0.5, 0.7, 1.0, 1.4, 2.0}) {
+      const double T = share * melting;
+      const GrayPoint s = gray_.solid(V, T), l = gray_.liquid(V, T);
+      const double entropy = l.entropy - s.entropy, energy = (l.energy - s.energy) - T * entropy;
+      push_melting(V, T, {.F_T = -1.0 / entropy});
+      if (share == 0.5 || share == 2.0) push_melting(V, T, {.F = 1.0 / energy});
+    }
+  }
   /// Adds that an isotherm of the supercritical fluid falls.
   void add_supercritical(double V, double T) {
     const double gas = gray_.specific_gas_constant() * T / V;
@@ -41,6 +54,13 @@ class Limits {
   std::vector<StabilityLimit> result() && { return std::move(limits_); }
 
  private:
+  void push_melting(double V, double T, const eos::FreeEnergyTerms& of_melt) {
+    const eos::FreeEnergyTerms of_solid{.F = -of_melt.F, .F_T = -of_melt.F_T};
+    limits_.push_back({V, T,
+                       coefficient_row(grids_, {{PhaseSurface::fluid, V, T, of_melt},
+                                                {PhaseSurface::solid, V, T, of_solid}}),
+                       least_melting - 1.0});
+  }
   void push(PhaseSurface surface, double V, double T, const eos::FreeEnergyTerms& weights, double least) {
     limits_.push_back({V, T, coefficient_row(grids_, {{surface, V, T, weights}}), least});
   }
@@ -65,6 +85,7 @@ std::vector<StabilityLimit> stability_limits(const eos::GrayFreeEnergy& gray, co
       limits.add(PhaseSurface::solid, V, share * melting);
     for (const double share : {0.8, 1.0, 1.3, 1.7, 2.5, 4.0, 6.0, 9.0})
       limits.add(PhaseSurface::fluid, V, share * melting);
+    if (V < 1.1 * gray.constants().reference_specific_volume) limits.add_melting(V, melting);
   }
   const double melting = gray.melting_temperature(join);
   for (int i = 1; i <= thin_volumes; ++i) {
