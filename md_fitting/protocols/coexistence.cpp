@@ -58,9 +58,7 @@ class TwoPhaseCell {
     lammps.command("fix whole all {}", npt(guess, "iso"));
     lammps.command("run 1500");
     lammps.command("unfix whole");
-    const double a = std::cbrt(crystal_.lammps().variable("volume") * potential.atoms_per_cell());
-    lammps.command("compute order all orientorder/atom degrees 1 6 nnn 12 cutoff {:.17g}", 0.85 * a);
-    lammps.command("variable is_crystal atom c_order[1]>{}", crystal_order);
+    define_crystal_order(lammps, potential);
     lammps.command("compute share all reduce ave v_is_crystal");
     lammps.command("variable share equal c_share");
     // The upper half, stretched to the volume of a melt (a compressed one refreezes as it cools), melts at constant
@@ -283,8 +281,8 @@ std::string refusal(const CoexistenceRun& run) {
 ReplicaSet<CoexistencePoint> measure_coexistence(const Potential& potential, double pressure,
                                                  double first_guess, const CoexistencePlan& section,
                                                  std::int64_t seed) {
-  if (potential.structure() != CrystalStructure::fcc) {
-    throw InputError(fmt::format("coexistence is measured for fcc crystals, {} of {} is {}",
+  if (potential.structure() == CrystalStructure::hcp) {
+    throw InputError(fmt::format("coexistence is measured for fcc and bcc crystals, {} of {} is {}",
                                  potential.element(), potential.name(), word_of(potential.structure())));
   }
   // Near zero pressure the time step of the cold crystal is sufficient; under strong compression the melt is hot as

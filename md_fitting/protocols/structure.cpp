@@ -10,14 +10,18 @@
 
 namespace whipple::md {
 
-double crystal_share(Crystal& crystal, const Potential& potential) {
-  Lammps& lammps = crystal.lammps();
+void define_crystal_order(Lammps& lammps, const Potential& potential) {
   const double a = std::cbrt(lammps.variable("volume") * potential.atoms_per_cell());
   // Between the first and second shell of fcc (0.71 and 1 a), the second and third of bcc (1 and 1.41 a).
   const bool fcc = potential.structure() == CrystalStructure::fcc;
   lammps.command("compute order all orientorder/atom degrees 1 6 nnn {} cutoff {:.17g}", fcc ? 12 : 14,
                  (fcc ? 0.85 : 1.2) * a);
   lammps.command("variable is_crystal atom c_order[1]>{}", crystal_order);
+}
+
+double crystal_share(Crystal& crystal, const Potential& potential) {
+  Lammps& lammps = crystal.lammps();
+  define_crystal_order(lammps, potential);
   lammps.command("compute share all reduce ave v_is_crystal");
   lammps.command("variable share equal c_share");
   lammps.command("thermo_style custom step pe vol c_virial c_displacement[4] c_share");

@@ -12,6 +12,9 @@ namespace whipple::md {
 /// neighbours (12 in fcc, 14 in bcc) above which an atom counts as crystalline: hot fcc has 0.5, its melt 0.35.
 inline constexpr double crystal_order = 0.45;
 
+/// Defines the compute `order` and the atom variable `is_crystal`, for the volume that the cell has now.
+void define_crystal_order(Lammps& lammps, const Potential& potential);
+
 /// Returns the fraction of crystalline atoms at the current positions, at the cost of one force evaluation. About
 /// 0.5 in a crystal near its melting point, below 0.1 in a melt.
 double crystal_share(Crystal& crystal, const Potential& potential);
