@@ -212,26 +212,6 @@ void replace_volume(GrayFit& fit, double density, Sources& sources) {
   fit.fitted_names.erase(fit.fitted_names.begin());
 }
 
-/// Bounds the anharmonic coefficient from below, such that the classical liquid keeps half of its heat capacity at the
-/// hottest state a model is checked at: a corrected fit takes GRAY without electrons as far, and follows by its corrections
-/// what the constant no longer does.
-/// @returns what was bounded, for a remark; empty: nothing
-std::string bound_anharmonicity(GrayConstants& simulated, GrayConstants& metal) {
-  constexpr double hottest = 30000.0, kept = 0.5;  // K
-  const double hot_liquid =
-      3.0 * GrayConstants::gas_constant - simulated.liquid_heat_coefficient * simulated.hot_liquid_ratio;
-  const double least = -(1.0 - kept) * hot_liquid /
-                       (hottest * std::pow(simulated.join_volume_ratio, simulated.electronic_gruneisen));
-  const double fitted = simulated.anharmonic_heat_coefficient;
-  if (fitted >= least) return {};
-  simulated.anharmonic_heat_coefficient = metal.anharmonic_heat_coefficient = least;
-  return fmt::format(
-      "g_anh of the corrected material is {:.3g} mJ/(mol K^2), not the fitted {:.3g}: the classical liquid "
-      "would "
-      "lose its heat capacity below {:.0f} K; the corrections follow the crystal instead",
-      1e3 * least, 1e3 * fitted, hottest);
-}
-
 GrayFit fit_with_join(std::span<const md::PointRecord> points, const FitSettings& settings,
                       const std::vector<MeasuredCurve>& curves, const std::string& store_name,
                       double join_step) {
@@ -267,11 +247,9 @@ GrayFit fit_with_join(std::span<const md::PointRecord> points, const FitSettings
                     store_name, 1e3 * fit.gray.electronic_heat_coefficient, error.what()));
   }
   if (settings.bootstrap > 0) fit.bootstrap = bootstrap_gray(points, solid, settings, store_name);
-  GrayConstants simulated = fit.gray;
+  const GrayConstants simulated = fit.gray;
   if (settings.density) replace_volume(fit, *settings.density, sources);
   if (settings.correction) {
-    if (std::string remark = bound_anharmonicity(simulated, fit.gray); !remark.empty())
-      fit.remarks.push_back(std::move(remark));
     std::vector<MeasuredCurve> measured;
     std::ranges::copy_if(curves, std::back_inserter(measured), &MeasuredCurve::fitted);
     fit.correction =

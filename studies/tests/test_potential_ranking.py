@@ -4,7 +4,7 @@ import math
 import tomllib
 import unittest
 
-from studies.potential_ranking import measured, potential_ranking, rule
+from studies.potential_ranking import measured, melting, potential_ranking, rule
 
 
 def candidate(name, points=0.01, fit=0.01, isotherm=0.02, density=0.01, melting=None, **others):
@@ -134,6 +134,17 @@ class Inputs(unittest.TestCase):
         self.assertEqual([line.split(" | ")[1] for line in lines], ["first", "second", "far", "none"])
         self.assertIn("out: V0 more than 3 % off", lines[2])
         self.assertEqual({line.count("|") for line in lines}, {13})
+
+    def test_melting_is_asked_of_the_first_of_eight_metals(self):
+        rows = list(melting.plans())
+        self.assertEqual([name for name, *_ in rows],
+                         ["aluminium", "nickel", "tantalum", "tungsten", "molybdenum", "silver", "gold", "platinum"])
+        self.assertAlmostEqual(dict((name, measured_at) for name, _, _, measured_at in rows)["aluminium"], 933.5, delta=0.5)
+
+    def test_a_row_of_melting(self):
+        self.assertEqual(melting.row("tungsten", "A", [(4776.0, 72.0), (0.2433e6, 0.0021e6)], 3687.0, "3.0"),
+                         ["tungsten", "A", "4776 +- 72", "3687", "+29.5 %", "0.243 +- 0.002", "3.0"])
+        self.assertEqual(melting.row("lead", "B", None, 600.6, "-"), ["lead", "B", "-", "601", "-", "-", "-"])
 
     def test_a_metal_without_a_qualified_potential_is_named(self):
         self.assertIn("| lead | none qualified |", potential_ranking.summary([("lead", [])]))
