@@ -3,6 +3,7 @@
 import unittest
 
 from studies.joint_fit import joint_fit as study
+from studies.joint_fit import published_lines
 
 
 class JointFit(unittest.TestCase):
@@ -27,6 +28,15 @@ class JointFit(unittest.TestCase):
         found = study.relative_rms(rows)
         self.assertEqual(list(found), ["a"])
         self.assertAlmostEqual(found["a"], 10.0)
+
+    def test_published_lines_and_their_range(self):
+        self.assertEqual(published_lines.bounds("Up 1-4.5"), (1.0, 4.5))
+        self.assertEqual(published_lines.bounds("approximate")[0], 0.0)
+        self.assertAlmostEqual(published_lines.rms([0.03, -0.04]), 100.0 * (0.00125) ** 0.5)
+        rows = {(metal, line.split(":")[0]): (int(points), float(rms.split()[0])) for metal, _, line, points, rms in published_lines.lines()}
+        points, deviation = rows["copper", "3.913 + 1.508 up"]
+        self.assertEqual(points, 143)
+        self.assertTrue(all(deviation <= other for (metal, _), (_, other) in rows.items() if metal == "copper"))
 
 
 if __name__ == "__main__":
