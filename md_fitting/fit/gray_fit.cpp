@@ -275,6 +275,8 @@ GrayFit fit_gray(std::span<const md::PointRecord> points, const FitSettings& set
                                           step > 0.0 ? "raised" : "lowered", std::abs(step), reason));
       }
       return fit;
+    } catch (const DrawsRefused&) {  // the most probable one is a material: another V_J is no remedy
+      throw;
     } catch (const std::runtime_error& error) {  // InputError or StateError
       if (first) continue;
       first = std::current_exception();

@@ -357,7 +357,7 @@ CorrectionResult fit_with(const CorrectionSource& source, int samples, std::uint
       result.samples.push_back(std::move(sample));
     } catch (const std::runtime_error& error) {  // InputError or StateError
       if (++refused > 4 * static_cast<int>(result.samples.size()) + 20)
-        throw InputError(
+        throw DrawsRefused(
             fmt::format("{} draws of the correction make no material; the last: {}", refused, error.what()));
     }
   }

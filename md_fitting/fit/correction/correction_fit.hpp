@@ -10,6 +10,7 @@
 #include "md_fitting/data_set/data_set.hpp"
 #include "md_fitting/fit/correction/left_out_curves.hpp"
 #include "md_fitting/fit/joint/measured_curves.hpp"
+#include "src/core/base/error.hpp"
 
 /// Fits smooth corrections of GRAY's free energies to the states of a store (docs/theory/fit.md, section 10).
 namespace whipple::fit {
@@ -55,11 +56,18 @@ struct CorrectionSource {
   std::span<const MeasuredCurve> measured{};
 };
 
+/// Says that the most probable correction makes a material and draws of it do not.
+class DrawsRefused : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 /// Fits the corrections and draws samples of them. Films from which no dome of melt and vapour follows are left out,
 /// with a remark.
 /// Electrons are taken out of what is compared with simulations.
 /// @param samples  number
-/// @throws InputError if the corrected phases make no material; StateError if no stable correction is found
+/// @throws InputError if the corrected phases make no material, DrawsRefused if their draws make none; StateError if no
+/// stable correction is found
 CorrectionResult fit_correction(const CorrectionSource& source, int samples, std::uint64_t seed);
 
 /// Formats the table of residuals and sizes.
