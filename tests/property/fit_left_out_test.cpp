@@ -97,7 +97,8 @@ TEST(LeftOutCurves, AreWidenedToWhatTheOthersDeviate) {
   std::vector<LeftOutDatum> data;
   for (Index i = 0; i < count; ++i) {
     for (Index j = 0; j < count; ++j) {
-      const double apart = 0.7 * static_cast<double>(i / states - j / states);
+      const Index curves_apart = i / states - j / states;
+      const double apart = 0.7 * static_cast<double>(curves_apart);
       const double same = i % states == j % states ? 1.0 : 0.5;
       signal(i, j) = same * std::exp(-0.5 * std::abs(apart));
     }
