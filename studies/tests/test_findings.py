@@ -55,7 +55,7 @@ NUMBERS = [
     ("water_filled_tube", "2.8_g", "radius of a particle", "55.7 +- 0.4 mm"),
     ("water_filled_tube", "5.5_g", "radius of a particle", "59.2 +- 0.8 mm"),
     ("blast_near_field", "tnt", "peak pressure at 0.5 m", "3.4 +- 0.6 MPa"),
-    ("rate_stick", "radius_16.7", "velocity of the front", "6192 +- 587 m/s"),
+    ("rate_stick", "radius_16.7", "velocity of the front", "6212 +- 576 m/s"),
     ("dry_columns", "a_0_4", "radius at the end", "142 +- 22 mm"),
     ("dry_columns", "a_1_0", "radius at the end", "246 +- 30 mm"),
     ("foam_block", "50_m_s", "what 1 %", "95.3 +- 0.6 mm"),
