@@ -12,6 +12,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 from studies.commands import call  # noqa: E402
+from studies.joint_fit.joint_fit import table  # noqa: E402
 from studies.potential_ranking.measured import METALS, melting_point  # noqa: E402
 
 PAGE = pathlib.Path(__file__).resolve().parent / "README.md"
@@ -29,7 +30,7 @@ def plans():
 
 
 def coexistence(path):
-    """Melting temperature in K and heat of fusion in J/kg with their errors, and the time of the point in s; none if it failed."""
+    """Melting temperature in K and heat of fusion in J/kg with their errors; none if it failed."""
     import h5py  # here, since the tests need none
 
     with h5py.File(path) as file:
@@ -69,7 +70,7 @@ def main():
         times = [line for line in log.read_text(encoding="utf-8").splitlines() if line.startswith("processor time in points")] if log.is_file() else []
         minutes = times[-1].split(":")[1].split()[0] if times else "-"
         rows.append(row(name, label, coexistence(store), measured, minutes))
-    text = "\n".join(["| " + " | ".join(HEADINGS) + " |", "|" + " --- |" * len(HEADINGS)] + ["| " + " | ".join(one) + " |" for one in rows]) + "\n"
+    text = table(HEADINGS, rows)
     head, rest = PAGE.read_text(encoding="utf-8").split(BEGIN)
     PAGE.write_text(f"{head}{BEGIN}\n\n{text}\n{END}{rest.split(END)[1]}", encoding="utf-8")
     print(text)

@@ -17,6 +17,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 from studies.commands import call  # noqa: E402
+from studies.joint_fit.joint_fit import table  # noqa: E402
 
 HERE = pathlib.Path(__file__).resolve().parent
 PAGE, CASE, RECORD = HERE / "README.md", HERE / "case.toml", HERE / "record.csv"
@@ -145,11 +146,6 @@ def rows_of_record(whipple, folder, of_piston, rest):
         rows.append([f"{velocity:.0f}", f"{pressure / 1e9:.2f}", f"{other / 1e9:.2f}", f"{waves[1][0] / 1e9:.2f}", *runs,
                      f"{100 * (waves[1][0] / pressure - 1):+.1f} %", f"{100 * (waves[1][0] / other - 1):+.1f} %"])
     return rows
-
-
-def table(headings, rows):
-    """Rows as a table of Markdown."""
-    return "\n".join(["| " + " | ".join(headings) + " |", "|" + " --- |" * len(headings)] + ["| " + " | ".join(row) + " |" for row in rows]) + "\n"
 
 
 def main():
