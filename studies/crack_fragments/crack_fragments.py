@@ -5,8 +5,8 @@
 Usage: studies/crack_fragments/crack_fragments.py [--long] [--table] [--whipple EXE] [NAME...]
 
 The rows are runs of cases/shell_fragmentation: the ring that coasts (ring.toml) with and without fields, by cell size and seed, and
-the shell (section.toml) with softening in tension. --long: also those that take more than a few minutes each. --table runs nothing;
-names choose rows. Runs lie in run/studies/crack_fragments; those of the same program and the same case are kept. Printed: the rows
+the shell with softening in tension, in plane strain (section.toml) and as a slice in three dimensions (case.toml). --long: also those
+that take more than a few minutes each. --table runs nothing; names choose rows. Runs lie in run/studies/crack_fragments; those of the same program and the same case are kept. Printed: the rows
 (docs/theory/analysis.md, section 3), mean and standard deviation over the seeds, the energy of the cracks that tear, and Mott's
 statistics with the scatter of the ring. Width of a crack: failed share times perimeter over the number of fragments. The energy is
 from the damage D of all particles, whose work per volume is (2 D - D^2) Gamma/h in the law `tearing`, h a cell
@@ -31,8 +31,11 @@ from studies.crack_fragments import mott  # noqa: E402
 
 RUNS = ROOT / "run/studies/crack_fragments"
 LATE = (24, 28, 32, 36, 40)  # us, of the shell
-WALL = {"ring": 2e-3, "shell": 4e-3}  # m, thickness at the start
-PERIMETER = {"ring": 2.0 * np.pi * 21e-3, "shell": 2.0 * np.pi * 22e-3}  # m, of the middle of the wall at the start
+ROOM = {"shell": ['domain.lower=["-90 mm","-90 mm"]', 'domain.upper=["90 mm","90 mm"]'],  # whole cells of every size of its rows
+        "slice": ['domain.lower=["-96 mm","-96 mm","0 mm"]', 'domain.upper=["96 mm","96 mm","1.6 mm"]']}
+CASE = {"ring": "ring.toml", "shell": "section.toml", "slice": "case.toml"}
+WALL = {"ring": 2e-3, "shell": 4e-3}  # m, thickness at the start, in plane strain
+PERIMETER = {"ring": 2.0 * np.pi * 21e-3, "shell": 2.0 * np.pi * 22e-3, "slice": 2.0 * np.pi * 22e-3}  # m, of the middle of the wall
 TEARING = "steel_45_tearing.toml"
 
 
@@ -59,7 +62,12 @@ class Row:
 
     @property
     def case(self):
-        return ROOT / "cases/shell_fragmentation" / ("ring.toml" if self.body == "ring" else "section.toml")
+        return ROOT / "cases/shell_fragmentation" / CASE[self.body]
+
+    @property
+    def part(self):
+        """Name of the body that breaks."""
+        return "ring" if self.body == "ring" else "shell"
 
     @property
     def assignments(self):
@@ -68,16 +76,18 @@ class Row:
                  f"body.{number}.failure_scatter.seed={self.seed}"]
         if self.tearing:
             words += [f"body.{number}.material={TEARING}", 'output.fields=["density","failed","damage"]']
-        if self.body == "shell":  # until all gaps are open
-            words += ["time.end=40 us", "output.snapshot_every=4 us", 'domain.lower=["-90 mm","-90 mm"]', 'domain.upper=["90 mm","90 mm"]']
+        if self.body != "ring":  # until all gaps are open
+            words += ["time.end=40 us", "output.snapshot_every=4 us", *ROOM[self.body]]
         return words
 
 
 ROWS = [Row("ring", fields, cell, long=cell == "0.166667") for cell in ("0.666667", "0.333333", "0.166667") for fields in ("none", "fields")]
 ROWS += [Row("ring", fields, "0.333333", seed) for fields in ("none", "fields") for seed in (2, 3, 4, 5)]
+ROWS += [Row("ring", "fields", "0.166667", seed, long=True) for seed in (2, 3, 4, 5)]
 ROWS += [Row("ring", "fields", cell, tearing=True) for cell in ("0.666667", "0.333333")]
 ROWS += [Row("shell", "none", "0.8", tearing=True), Row("shell", "fields", "0.8", tearing=True),
          Row("shell", "fields", "0.4", tearing=True, long=True), Row("shell", "fields", "0.2", tearing=True, long=True)]
+ROWS += [Row("slice", fields, cell, tearing=True, long=True) for cell in ("0.8", "0.533333") for fields in ("none", "fields")]
 
 
 def run_row(row, whipple):
@@ -93,12 +103,12 @@ def crack_energy(row):
     """Energy of the cracks of a row that tears over Gamma times the initial thickness of the wall and the number of fragments, each of
     which ends at one more crack; NaN of other laws. damage: D of its particles."""
     folder = RUNS / row.name
-    found = particles_of(folder, row.body)
-    if not row.tearing or found is None or "damage" not in found:
+    found = particles_of(folder, row.part)
+    if not row.tearing or row.body not in WALL or found is None or "damage" not in found:
         return np.nan
     damage, volume = found["damage"].astype(float), found["mass"] / mott.Ring.density  # of a metre along z
     area = ((2 * damage - damage**2) * volume).sum() / cell_size(folder)
-    return area / (WALL[row.body] * Measures(folder).single[f"piece_count.{row.body}"])
+    return area / (WALL[row.body] * Measures(folder).single[f"piece_count.{row.part}"])
 
 
 @dataclasses.dataclass(frozen=True)
@@ -120,12 +130,12 @@ def measure(row):
         return None
     measures = Measures(folder)
     single = measures.single
-    number, failed = single[f"piece_count.{row.body}"], single[f"failed_fraction.{row.body}.whole"]
+    number, failed = single[f"piece_count.{row.part}"], single[f"failed_fraction.{row.part}.whole"]
     with (folder / "report/pieces_by_distance.csv").open(newline="") as stream:
-        distance = [float(line["pieces [1]"]) for line in csv.DictReader(stream) if line["body"] == row.body]
+        distance = [float(line["pieces [1]"]) for line in csv.DictReader(stream) if line["body"] == row.part]
     width = failed * PERIMETER[row.body] / (number * cell_size(folder)) if number > 0 else np.nan
-    numbers = dict(zip(np.round(1e6 * np.array(measures.series["time"])), measures.series[f"piece_count.{row.body}"]))
-    return Found(number, failed, single[f"loose_fraction.{row.body}"], width, distance, weibull_exponent(masses_of_run(folder, row.body)),
+    numbers = dict(zip(np.round(1e6 * np.array(measures.series["time"])), measures.series[f"piece_count.{row.part}"]))
+    return Found(number, failed, single[f"loose_fraction.{row.part}"], width, distance, weibull_exponent(masses_of_run(folder, row.part)),
                  [numbers.get(time, np.nan) for time in LATE], crack_energy(row))
 
 
@@ -147,12 +157,13 @@ def ring_lines(found):
 
 
 def shell_lines(found):
-    """Table of the shells: the mean fragment in mm of the initial perimeter."""
-    text = [f"| fields | cells mm | failed % | fragments at {joined(LATE)} us | loose % | by distance, 40 us | mean, mm of perimeter | "
-            "exponent b |", "| --- " * 8 + "|"]
+    """Table of the shells: the mean fragment in mm of the initial perimeter, of a slice as if no crack ran around."""
+    text = [f"| | fields | cells mm | failed % | fragments at {joined(LATE)} us | loose % | by distance, 40 us | mean, mm of perimeter | "
+            "exponent b |", "| --- " * 9 + "|"]
     for row, f in found:
         mean = 1e3 * PERIMETER[row.body] * (1 - f.loose) / f.number if f.number > 0 else np.nan
-        text.append(f"| {row.label} | {float(row.cell):.3g} | {100 * f.failed:.1f} | {joined(f.over_time)} | {100 * f.loose:.2f} | "
+        kind = "slice" if row.body == "slice" else "section"
+        text.append(f"| {kind} | {row.label} | {float(row.cell):.3g} | {100 * f.failed:.1f} | {joined(f.over_time)} | {100 * f.loose:.2f} | "
                     f"{joined(f.by_distance)} | {mean:.2f} | {f.exponent[0]:.2f} +- {f.exponent[1]:.2f} |")
     return text
 
@@ -165,8 +176,8 @@ def lines(rows):
     """What was found of the rows that were computed."""
     found = [(row, f) for row in rows if (f := measure(row)) is not None]
     text = []
-    for body, table in (("ring", ring_lines), ("shell", shell_lines)):
-        own = [(row, f) for row, f in found if row.body == body]
+    for bodies, table in ((("ring",), ring_lines), (("shell", "slice"), shell_lines)):
+        own = [(row, f) for row, f in found if row.body in bodies]
         text += table(own) + [""] if own else []
     return text + [f"{row.name}: energy of a crack {f.energy:.2f} Gamma per area" for row, f in found if np.isfinite(f.energy)]
 

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A queue of computations: order by value, what is current is left out, what does not fit is left for another call."""
+import json
+import pathlib
+import tempfile
 import types
 import unittest
 from unittest import mock
@@ -75,6 +78,24 @@ class Queue(unittest.TestCase):
                 mock.patch.object(execution, "analyse", lambda *_: True), mock.patch("builtins.print"):
             self.assertEqual(queue.work_off(jobs, "whipple", 1.0, 1, write, write_every=-1.0), ([], []))
         self.assertEqual(calls, [1, 2, 1])
+
+
+class Begun(unittest.TestCase):
+    """A run that was stopped goes on from its checkpoint if it is the same run of the same program."""
+
+    def test_goes_on_where_it_was_stopped(self):
+        begun = {"command": ["whipple", "run"], "executable": "one", "case": "digest"}
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            self.assertIsNone(execution.wall_time_of_begun(folder, begun))
+            (folder / execution.BEGUN).write_text(json.dumps(begun | {"wall_time": 10.0}))
+            (folder / "status.json").write_text('{"wall_time": 2.5}')
+            self.assertIsNone(execution.wall_time_of_begun(folder, begun), "without a checkpoint it begins again")
+            (folder / "checkpoint").mkdir()
+            (folder / "checkpoint" / "checkpoint.00000007.h5").touch()
+            self.assertEqual(execution.wall_time_of_begun(folder, begun), 12.5)
+            self.assertIsNone(execution.wall_time_of_begun(folder, begun | {"executable": "other"}))
+            self.assertIsNone(execution.wall_time_of_begun(folder, begun | {"case": "another"}))
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs of the cases: their folders, command lines, execution and analysis."""
+import json
 import os
 import pathlib
 import re
@@ -41,17 +42,21 @@ def state_of(case, run, variant, folder, more=(), source=None):
 
 
 def execute(whipple, case, run, variant, threads, folder=None, more=(), any_source=False):
-    """Runs the case unless a current run is there; returns whether it is there now."""
+    """Runs the case unless a current run is there, from its checkpoint if it was stopped; returns whether it is there now."""
     folder = folder or folder_of(case, run, variant)
     _, state = state_of(case, run, variant, folder, more, provenance.source_of(whipple))
     if state == provenance.CURRENT or (any_source and state == provenance.OLDER_SOURCE):
         return True
     (folder / "finished.json").unlink(missing_ok=True)
     command = command_of(case, run, variant.resolution, folder, [*variant.assignments, *more])
-    print(f"{time.strftime('%H:%M:%S')} {' '.join(command)}", flush=True)
+    begun = {"command": command, "executable": provenance.digest_of_file(whipple), **provenance.inputs_of(run)}
+    earlier = wall_time_of_begun(folder, begun)
+    words = command[1:] if earlier is None else ["run", "--restart", str(folder)]
+    print(f"{time.strftime('%H:%M:%S')} {' '.join(['whipple', *words])}", flush=True)
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / BEGUN).write_text(json.dumps(begun | {"wall_time": earlier or 0.0}, indent=1) + "\n")
     begin = time.monotonic()
-    done = subprocess.run([whipple, *command[1:], "--quiet", "--threads", str(threads)], cwd=ROOT,
-                          env=environment(threads))
+    done = subprocess.run([whipple, *words, "--quiet", "--threads", str(threads)], cwd=ROOT, env=environment(threads))
     if done.returncode != 0:
         print(f"  failed with exit code {done.returncode}", flush=True)
         return False
@@ -59,8 +64,25 @@ def execute(whipple, case, run, variant, threads, folder=None, more=(), any_sour
         table = run.resolved(variant.resolution)
         rest = [vector(body.get("velocity", [0, 0, 0]), run.name) for body in table["body"]]
         back_to_rest(folder, as_simulated(variant.frame, table["domain"]), [as_simulated(v, table["domain"]) for v in rest])
-    provenance.write(folder, run, variant, command, whipple, threads, time.monotonic() - begin)
+    provenance.write(folder, run, variant, command, whipple, threads, (earlier or 0.0) + time.monotonic() - begin)
     return True
+
+
+BEGUN = "begun.json"  # in the folder of a run: what it was begun with, and the seconds of the calls before the last
+
+
+def wall_time_of_begun(folder, begun):
+    """Seconds that a run of this command, program and input has taken, which was stopped and has a checkpoint; None if there is none.
+
+    Its program has to be the same file, so that what is resumed is what a run without a break computes, digit by digit.
+    """
+    try:
+        record = json.loads((folder / BEGUN).read_text(encoding="utf-8"))
+        seconds = json.loads((folder / "status.json").read_text(encoding="utf-8"))["wall_time"]
+    except (OSError, ValueError, KeyError):
+        return None
+    same = all(record.get(key) == json.loads(json.dumps(value)) for key, value in begun.items())
+    return record["wall_time"] + seconds if same and any(folder.glob("checkpoint/*.h5")) else None
 
 
 def analyse(whipple, folder, run, threads):
