@@ -9,7 +9,8 @@ any of them was computed, by a rule that knows no outcome: those within a third 
 so, with at most 700,000 particles in the half (its cost), in the order of the SHA-256 of their names. --choose writes them to
 oblique_shots.csv, which is what is computed; --most ends after so many, in the order of the file.
 
-Adds a row for each to outcomes.csv (model space). Runs with a row are not computed again; an interrupted one is resumed from its checkpoint.
+Adds a row for each to outcomes.csv (model space). Runs with a row are not computed again; an interrupted one is resumed from its
+checkpoint.
 """
 import argparse
 import csv

@@ -89,13 +89,15 @@ class Begun(unittest.TestCase):
             folder = pathlib.Path(name)
             self.assertIsNone(execution.wall_time_of_begun(folder, begun))
             (folder / execution.BEGUN).write_text(json.dumps(begun | {"wall_time": 10.0}))
-            (folder / "status.json").write_text('{"wall_time": 2.5}')
+            (folder / "status.json").write_text('{"state": "stopped", "wall_time": 2.5}')
             self.assertIsNone(execution.wall_time_of_begun(folder, begun), "without a checkpoint it begins again")
             (folder / "checkpoint").mkdir()
             (folder / "checkpoint" / "checkpoint.00000007.h5").touch()
             self.assertEqual(execution.wall_time_of_begun(folder, begun), 12.5)
             self.assertIsNone(execution.wall_time_of_begun(folder, begun | {"executable": "other"}))
             self.assertIsNone(execution.wall_time_of_begun(folder, begun | {"case": "another"}))
+            (folder / "status.json").write_text('{"state": "done", "wall_time": 2.5}')
+            self.assertIsNone(execution.wall_time_of_begun(folder, begun), "a restart would add a step to a run that has ended")
 
 
 if __name__ == "__main__":

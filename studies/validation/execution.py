@@ -78,10 +78,11 @@ def wall_time_of_begun(folder, begun):
     """
     try:
         record = json.loads((folder / BEGUN).read_text(encoding="utf-8"))
-        seconds = json.loads((folder / "status.json").read_text(encoding="utf-8"))["wall_time"]
+        status = json.loads((folder / "status.json").read_text(encoding="utf-8"))
+        seconds, ended = status["wall_time"], status["state"] == "done"
     except (OSError, ValueError, KeyError):
         return None
-    same = all(record.get(key) == json.loads(json.dumps(value)) for key, value in begun.items())
+    same = not ended and all(record.get(key) == json.loads(json.dumps(value)) for key, value in begun.items())
     return record["wall_time"] + seconds if same and any(folder.glob("checkpoint/*.h5")) else None
 
 
