@@ -4,8 +4,8 @@
 
 Usage: studies/crack_fragments/crack_fragments.py [--long] [--table] [--whipple EXE] [NAME...]
 
-The rows are runs of cases/shell_fragmentation: the ring that coasts (ring.toml) with and without fields, by cell size and seed, and
-the shell with softening in tension, in plane strain (section.toml) and as a slice in three dimensions (case.toml). --long: also those
+The rows are runs of cases/shell_fragmentation: the ring that coasts (ring.toml) with and without fields, by cell size and seed; the same
+unrolled as a bar of one cell across, which a crack parts without a way through a wall; and the shell with softening in tension, in plane strain (section.toml) and as a slice in three dimensions (case.toml). --long: also those
 that take more than a few minutes each. --table runs nothing; names choose rows. Runs lie in run/studies/crack_fragments; those of the
 same program and the same case are kept. Printed: the rows
 (docs/theory/analysis.md, section 3), mean and standard deviation over the seeds, the energy of the cracks that tear, and Mott's
@@ -34,10 +34,19 @@ RUNS = ROOT / "run/studies/crack_fragments"
 LATE = (24, 28, 32, 36, 40)  # us, of the shell
 ROOM = {"shell": ['domain.lower=["-90 mm","-90 mm"]', 'domain.upper=["90 mm","90 mm"]'],  # whole cells of every size of its rows
         "slice": ['domain.lower=["-96 mm","-96 mm","0 mm"]', 'domain.upper=["96 mm","96 mm","1.6 mm"]']}
-CASE = {"ring": "ring.toml", "shell": "section.toml", "slice": "case.toml"}
+CASE = {"ring": "ring.toml", "bar": "ring.toml", "shell": "section.toml", "slice": "case.toml"}
 WALL = {"ring": 2e-3, "shell": 4e-3}  # m, thickness at the start, in plane strain
-PERIMETER = {"ring": 2.0 * np.pi * 21e-3, "shell": 2.0 * np.pi * 22e-3, "slice": 2.0 * np.pi * 22e-3}  # m, of the middle of the wall
+PERIMETER = {"ring": 2.0 * np.pi * 21e-3, "shell": 2.0 * np.pi * 22e-3, "slice": 2.0 * np.pi * 22e-3}
+PERIMETER["bar"] = PERIMETER["ring"]  # m, of the middle of the wall
 TEARING = "steel_45_tearing.toml"
+
+
+def bar_of(cell):
+    """Assignments that make of the ring a bar of its length, one cell (mm) across, with free ends; scatter per length as in the ring of 2 mm."""
+    half, ring = 500.0 * PERIMETER["ring"], 3.925e-4  # mm; m^3, reference volume of the ring
+    return [f'body.0.shape={{ box = {{ lower = ["-{half:.6g} mm","-{cell / 2:.6g} mm"], upper = ["{half:.6g} mm","{cell / 2:.6g} mm"] }} }}',
+            'body.0.expansion_rate=["4.0476e4 1/s","0 1/s","0 1/s"]', f"body.0.failure_scatter.reference_volume={ring * cell / 2:.6g} m^3",
+            'domain.lower=["-180 mm","-4 mm"]', 'domain.upper=["180 mm","4 mm"]']
 
 
 @dataclasses.dataclass(frozen=True)
@@ -68,16 +77,18 @@ class Row:
     @property
     def part(self):
         """Name of the body that breaks."""
-        return "ring" if self.body == "ring" else "shell"
+        return "ring" if self.body in ("ring", "bar") else "shell"
 
     @property
     def assignments(self):
-        number = 0 if self.body == "ring" else 1
+        number = 0 if self.part == "ring" else 1
         words = [f"domain.cell_size={self.cell} mm", f"body.{number}.failure.cracks={self.fields}",
                  f"body.{number}.failure_scatter.seed={self.seed}"]
         if self.tearing:
             words += [f"body.{number}.material={TEARING}", 'output.fields=["density","failed","damage"]']
-        if self.body != "ring":  # until all gaps are open
+        if self.body == "bar":
+            words += bar_of(float(self.cell))
+        if self.part == "shell":  # until all gaps are open
             words += ["time.end=40 us", "output.snapshot_every=4 us", *ROOM[self.body]]
         return words
 
@@ -88,6 +99,7 @@ ROWS += [Row("ring", "fields", "0.166667", seed, long=True) for seed in (2, 3, 4
 ROWS += [Row("ring", "fields", cell, tearing=True) for cell in ("0.666667", "0.333333")]
 ROWS += [Row("shell", "none", "0.8", tearing=True), Row("shell", "fields", "0.8", tearing=True),
          Row("shell", "fields", "0.4", tearing=True, long=True), Row("shell", "fields", "0.2", tearing=True, long=True)]
+ROWS += [Row("bar", "fields", cell, seed) for cell in ("0.666667", "0.333333", "0.166667") for seed in (1, 2, 3, 4, 5)]
 ROWS += [Row("slice", fields, cell, tearing=True, long=True) for cell in ("0.8", "0.533333") for fields in ("none", "fields")]
 
 
@@ -177,9 +189,9 @@ def lines(rows):
     """What was found of the rows that were computed."""
     found = [(row, f) for row in rows if (f := measure(row)) is not None]
     text = []
-    for bodies, table in ((("ring",), ring_lines), (("shell", "slice"), shell_lines)):
+    for bodies, table in ((("ring",), ring_lines), (("bar",), ring_lines), (("shell", "slice"), shell_lines)):
         own = [(row, f) for row, f in found if row.body in bodies]
-        text += table(own) + [""] if own else []
+        text += [f"{' and '.join(bodies)}:", *table(own), ""] if own else []
     return text + [f"{row.name}: energy of a crack {f.energy:.2f} Gamma per area" for row, f in found if np.isfinite(f.energy)]
 
 
