@@ -4,14 +4,14 @@
 
 Usage: python3 -m studies.shields.clouds [piekutowski|melting] [--draw FILE.png] [--work FOLDER] [--whipple PROGRAM]
 
-piekutowski  Spheres of 9.53 mm at 6.7 km/s on bumpers of 0.049, 0.084 and 0.163 of the diameter (cases/piekutowski_clouds): sections in cells of 0.4
-             and 0.2 mm, on the grid and half a cell off it, and of 0.1 mm.
+piekutowski  Spheres of 9.53 mm at 6.7 km/s on bumpers of 0.026 to 0.424 of the diameter (NASA CR-4707; cases/piekutowski_clouds): sections in cells of
+             0.4 and 0.2 mm, on the grid and half a cell off it, and of 0.1 mm; half of that for the thinnest bumper.
 melting      The sphere and the bumper of Ryan's shield (3.175 and 0.787 mm) at 4 to 8 km/s in cells of 0.2 and 0.14 mm.
 
 Sphere and bumper have phases (GRAY: 2024-T4 for 2017-T4, 6061-T6), and points that fail keep the size of the fragments that they become part of
 (docs/theory/cracks.md, eq. 8). Adds a row for each run to clouds.csv, after the time in which the speed covers seven diameters: front, rear and
 radial speed over that of the impact, length over width, intact and melted mass, quantiles of the sizes by mass over the diameter. Runs with a row
-are not computed again. --draw FILE.png draws radiographs of the clouds of the first study at the end of their runs, each in the finest cells.
+are not computed again. --draw FILE.png draws radiographs of three clouds of the first study at the end of their runs, each in the finest cells.
 """
 import argparse
 import itertools
@@ -30,6 +30,7 @@ from studies.grains_on_wall.grains_on_wall import quantile
 FILE = page.HERE / "clouds.csv"
 SPHERE, BUMPER = "aluminium_2024_t4.toml", "aluminium_6061_t6.toml"
 FLIGHT = 7  # diameters
+DRAWN = (0.467, 0.8, 1.549)  # mm, bumpers
 QUANTILES = (0.5, 0.84, 0.975)
 MEASURES = {"front": "front_speed_over_impact_speed", "rear": "rear_speed", "radial": "radial_speed_over_impact_speed",
             "length over width": "cloud_length_over_width", "sphere melted": "melted_fraction.sphere", "debris melted": "debris_melted_fraction"}
@@ -39,8 +40,8 @@ def plans(study):
     """Diameter (mm), thickness (mm), speed (km/s), cell (mm) and shift of the grid in cells of the runs of a study."""
     if study == "melting":
         return [(3.175, 0.787, speed, cell, 0.0) for speed, cell in itertools.product((4, 4.5, 5, 5.5, 6, 6.35, 6.7, 7, 7.5, 8), (0.2, 0.14))]
-    sheets = {0.467: (0.4, 0.2, 0.1), 0.8: (0.4, 0.2, 0.1), 1.549: (0.4, 0.2, 0.1)}
-    return [(9.53, thickness, 6.7, cell, shift) for thickness, cells in sheets.items() for cell in cells for shift in ((0.0, 0.5) if cell > 0.1 else (0.0,))]
+    sheets = dict.fromkeys((0.467, 0.8, 1.549, 2.22, 4.041), (0.4, 0.2, 0.1)) | {0.248: (0.2, 0.1, 0.05)}
+    return [(9.53, thickness, 6.7, cell, shift) for thickness, cells in sheets.items() for cell in cells for shift in ((0.0, 0.5) if cell > cells[-1] else (0.0,))]
 
 
 def case_of(diameter, thickness, speed, cell, shift, folder):
@@ -102,7 +103,7 @@ def draw(file, work):
     style.apply()
     finest = {}
     for plan in plans("piekutowski"):
-        if plan[4] == 0 and plan[3] <= finest.get(plan[1], plan)[3]:
+        if plan[1] in DRAWN and plan[4] == 0 and plan[3] <= finest.get(plan[1], plan)[3]:
             finest[plan[1]] = plan
     figure = Figure(figsize=(style.WIDTH, 0.28 * style.WIDTH), layout="constrained")
     for axes, plan in zip(figure.subplots(1, len(finest)), finest.values()):

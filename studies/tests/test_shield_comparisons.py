@@ -182,7 +182,7 @@ class Curve(unittest.TestCase):
             cases = [tomllib.loads(clouds.case_of(9.53, 0.8, 6.7, 0.4, shift, pathlib.Path(folder)))["domain"] for shift in (0.0, 0.5)]
         lower = [float(case["lower"][0].split()[0]) for case in cases]
         self.assertAlmostEqual(lower[0] - lower[1], 0.2)
-        self.assertEqual(len(clouds.plans("piekutowski")), 15)
+        self.assertEqual(len(clouds.plans("piekutowski")), 30)
 
 
 if __name__ == "__main__":
