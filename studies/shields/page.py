@@ -31,8 +31,9 @@ REFERENCE = "nno_1993"  # whose critical diameter says how far a shot is from th
 DEFEATS = {"perforated", "detached spall"}
 REPEATS = {"other places of the grains": "tile_seed_2.csv", "cells 1.23 times as large": "tile_coarser.csv",
            "cells 0.8 times as large": "tile_finer.csv"}  # of the model of tiles
-NOTES = {"space": """Quarters with 8 cells across the sphere, two and a little more through the bumper, of twenty shots that no outcome chose (below): a
-comparison with sections, not a score of shots near the limit.""", "tile": """**The score of a model that was amended while it was scored** ([decision 25](../decisions/0025_grains_before_a_wall.md)), after 3 and
+NOTES = {"space": """With 8 cells across the sphere, two and a little more through the bumper. Normal shots: quarters of twenty that no outcome chose
+(below), a comparison with sections. Oblique shots: halves of all near the limit that are resolved so with at most 700,000 particles, a rule
+written before the first was computed (`python3 -m studies.shields.oblique`).""", "tile": """**The score of a model that was amended while it was scored** ([decision 25](../decisions/0025_grains_before_a_wall.md)), after 3 and
 after 18 outcomes; its own rule makes those void, they were kept. 26 verdicts are of tiles, that of CR-915/E-44 is of a section.
 All verdicts of tiles come from the speed of the rear half of the wall and a rule for its rim; a fit of that speed to the load, without
 a tile, gives 27 of the 29 verdicts. The control, the same load as dust, is below: the grains decide the speed, but not as measured.
@@ -40,7 +41,9 @@ The speed follows the cells, and its error may be a factor of 2."""}  # what has
 SCORED = """Shots were chosen within a third of the limit of NNO (1993), which is a handicap for that equation above all."""
 PICTURES = {"section": ["Pictures, in the order of the names (`python3 -m studies.shields.pictures`): half section of the wall at the outcome, mm, intact by",
                         "plastic strain from 0 to 0.5, failed (red), debris of other bodies (grey).", "",
-                        *(f"![Unsafe misses, sheet {k}](../images/shield_misses_{k}.png)" for k in (1, 2, 3)), ""]}
+                        *(f"![Unsafe misses, sheet {k}](../images/shield_misses_{k}.png)" for k in (1, 2, 3)), ""],
+            "space": ["Oblique shots, likewise (`--only space`): the first cell behind the mirror plane, where the line of flight meets the wall.", "",
+                      "![Unsafe misses, oblique](../images/shield_misses_oblique.png)", ""]}
 REPEATED = """Chosen when the outcomes of all shots were known, by no rule written before; the two shots nearest to the line between held and
 failed (Morrison_1972/SR-246, AFML-TR-70-135/U) have no repetition with other cells, and that of AFML-TR-68-257/2372 with cells 0.8 times
 as large was started and stopped. All shots draw the places of their grains from the same seed: what another seed changes is an
