@@ -5,13 +5,12 @@
 Usage: studies/crack_fragments/crack_fragments.py [--long] [--table] [--whipple EXE] [NAME...]
 
 The rows are runs of cases/shell_fragmentation: the ring that coasts (ring.toml) with and without fields, by cell size and seed; the same
-unrolled as a bar of one cell across, which a crack parts without a way through a wall; and the shell with softening in tension, in plane strain (section.toml) and as a slice in three dimensions (case.toml). --long: also those
-that take more than a few minutes each. --table runs nothing; names choose rows. Runs lie in run/studies/crack_fragments; those of the
-same program and the same case are kept. Printed: the rows
-(docs/theory/analysis.md, section 3), mean and standard deviation over the seeds, the energy of the cracks that tear, and Mott's
-statistics with the scatter of the ring. Width of a crack: failed share times perimeter over the number of fragments. The energy is
-from the damage D of all particles, whose work per volume is (2 D - D^2) Gamma/h in the law `tearing`, h a cell
-(docs/theory/material.md, 5.1).
+unrolled as a bar of one cell across, which a crack parts without a way through a wall; and the shell with softening in tension, in plane
+strain (section.toml) and as a slice in three dimensions (case.toml). --long: also those that take more than a few minutes each. --table
+runs nothing; names choose rows. Runs lie in run/studies/crack_fragments; those of the same program and the same case are kept. Printed:
+the rows (docs/theory/analysis.md, section 3), mean and standard deviation over the seeds, the energy of the cracks that tear, and Mott's
+statistics with the scatter of the ring. Width of a crack: failed share times perimeter over the number of fragments. The energy is from
+the damage D of all particles, whose work per volume is (2 D - D^2) Gamma/h in the law `tearing`, h a cell (docs/theory/material.md, 5.1).
 """
 import argparse
 import csv
