@@ -4,8 +4,8 @@
 
 Usage: python3 -m studies.shields.clouds [piekutowski|melting] [--draw FILE.png] [--work FOLDER] [--whipple PROGRAM]
 
-piekutowski  Spheres of 9.53 mm at 6.7 km/s on bumpers of 0.026 to 0.424 of the diameter (NASA CR-4707; cases/piekutowski_clouds): sections in cells of
-             0.4 and 0.2 mm, on the grid and half a cell off it, and of 0.1 mm; half of that for the thinnest bumper.
+piekutowski  Spheres of 9.53 mm at 6.7 km/s on bumpers of 0.026 to 0.424 of the diameter (NASA CR-4707; cases/piekutowski_clouds):
+             sections in cells of 0.4 and 0.2 mm, on the grid and half a cell off it, and of 0.1 mm; half of that for the thinnest bumper.
 melting      The sphere and the bumper of Ryan's shield (3.175 and 0.787 mm) at 4 to 8 km/s in cells of 0.2 and 0.14 mm.
 
 Sphere and bumper have phases (GRAY: 2024-T4 for 2017-T4, 6061-T6), and points that fail keep the size of the fragments that they become part of
@@ -41,7 +41,8 @@ def plans(study):
     if study == "melting":
         return [(3.175, 0.787, speed, cell, 0.0) for speed, cell in itertools.product((4, 4.5, 5, 5.5, 6, 6.35, 6.7, 7, 7.5, 8), (0.2, 0.14))]
     sheets = dict.fromkeys((0.467, 0.8, 1.549, 2.22, 4.041), (0.4, 0.2, 0.1)) | {0.248: (0.2, 0.1, 0.05)}
-    return [(9.53, thickness, 6.7, cell, shift) for thickness, cells in sheets.items() for cell in cells for shift in ((0.0, 0.5) if cell > cells[-1] else (0.0,))]
+    return [(9.53, thickness, 6.7, cell, shift) for thickness, cells in sheets.items() for cell in cells
+            for shift in ((0.0, 0.5) if cell > cells[-1] else (0.0,))]
 
 
 def case_of(diameter, thickness, speed, cell, shift, folder):

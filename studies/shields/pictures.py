@@ -63,8 +63,8 @@ def oblique_run(row, work):
 
 
 def seen(particles, model, cell, front):
-    """Place across the flight and behind the wall's front face (mm) of the particles that are drawn, and which these are: all of a section, those
-    of a half in the first cell behind the mirror plane (y = 0)."""
+    """Place across the flight and behind the wall's front face (mm) of the particles that are drawn, and which these are: all of a
+    section, those of a half in the first cell behind the mirror plane (y = 0)."""
     place = 1e3 * particles["position"]
     if model == "section":
         return place[:, 1], front - place[:, 0], np.full(len(place), True)

@@ -159,6 +159,14 @@ class Parts(unittest.TestCase):
                 (("a", "section", "bulge"), ("b", "section", "perforated"), ("c", "section", "whole"), ("d", "section", "bulge"), ("a", "tile", "bulge"))]
         shots = {name: {"result": "NP" if name == "c" else "P"} for name in "abcd"}
         self.assertEqual(pictures.misses(rows, shots, {"d"}), rows[:1])
+        self.assertEqual(pictures.misses(rows, shots, {"d"}, "tile"), rows[-1:])
+
+    def test_a_half_is_drawn_behind_its_mirror_plane(self):
+        particles = {"position": np.array([[1e-3, 0.1e-3, 5e-3], [2e-3, 0.6e-3, 5e-3], [3e-3, 0.4e-3, 7e-3]])}
+        across, depth, drawn = pictures.seen(particles, "space", 0.5, 6.0)
+        self.assertEqual([across.tolist(), depth.round(9).tolist(), drawn.tolist()], [[1.0, 3.0], [1.0, -1.0], [True, False, True]])
+        across, depth, drawn = pictures.seen(particles, "section", 0.5, 6.0)
+        self.assertEqual([across.round(9).tolist(), depth.round(9).tolist()], [[0.1, 0.6, 0.4], [5.0, 4.0, 3.0]])
 
 
 class Curve(unittest.TestCase):
