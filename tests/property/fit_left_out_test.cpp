@@ -103,7 +103,8 @@ TEST(LeftOutCurves, AreWidenedToWhatTheOthersDeviate) {
       signal(i, j) = same * std::exp(-0.5 * std::abs(apart));
     }
     errors(i, i) = 0.001;
-    data.push_back({.kind = "fluid, pressure", .curve = fmt::format("{:02}", i / states), .group = "fluid"});
+    data.push_back(
+        {.kind = "fluid, pressure", .curve = fmt::format("{:02}", i / states), .group = CurveGroup::fluid});
   }
   const MatrixXd root = MatrixXd(signal + errors).llt().matrixL();
   std::mt19937_64 random(3);
@@ -117,11 +118,11 @@ TEST(LeftOutCurves, AreWidenedToWhatTheOthersDeviate) {
     const LeftOutCurves found = left_out_curves(data, root * x, stated, errors).front();
     widened += found.widened / draws;
     inside += found.inside_95 / draws;
-    for (LeftOutDatum& datum : data) datum.group.clear();
+    for (LeftOutDatum& datum : data) datum.group = CurveGroup::none;
     const LeftOutCurves alone = left_out_curves(data, root * x, stated, errors).front();
     EXPECT_EQ(alone.widened, 1.0);
     inside_as_stated += alone.inside_95 / draws;
-    for (LeftOutDatum& datum : data) datum.group = "fluid";
+    for (LeftOutDatum& datum : data) datum.group = CurveGroup::fluid;
   }
   EXPECT_NEAR(widened, 3.0, 0.15);
   EXPECT_NEAR(inside, 0.93, 0.02);  // the factor of 22 deviations scatters

@@ -33,6 +33,12 @@ struct Group {
   std::string curve{};
 };
 
+/// Names what a datum is, and the group of its curve.
+struct StateKind {
+  std::string name;
+  CurveGroup group;
+};
+
 class Collector {
  public:
   Collector(const eos::GrayFreeEnergy& gray, const FilmErrors& film_errors)
@@ -47,7 +53,7 @@ class Collector {
     begin_curve(fmt::format("{} {:.5g}", name, V / gray_.constants().reference_specific_volume));
   }
   /// Adds pressure and energy of a state at (V, T).
-  void state(const std::string& kind, PhaseSurface surface, double V, double T, const Estimate& pressure,
+  void state(const StateKind& kind, PhaseSurface surface, double V, double T, const Estimate& pressure,
              const Estimate& energy, double correlation) {
     if (!in_range(surface, V)) return;
     const GrayPoint model = at(surface, V, T);
@@ -64,7 +70,7 @@ class Collector {
          covariance});
   }
   /// Adds a pressure at (V, T).
-  void pressure(const std::string& kind, PhaseSurface surface, double V, double T, double pressure,
+  void pressure(const StateKind& kind, PhaseSurface surface, double V, double T, double pressure,
                 double error) {
     if (!in_range(surface, V)) return;
     const double whole = std::hypot(error, of_pressure * pressure, of_bulk_modulus * bulk_modulus_);
@@ -81,9 +87,10 @@ class Collector {
     const auto volume_error = [&](const GrayPoint& p, const Estimate& V) {
       return p.pressure_by_volume * V.error;
     };
-    pressure("coexistence, solid", PhaseSurface::solid, Vs, T, P,
+    pressure({"coexistence, solid", CurveGroup::coexistence}, PhaseSurface::solid, Vs, T, P,
              volume_error(s, *point.solid_specific_volume));
-    pressure("coexistence, melt", PhaseSurface::fluid, Vl, T, P, volume_error(l, *point.fusion_volume));
+    pressure({"coexistence, melt", CurveGroup::coexistence}, PhaseSurface::fluid, Vl, T, P,
+             volume_error(l, *point.fusion_volume));
     // F_l - F_s + P (V_l - V_s) = 0, of which the error of T makes S_l - S_s times it.
     const double entropy = l.entropy - s.entropy;
     const double error = entropy * std::hypot(point.melting_temperature.error, of_melting * T);
@@ -93,7 +100,8 @@ class Collector {
         -(l.energy - s.energy - T * entropy + P * (Vl - Vs)),
         T * entropy,
         0.0,
-        {{PhaseSurface::fluid, Vl, T, {.F = 1.0}}, {PhaseSurface::solid, Vs, T, {.F = -1.0}}}};
+        {{PhaseSurface::fluid, Vl, T, {.F = 1.0}}, {PhaseSurface::solid, Vs, T, {.F = -1.0}}},
+        CurveGroup::coexistence};
     add({{std::move(gibbs)}, Eigen::MatrixXd::Constant(1, 1, error * error)});
     if (!point.latent_heat) return;
     const double heat = point.latent_heat->value;
@@ -104,7 +112,8 @@ class Collector {
                            heat,
                            0.0,
                            {{PhaseSurface::fluid, Vl, T, {.F = 1.0, .F_T = -T}},
-                            {PhaseSurface::solid, Vs, T, {.F = -1.0, .F_T = T}}}};
+                            {PhaseSurface::solid, Vs, T, {.F = -1.0, .F_T = T}}},
+                           CurveGroup::coexistence};
     add({{std::move(fusion)}, Eigen::MatrixXd::Constant(1, 1, heat_error * heat_error)});
   }
   /// Keeps the melting line of GRAY, which the constants come from, where melting is not known otherwise: equal Gibbs
@@ -164,19 +173,22 @@ class Collector {
            v.pressure - l.pressure,
            gas / Vv,
            0.0,
-           {P(Vl, 1.0), P(Vv, -1.0)}},
+           {P(Vl, 1.0), P(Vv, -1.0)},
+           CurveGroup::film},
           {"film, Gibbs energies",
            CorrectionRowKind::film,
            v.gibbs(Vv, T) - l.gibbs(Vl, T),
            gas,
            0.0,
-           {G(Vl, 1.0), G(Vv, -1.0)}},
+           {G(Vl, 1.0), G(Vv, -1.0)},
+           CurveGroup::film},
           {"film, pressure of the vapour",
            CorrectionRowKind::film,
            stress.value - v.pressure,
            gas / Vv,
            0.0,
-           {P(Vv, 1.0)}}},
+           {P(Vv, 1.0)},
+           CurveGroup::film}},
          sources * sources.transpose()});
   }
 
@@ -208,23 +220,25 @@ class Collector {
   [[nodiscard]] GrayPoint at(PhaseSurface surface, double V, double T) const {
     return surface == PhaseSurface::solid ? gray_.solid(V, T) : gray_.fluid(V, T);
   }
-  [[nodiscard]] CorrectionDatum pressure_datum(const std::string& kind, PhaseSurface surface, double V,
+  [[nodiscard]] CorrectionDatum pressure_datum(const StateKind& kind, PhaseSurface surface, double V,
                                                double T, double residual) const {
-    return {kind + ", pressure",
+    return {kind.name + ", pressure",
             CorrectionRowKind::pressure,
             residual,
             bulk_modulus_,
             0.0,
-            {{surface, V, T, {.F_V = -1.0}}}};
+            {{surface, V, T, {.F_V = -1.0}}},
+            kind.group};
   }
-  [[nodiscard]] CorrectionDatum energy_datum(const std::string& kind, PhaseSurface surface, double V,
-                                             double T, double residual) const {
-    return {kind + ", energy",
+  [[nodiscard]] CorrectionDatum energy_datum(const StateKind& kind, PhaseSurface surface, double V, double T,
+                                             double residual) const {
+    return {kind.name + ", energy",
             CorrectionRowKind::energy,
             residual,
             3.0 * gray_.specific_gas_constant() * T,
             1.0,
-            {{surface, V, T, {.F = 1.0, .F_T = -T}}}};
+            {{surface, V, T, {.F = 1.0, .F_T = -T}}},
+            kind.group};
   }
 
   void add(Group group) {
@@ -261,36 +275,40 @@ CorrectionData correction_data(std::span<const md::PointRecord> points, const eo
                                Films films, const FilmErrors& film_errors,
                                std::span<const double> melts_measured) {
   Collector collector(classical, film_errors);
-  const auto add_state = [&](const std::string& kind, const md::StatePoint& p) {
-    collector.state(p.solid ? kind : "molten " + kind, phase_of(p.solid), p.specific_volume, p.temperature,
-                    p.pressure, p.specific_internal_energy, p.error_correlation);
+  const auto add_state = [&](const StateKind& solid, const StateKind& molten, const md::StatePoint& p) {
+    collector.state(p.solid ? solid : molten, phase_of(p.solid), p.specific_volume, p.temperature, p.pressure,
+                    p.specific_internal_energy, p.error_correlation);
   };
   collector.begin_curve("isotherm");
-  for (const md::StatePoint& p : md::select_as<md::StatePoint>(points, "isotherm")) add_state("isotherm", p);
+  for (const md::StatePoint& p : md::select_as<md::StatePoint>(points, "isotherm"))
+    add_state({"isotherm", CurveGroup::isotherm}, {"molten isotherm", CurveGroup::molten_isotherm}, p);
   for (const md::StatePoint& p : md::select_as<md::StatePoint>(points, "isochore")) {
     collector.begin_isochore("isochore", p.specific_volume);
-    add_state("isochore", p);
+    add_state({"isochore", CurveGroup::isochore}, {"molten isochore", CurveGroup::molten_isochore}, p);
   }
   collector.begin_curve("shock");
   for (const md::HugoniotPoint& p : md::select_as<md::HugoniotPoint>(points)) {
     if (!(p.temperature.value > 0.0)) continue;  // an older store
     // The errors of pressure, energy and temperature of a shock are those of one state on the curve: the energy
     // follows from the pressure by the jump condition.
-    collector.state(p.solid ? "shock" : "molten shock", phase_of(p.solid), p.specific_volume,
-                    p.temperature.value, p.pressure, p.specific_internal_energy, 0.0);
+    const StateKind kind =
+        p.solid ? StateKind{"shock", CurveGroup::shock} : StateKind{"molten shock", CurveGroup::molten_shock};
+    collector.state(kind, phase_of(p.solid), p.specific_volume, p.temperature.value, p.pressure,
+                    p.specific_internal_energy, 0.0);
   }
   collector.begin_curve("volume at zero pressure");
   for (const md::ZeroPressurePoint& p : md::select_as<md::ZeroPressurePoint>(points)) {
     const double V = p.specific_volume.value;
     const double error =
         collector.modulus(PhaseSurface::solid, V, p.temperature) * p.specific_volume.error / V;
-    collector.pressure("volume at zero pressure", PhaseSurface::solid, V, p.temperature, p.pressure, error);
+    collector.pressure({"volume at zero pressure", CurveGroup::zero_pressure}, PhaseSurface::solid, V,
+                       p.temperature, p.pressure, error);
   }
   for (const md::FluidPoint& p : md::select_as<md::FluidPoint>(points)) {
     if (!p.uniform) continue;
     collector.begin_isochore("fluid", p.specific_volume);
-    collector.state("fluid", PhaseSurface::fluid, p.specific_volume, p.temperature, p.pressure,
-                    p.specific_internal_energy, p.error_correlation);
+    collector.state({"fluid", CurveGroup::fluid}, PhaseSurface::fluid, p.specific_volume, p.temperature,
+                    p.pressure, p.specific_internal_energy, p.error_correlation);
   }
   collector.begin_curve("melt");
   for (const md::LiquidPoint& p : md::select_as<md::LiquidPoint>(points)) {
@@ -299,10 +317,11 @@ CorrectionData correction_data(std::span<const md::PointRecord> points, const eo
     const double error =
         collector.modulus(PhaseSurface::fluid, V, p.temperature) * p.specific_volume.error / V;
     if (p.specific_internal_energy.error > 0.0) {
-      collector.state("melt", PhaseSurface::fluid, V, p.temperature, {p.pressure, error},
+      collector.state({"melt", CurveGroup::melt}, PhaseSurface::fluid, V, p.temperature, {p.pressure, error},
                       p.specific_internal_energy, 0.0);
     } else {
-      collector.pressure("melt", PhaseSurface::fluid, V, p.temperature, p.pressure, error);
+      collector.pressure({"melt", CurveGroup::melt}, PhaseSurface::fluid, V, p.temperature, p.pressure,
+                         error);
     }
   }
   std::vector<double> known(melts_measured.begin(), melts_measured.end());

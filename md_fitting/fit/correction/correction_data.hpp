@@ -9,6 +9,7 @@
 #include "eos/models/free_energy_spline.hpp"
 #include "eos/models/gray_free_energy.hpp"
 #include "md_fitting/data_set/data_set.hpp"
+#include "md_fitting/fit/correction/left_out_curves.hpp"
 #include "md_fitting/fit/joint/variance_components.hpp"
 
 /// Collects what simulated states say about the free energies of solid and fluid (docs/theory/fit.md, section 10).
@@ -36,6 +37,7 @@ struct CorrectionDatum {
   double scale = 1.0;        ///< by which residuals are reported, in the unit of the datum
   double energy_zero = 0.0;  ///< 1 for an energy, 0 for all others
   std::vector<SurfaceTerm> terms;
+  CurveGroup group = CurveGroup::none;
   std::string curve{};  ///< isotherm, isochore, film, table ... that it belongs to; left out as a whole
 };
 

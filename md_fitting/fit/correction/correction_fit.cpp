@@ -79,9 +79,9 @@ class Problem {
     rows.values += noise;
     VectorXd c = stable(rows, before);
     const auto common = static_cast<Index>(grids_.common.size());
-    c.head(common) = best.head(common) + widened(left_out, "isochore") * (c - best).head(common);
-    c.tail(c.size() - common) =
-        best.tail(c.size() - common) + widened(left_out, "fluid") * (c - best).tail(c.size() - common);
+    c.head(common) = best.head(common) + widened(left_out, CurveGroup::isochore) * (c - best).head(common);
+    c.tail(c.size() - common) = best.tail(c.size() - common) +
+                                widened(left_out, CurveGroup::fluid) * (c - best).tail(c.size() - common);
     return c;
   }
   [[nodiscard]] eos::CorrectedGrayConstants constants(const VectorXd& c) const {
@@ -263,14 +263,12 @@ class Problem {
     return before + gain * VectorXd(sigma.solve(rows.values - rows.matrix * before));
   }
 
-  static double widened(std::span<const LeftOutCurves> left_out, std::string_view group) {
+  static double widened(std::span<const LeftOutCurves> left_out, CurveGroup group) {
     for (const LeftOutCurves& kind : left_out) {
-      if (group_of(kind.kind) == group) return kind.widened;
+      if (kind.group == group) return kind.widened;
     }
     return 1.0;
   }
-  /// Pressures and energies of one sort of curve are widened together: "fluid, pressure" belongs to "fluid".
-  static std::string group_of(const std::string& kind) { return kind.substr(0, kind.find(',')); }
 
   /// Returns how the data of each curve are predicted by all others: states of one isotherm, isochore, Hugoniot, film or
   /// table, pressures and energies together.
@@ -282,7 +280,7 @@ class Problem {
       const bool is_known = datum.row != CorrectionRowKind::kept;
       data.push_back({.kind = datum.kind,
                       .curve = datum.curve,
-                      .group = group_of(datum.kind),
+                      .group = datum.group,
                       .scale = datum.scale,
                       .is_known = is_known});
     }

@@ -95,12 +95,12 @@ std::vector<LeftOutCurves> left_out_curves(std::span<const LeftOutDatum> data, c
   std::vector<Sums> kinds;
   std::map<std::string, std::size_t> place;
   for (const LeftOutDatum& datum : data) {
-    if (datum.is_known && place.emplace(datum.kind, kinds.size()).second)
-      kinds.emplace_back().of_kind.kind = datum.kind;
+    if (!datum.is_known || !place.emplace(datum.kind, kinds.size()).second) continue;
+    kinds.push_back({.of_kind = {.kind = datum.kind, .group = datum.group}});
   }
   std::vector<Curve> predicted;
   predicted.reserve(curves.size());
-  std::map<std::string, std::vector<const Curve*>> groups;
+  std::map<CurveGroup, std::vector<const Curve*>> groups;
   for (const auto& [name, rows] : curves) {
     const MatrixXd of_curve = inverse_of_symmetric(Q(rows, rows));
     const VectorXd deviations = of_curve * VectorXd(weighted(rows));
@@ -114,9 +114,10 @@ std::vector<LeftOutCurves> left_out_curves(std::span<const LeftOutDatum> data, c
     groups[data[curve.front().datum].group].push_back(&curve);
   }
   for (const auto& [group, members] : groups) {
-    const double of_all = group.empty() ? 1.0 : factor_of(members);
+    const bool is_widened = group != CurveGroup::none;
+    const double of_all = is_widened ? factor_of(members) : 1.0;
     for (const Curve* curve : members) {
-      const double factor = group.empty() ? 1.0 : factor_of(members, curve);
+      const double factor = is_widened ? factor_of(members, curve) : 1.0;
       for (const Prediction& prediction : *curve) {
         Sums& kind = kinds[place.at(data[prediction.datum].kind)];
         kind.of_kind.widened = of_all;

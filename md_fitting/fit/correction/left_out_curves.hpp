@@ -9,9 +9,27 @@
 /// How well corrections predict data that took no part in them (docs/theory/fit.md, section 10).
 namespace whipple::fit {
 
+/// Names the curves whose predictions are widened by one factor.
+enum class CurveGroup {
+  none,  ///< not widened
+  isotherm,
+  molten_isotherm,
+  isochore,
+  molten_isochore,
+  shock,
+  molten_shock,
+  zero_pressure,
+  fluid,
+  melt,
+  coexistence,
+  film,
+  measured
+};
+
 /// Describes data of one kind, each predicted without the curve that it belongs to.
 struct LeftOutCurves {
   std::string kind;
+  CurveGroup group = CurveGroup::none;
   int data = 0, curves = 0;
   double inside_68 = 0.0, inside_95 = 0.0;  ///< fraction within both errors, of prediction and datum
   double half_width = 0.0;  ///< median half-width of the 95 % band of the prediction, over the scale
@@ -22,7 +40,7 @@ struct LeftOutCurves {
 /// Names what a datum belongs to.
 struct LeftOutDatum {
   std::string kind, curve;
-  std::string group{};   ///< of kinds whose predictions are widened by one factor; empty: not widened
+  CurveGroup group = CurveGroup::none;
   double scale = 1.0;    ///< of the kind, in the unit of the datum
   bool is_known = true;  ///< otherwise it stays and is not predicted
 };

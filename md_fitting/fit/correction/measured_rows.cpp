@@ -145,6 +145,7 @@ CorrectionData measured_rows(std::span<const MeasuredCurve> curves, const eos::G
                           .residual = measured - here[i],
                           .scale = measured,
                           .terms = std::move(terms),
+                          .group = CurveGroup::measured,
                           .curve = experiment.name});
     }
     if (sizes.empty()) continue;
