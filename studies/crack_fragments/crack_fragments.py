@@ -37,7 +37,7 @@ CASE = {"ring": "ring.toml", "bar": "ring.toml", "shell": "section.toml", "slice
 WALL = {"ring": 2e-3, "shell": 4e-3}  # m, thickness at the start, in plane strain
 PERIMETER = {"ring": 2.0 * np.pi * 21e-3, "shell": 2.0 * np.pi * 22e-3, "slice": 2.0 * np.pi * 22e-3}
 PERIMETER["bar"] = PERIMETER["ring"]  # m, of the middle of the wall
-TEARING = "steel_45_tearing.toml"
+TEARING = {65: "steel_45_tearing.toml", 13: "steel_45_toughness.toml"}  # material by the energy of a crack, kJ/m^2
 
 
 def bar_of(cell):
@@ -54,16 +54,17 @@ class Row:
     fields: str
     cell: str  # mm
     seed: int = 1
-    tearing: bool = False
+    tearing: int = 0  # energy of a crack, kJ/m^2, 0: the law plastic_strain
     long: bool = False
 
     @property
     def name(self):
-        return f"{self.body}_{'tearing_' if self.tearing else ''}{self.fields}_{self.cell}_seed_{self.seed}"
+        law = {0: "", 65: "tearing_"}.get(self.tearing, f"tearing_{self.tearing}_")
+        return f"{self.body}_{law}{self.fields}_{self.cell}_seed_{self.seed}"
 
     @property
     def failure(self):
-        return "`tearing`, 65 kJ/m2" if self.tearing else "`plastic_strain`"
+        return f"`tearing`, {self.tearing} kJ/m2" if self.tearing else "`plastic_strain`"
 
     @property
     def label(self):
@@ -84,7 +85,7 @@ class Row:
         words = [f"domain.cell_size={self.cell} mm", f"body.{number}.failure.cracks={self.fields}",
                  f"body.{number}.failure_scatter.seed={self.seed}"]
         if self.tearing:
-            words += [f"body.{number}.material={TEARING}", 'output.fields=["density","failed","damage"]']
+            words += [f"body.{number}.material={TEARING[self.tearing]}", 'output.fields=["density","failed","damage"]']
         if self.body == "bar":
             words += bar_of(float(self.cell))
         if self.part == "shell":  # until all gaps are open
@@ -95,11 +96,12 @@ class Row:
 ROWS = [Row("ring", fields, cell, long=cell == "0.166667") for cell in ("0.666667", "0.333333", "0.166667") for fields in ("none", "fields")]
 ROWS += [Row("ring", fields, "0.333333", seed) for fields in ("none", "fields") for seed in (2, 3, 4, 5)]
 ROWS += [Row("ring", "fields", "0.166667", seed, long=True) for seed in (2, 3, 4, 5)]
-ROWS += [Row("ring", "fields", cell, tearing=True) for cell in ("0.666667", "0.333333")]
-ROWS += [Row("shell", "none", "0.8", tearing=True), Row("shell", "fields", "0.8", tearing=True),
-         Row("shell", "fields", "0.4", tearing=True, long=True), Row("shell", "fields", "0.2", tearing=True, long=True)]
+ROWS += [Row("ring", "fields", cell, tearing=energy) for energy in TEARING for cell in ("0.666667", "0.333333")]
+ROWS += [Row("shell", "none", "0.8", tearing=65), Row("shell", "fields", "0.8", tearing=65),
+         Row("shell", "fields", "0.4", tearing=65, long=True), Row("shell", "fields", "0.2", tearing=65, long=True),
+         Row("shell", "fields", "0.8", tearing=13), Row("shell", "fields", "0.4", tearing=13, long=True)]
 ROWS += [Row("bar", "fields", cell, seed) for cell in ("0.666667", "0.333333", "0.166667") for seed in (1, 2, 3, 4, 5)]
-ROWS += [Row("slice", fields, cell, tearing=True, long=True) for cell in ("0.8", "0.533333") for fields in ("none", "fields")]
+ROWS += [Row("slice", fields, cell, tearing=65, long=True) for cell in ("0.8", "0.533333") for fields in ("none", "fields")]
 
 
 def run_row(row, whipple):
@@ -170,12 +172,12 @@ def ring_lines(found):
 
 def shell_lines(found):
     """Table of the shells: the mean fragment in mm of the initial perimeter, of a slice as if no crack ran around."""
-    text = [f"| | fields | cells mm | failed % | fragments at {joined(LATE)} us | loose % | by distance, 40 us | mean, mm of perimeter | "
-            "exponent b |", "| --- " * 9 + "|"]
+    text = [f"| | Gamma, kJ/m2 | fields | cells mm | failed % | fragments at {joined(LATE)} us | loose % | by distance, 40 us | mean, mm of perimeter | "
+            "exponent b |", "| --- " * 10 + "|"]
     for row, f in found:
         mean = 1e3 * PERIMETER[row.body] * (1 - f.loose) / f.number if f.number > 0 else np.nan
         kind = "slice" if row.body == "slice" else "section"
-        text.append(f"| {kind} | {row.label} | {float(row.cell):.3g} | {100 * f.failed:.1f} | {joined(f.over_time)} | {100 * f.loose:.2f} | "
+        text.append(f"| {kind} | {row.tearing} | {row.label} | {float(row.cell):.3g} | {100 * f.failed:.1f} | {joined(f.over_time)} | {100 * f.loose:.2f} | "
                     f"{joined(f.by_distance)} | {mean:.2f} | {f.exponent[0]:.2f} +- {f.exponent[1]:.2f} |")
     return text
 
