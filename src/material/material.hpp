@@ -50,9 +50,9 @@ struct Material {
 
   /// Returns whether some plastic work is stored instead of being converted to heat.
   [[nodiscard]] bool stores_cold_work() const { return taylor_quinney < 1.0; }
-  /// Returns whether the material starts as unreacted explosive and burns to products.
   /// Returns whether the deviator returns to a flow stress, which a factor can scale.
   [[nodiscard]] bool returns_radially() const;
+  /// Returns whether the material starts as unreacted explosive and burns to products.
   [[nodiscard]] bool burns() const { return constitutive->explosive() != nullptr; }
   /// Returns the explosive as which it starts; of a material that `burns`.
   [[nodiscard]] const Explosive& burning_explosive() const { return *constitutive->explosive(); }

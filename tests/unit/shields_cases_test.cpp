@@ -14,6 +14,7 @@
 
 #include "src/case/case.hpp"
 #include "src/core/base/error.hpp"
+#include "src/material/material_file.hpp"
 #include "src/shields/alloys.hpp"
 #include "src/shields/case_text.hpp"
 #include "src/shields/layout.hpp"
@@ -223,6 +224,7 @@ TEST(CaseText, FoamOfPanelsIsALayerOrStruts) {
   ASSERT_EQ(section.bodies.size(), 4U);
   EXPECT_EQ(section.bodies[3].name, "foam");
   EXPECT_THAT(section.bodies[3].material, HasSubstr("foam_6101"));
+  EXPECT_NEAR(read_material(section.bodies[3].material).reference.density, 189.0, 1.0);
 
   for (const double angle : {0.0, 0.25 * std::numbers::pi}) {
     const Impact impact = panel(angle);
