@@ -19,7 +19,8 @@ MATERIALS = (  # mm, g, ms: MPa
      (0.54, 4.89, -3.03, 0.014, 1.12), (3940, 1.489, 2.02)),
     ((0.002703, 26000, 69000, 0.33), (324, 114, 0.42, 0.002, 1.34, 925, 293, 0.001), 885,
      (-0.77, 1.45, -0.47, 0, 1.6), (5350, 1.34, 2.0)))
-RUNS = {"elements": {}, "elements, deleted beyond their range": {"element_range.beyond": "remove"},
+RUNS = {"elements": {"discretization.method": "finite_elements"},
+        "elements, deleted beyond their range": {"discretization.method": "finite_elements", "element_range.beyond": "remove"},
         "adaptive": {"discretization.method": "adaptive"}}
 
 
