@@ -18,6 +18,7 @@
 #include "src/io/run_directory.hpp"
 #include "src/solver/simulation.hpp"
 #include "tests/benchmark/sph.hpp"
+#include "tests/page_program.hpp"
 
 namespace whipple::sph {
 namespace {
@@ -185,7 +186,7 @@ std::string table(const Problem& problem) {
   return text;
 }
 
-void write(const std::string& file) {
+void write_table(const std::string& file) {
   std::string text =
       "# SPH beside MPM\n\nWritten by `build/release/tests/bin/sph_beside_mpm`; one thread, processor "
       "time.\n";
@@ -193,13 +194,17 @@ void write(const std::string& file) {
   io::write_text_atomically(file, text);
 }
 
+const char* const usage = "usage: sph_beside_mpm FILE.md";
+
+int write(int argc, char** argv) {
+  write_table(tests::page_of(argc, argv, 1, usage));
+  return 0;
+}
+
 }  // namespace
 }  // namespace whipple::sph
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::cerr << "usage: sph_beside_mpm FILE.md\n";
-    return 2;
-  }
-  whipple::sph::write(argv[1]);
+  using namespace whipple::sph;
+  return whipple::tests::run_page_program("sph_beside_mpm", usage, write, argc, argv);
 }

@@ -8,7 +8,6 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <exception>
 #include <fstream>
 #include <functional>
 #include <iostream>
@@ -17,7 +16,9 @@
 #include <utility>
 #include <vector>
 
+#include "src/core/base/error.hpp"
 #include "src/io/run_directory.hpp"
+#include "tests/page_program.hpp"
 #include "tests/verification/exact/advected_block.hpp"
 #include "tests/verification/exact/gas_problems.hpp"
 #include "tests/verification/exact/oblique_impact.hpp"
@@ -68,6 +69,8 @@ class Suite {
     return results;
   }
   void add_text(const std::string& text) { text_ += text; }
+  /// @returns whether no title held the text
+  [[nodiscard]] bool is_empty() const { return text_ == introduction; }
   [[nodiscard]] const std::string& text() const { return text_; }
 
  private:
@@ -215,26 +218,27 @@ void write_table(const std::string& path, const std::string& only) {
               "Two bodies in free space, offset by half their width; affine fields deformed or turned.",
               runs);
   }
+  if (suite.is_empty()) throw InputError(fmt::format("no title holds \"{}\"", only));
   io::write_text_atomically(path, suite.text());
+}
+
+const char* const usage = "usage: exact_suite FILE.md [PART OF A TITLE [OPTIONS.toml]]";
+
+int write(int argc, char** argv) {
+  const std::string page = tests::page_of(argc, argv, 3, usage);
+  if (argc == 4) {
+    std::ifstream options(argv[3]);
+    if (!options) throw InputError(std::string("cannot read ") + argv[3]);
+    options_of_all_cases().assign(std::istreambuf_iterator<char>(options), {});
+  }
+  write_table(page, argc > 2 ? argv[2] : "");
+  return 0;
 }
 
 }  // namespace
 }  // namespace whipple::verification::exact
 
 int main(int argc, char** argv) {
-  if (argc < 2 || argc > 4) {
-    std::cerr << "usage: exact_suite FILE.md [PART OF A TITLE [OPTIONS.toml]]\n";
-    return 2;
-  }
-  if (argc == 4) {
-    std::ifstream options(argv[3]);
-    whipple::verification::exact::options_of_all_cases().assign(std::istreambuf_iterator<char>(options), {});
-  }
-  try {
-    whipple::verification::exact::write_table(argv[1], argc > 2 ? argv[2] : "");
-  } catch (const std::exception& error) {
-    std::cerr << "error: " << error.what() << '\n';
-    return 1;
-  }
-  return 0;
+  using namespace whipple::verification::exact;
+  return whipple::tests::run_page_program("exact_suite", usage, write, argc, argv);
 }

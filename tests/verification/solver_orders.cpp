@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "src/core/base/error.hpp"
+#include "tests/page_program.hpp"
 #include "tests/verification/element_orders.hpp"
 
 namespace whipple::verification {
@@ -136,14 +137,17 @@ before the positions (leapfrog); with `usf` stresses are initialised a step befo
   io::write_text_atomically(path, text + elements());
 }
 
+const char* const usage = "usage: orders_of_convergence FILE.md";
+
+int write(int argc, char** argv) {
+  write_table(tests::page_of(argc, argv, 1, usage));
+  return 0;
+}
+
 }  // namespace
 }  // namespace whipple::verification
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::cerr << "usage: orders_of_convergence FILE.md\n";
-    return 2;
-  }
-  whipple::verification::write_table(argv[1]);
-  return 0;
+  using namespace whipple::verification;
+  return whipple::tests::run_page_program("orders_of_convergence", usage, write, argc, argv);
 }
