@@ -35,7 +35,7 @@ def shown(value, unit, digits=4):
     if value is None or not math.isfinite(value):
         return "–"
     text = f"{value / UNITS[unit]:.{digits}g}"
-    return f"{text} {unit}" if unit else text
+    return text if unit in ("", "1") else f"{text} {unit}"
 
 
 def expected(q):
