@@ -273,8 +273,15 @@ def main():
         return 0
     if arguments == ["--self-test"]:
         documents, faults = ["self-test"], self_test()
+    elif arguments in (["--help"], ["-h"]):
+        print(__doc__)
+        return 0
     else:
         root = pathlib.Path(arguments[0]).resolve() if arguments else pathlib.Path(__file__).resolve().parents[1]
+        if len(arguments) > 1 or not (root / "docs").is_dir():
+            print(f"check_documents.py: error: {' '.join(arguments)}: expected the root of the project, --wrap FILE..., "
+                  "--self-test or --help", file=sys.stderr)
+            return 2
         documents, faults = check(root)
     for fault in faults:
         print(fault)

@@ -4,17 +4,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
 #include <optional>
 #include <set>
+#include <string_view>
+#include <utility>
 
 #include "src/analysis/requests.hpp"
 #include "src/analysis/run.hpp"
 #include "src/analysis/run_table.hpp"
 #include "src/case/shapes/axis.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/base/units.hpp"
 
 namespace whipple::analysis {
 namespace {
@@ -26,10 +30,15 @@ struct Particles {
   std::map<std::string, std::vector<double>> scalars;  ///< fields, and of the velocity its component along x
 };
 
-/// Reads the particles of a body at the last snapshot until a time; nothing without one, or without the body.
+/// Reads the particles of a body at the last snapshot until a time; nothing without one.
+/// @throws InputError if the run has no such body
 std::optional<Particles> particles_of(const Run& run, const std::string& name, double time) {
   const auto body = std::ranges::find(run.bodies, name, &BodyInput::name);
-  if (body == run.bodies.end()) return std::nullopt;
+  if (body == run.bodies.end()) {
+    std::vector<std::string> names;
+    for (const BodyInput& other : run.bodies) names.push_back(other.name);
+    throw InputError(fmt::format("there is no body \"{}\"; there are {}", name, fmt::join(names, ", ")));
+  }
   const SnapshotEntry* last = nullptr;
   for (const SnapshotEntry& entry : run.snapshots) {
     const bool is_until = entry.time <= time * (1.0 + 1e-6);
@@ -88,20 +97,47 @@ double tip_speed(const Particles& particles, double fraction) {
   return order.empty() ? nan : speed(order[place_of_fraction(particles, order, fraction)]);
 }
 
+/// SI units of the fields whose profiles are compared.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 6> profile_units = {
+    {{"x", "m"},
+     {"pressure", "Pa"},
+     {"density", "kg/m^3"},
+     {"velocity", "m/s"},
+     {"temperature", "K"},
+     {"internal_energy", "J/kg"}}};
+
+/// Returns a column of a profile in SI units.
+/// @throws InputError naming the file if it is missing, has another dimension, or has gaps
+std::vector<double> profile_column(const RunTable& table, const std::string& file, const std::string& name) {
+  const auto known = std::ranges::find(profile_units, name, [](const auto& entry) { return entry.first; });
+  if (known == profile_units.end()) {
+    throw InputError(fmt::format(
+        "profiles of \"{}\" are not compared: accepted are pressure, density, velocity, temperature, "
+        "internal_energy",
+        name));
+  }
+  if (table.columns().empty()) throw InputError(fmt::format("{}: there is no such table", file));
+  const Column* const column = table.find(name);
+  if (column == nullptr) throw InputError(fmt::format("{}: has no column \"{}\"", file, name));
+  if (column->unit.empty()) throw InputError(fmt::format("{}: column \"{}\" has no unit", file, name));
+  const double factor = units::conversion(column->unit, known->second).factor;
+  std::vector<double> values = column->values;
+  for (double& value : values) value *= factor;
+  if (values.size() < 2 || !std::ranges::all_of(values, [](double v) { return std::isfinite(v); }))
+    throw InputError(fmt::format("{}: expected two or more complete rows of \"x\" and \"{}\"", file, name));
+  return values;
+}
+
 }  // namespace
 
 double profile_error(const Request& request) {
-  const std::optional<Particles> found = particles_of(request, whenever);
   const RunTable exact(request.table, RunTable::Row::complete);
-  for (const std::string& column : {std::string("x"), request.names[1]}) {
-    if (exact.find(column) == nullptr) {
-      throw InputError(fmt::format(
-          "{}: {}", request.table.string(),
-          exact.columns().empty() ? "there is no such table" : fmt::format("has no column \"{}\"", column)));
-    }
-  }
-  const std::vector<double>&places = exact["x"], &values = exact[request.names[1]];
-  if (!found || places.empty()) return nan;
+  const std::string file = request.table.string();
+  const std::vector<double> places = profile_column(exact, file, "x"),
+                            values = profile_column(exact, file, request.names[1]);
+  if (!std::ranges::is_sorted(places)) throw InputError(fmt::format("{}: x must increase", file));
+  const std::optional<Particles> found = particles_of(request, whenever);
+  if (!found) return nan;
   const auto field = found->scalars.find(request.names[1]);
   if (field == found->scalars.end()) return nan;
   double miss = 0.0, scale = 0.0;

@@ -89,7 +89,28 @@ void add_verbosity(CLI::App& command) {
   }
 }
 
+namespace {
+
+/// Makes every option refuse an empty value, which a variable of the shell that is not set leaves, and numbers refuse NaN,
+/// which lies in every range.
+void refuse_empty_values(CLI::App& command) {
+  for (CLI::Option* option : command.get_options(
+           [](const CLI::Option* o) { return o->get_expected_max() > 0 && !o->get_positional(); })) {
+    const bool is_number = option->get_type_name().starts_with("FLOAT");
+    option->check([is_number](const std::string& value) -> std::string {
+      if (value.empty()) return "is empty";
+      const bool starts_nan = value.find_first_of("nN") == value.find_first_not_of("+-");
+      return is_number && starts_nan ? "is not a number" : "";
+    });
+  }
+  for (CLI::App* subcommand : command.get_subcommands([](const CLI::App*) { return true; }))
+    refuse_empty_values(*subcommand);
+}
+
+}  // namespace
+
 int run_command_line(CLI::App& app, int argc, char** argv) {
+  refuse_empty_values(app);
   if (argc < 2) {
     fmt::print(stderr, "{}", app.help());
     return static_cast<int>(ExitCode::input);

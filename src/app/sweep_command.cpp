@@ -65,9 +65,11 @@ void claim_folder(const fs::path& folder, const fs::path& study) {
   const bool is_empty = std::ranges::all_of(
       fs::directory_iterator(folder),
       [](const fs::directory_entry& entry) { return entry.path().filename() == lock_name; });
-  if (!is_empty)
+  if (!is_empty) {
+    if (fs::exists(owner_file(folder))) return require_owner(folder, study);  // by another task, a moment ago
     throw InputError(
         fmt::format("{} is not empty and no folder of a study: give another one with -o", folder.string()));
+  }
   write_text_atomically(owner_file(folder), owner_text(study));
 }
 
@@ -171,7 +173,7 @@ Outcome compute_study(const SweepArguments& arguments, const fs::path& folder) {
   require_no_file(folder);
   make_folder(folder);
   if (arguments.point >= 0) {
-    require_owner(folder, arguments.study);
+    claim_folder(folder, arguments.study);
     return {compute_point(arguments, plan, computer, pool)};
   }
   const FileLock lock(folder / lock_name, fmt::format("the folder of the study {}", folder.string()),

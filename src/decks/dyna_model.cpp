@@ -13,45 +13,12 @@
 
 #include "src/decks/dyna_contact.hpp"
 #include "src/decks/dyna_fields.hpp"
+#include "src/decks/dyna_keywords.hpp"
 #include "src/decks/dyna_sets.hpp"
 #include "src/decks/unit_system.hpp"
 
 namespace whipple::decks::dyna {
 namespace {
-
-/// Lists keywords without influence on the physics of the case.
-constexpr std::array harmless = {"KEYWORD",
-                                 "KEYWORD_ID",
-                                 "KEYWORD_JOBID",
-                                 "END",
-                                 "COMMENT",
-                                 "CONTROL_ENERGY",
-                                 "CONTROL_OUTPUT",
-                                 "CONTROL_CPU",
-                                 "CONTROL_HOURGLASS",
-                                 "HOURGLASS",
-                                 "CONTROL_BULK_VISCOSITY",
-                                 "CONTROL_SOLUTION",
-                                 "CONTROL_TIMESTEP",
-                                 "CONTROL_CONTACT",
-                                 "CONTROL_SPH",
-                                 "CONTROL_ALE",
-                                 "CONTROL_ACCURACY",
-                                 "CONTROL_SHELL",
-                                 "CONTROL_SOLID",
-                                 "CONTROL_PARALLEL",
-                                 "CONTROL_UNITS"};
-/// Lists keywords that define items used by others: if such an item is not read, it is reported.
-constexpr std::array used_by_others = {"DEFINE_CURVE",
-                                       "DEFINE_TABLE",
-                                       "DEFINE_VECTOR",
-                                       "DEFINE_COORDINATE_SYSTEM",
-                                       "DEFINE_COORDINATE_VECTOR",
-                                       "SET_SEGMENT",
-                                       "SET_SOLID",
-                                       "SET_SOLID_GENERATE",
-                                       "SET_SHELL",
-                                       "SET_SHELL_LIST"};
 
 /// Returns the letters, digits, '_' and '-' of a heading, as the name of a body.
 std::string name_of(std::string_view heading) {
@@ -158,8 +125,15 @@ class ModelReader {
     remark(Outcome::exact, block, "detonation goes around what is no explosive");
   }
   void taken(const Block& block) { remark(Outcome::exact, block, "read"); }
-  void material(const Block& block) { model_.materials[first_id(block)] = &block; }
-  void state(const Block& block) { model_.states[first_id(block)] = &block; }
+  void material(const Block& block) { define(model_.materials, block, "material"); }
+  void state(const Block& block) { define(model_.states, block, "equation of state"); }
+  /// Keeps a block by its number. @throws InputError if another has it: which of them counts is not known
+  void define(auto& blocks, const Block& block, std::string_view what) {
+    const Id number = first_id(block);
+    const auto [place, is_new] = blocks.emplace(number, &block);
+    if (!is_new)
+      fail(block, fmt::format("{} {} is defined at line {}, too", what, number, place->second->line));
+  }
   void node_set(const Block& block) { set(block, node_sets_); }
   void part_set(const Block& block) { set(block, part_sets_); }
   void general_node_set(const Block& block) { general_sets_.push_back(&block); }
@@ -171,7 +145,10 @@ class ModelReader {
     remark(Outcome::exact, block, "title");
   }
   void end(const Block& block) {
+    const double earlier = model_.end;
     model_.end = first(block).required(0, "the end time");
+    if (earlier > 0.0 && earlier != model_.end)
+      fail(block, fmt::format("another *{} has the end time {}", block.keyword, earlier));
     if (!(model_.end > 0.0)) fail(block, "the end time must be > 0");
     remark(Outcome::exact, block, "time.end");
     check(block);
@@ -227,7 +204,9 @@ class ModelReader {
       faults_.guarded([&] {
         const Fields fields(deck_, block, card, node_widths);
         const auto node = static_cast<Id>(fields.required(0, "the number of a node"));
-        model_.nodes[node] = Vector3(fields.real(1), fields.real(2), fields.real(3));
+        const Vector3 place(fields.real(1), fields.real(2), fields.real(3));
+        if (const auto [other, is_new] = model_.nodes.emplace(node, place); !is_new && other->second != place)
+          fail(block, card.line, fmt::format("node {} lies at another place, too", node));
         // Rotational constraints (RC) do not apply to nodes of solids.
         constexpr std::array<Directions, 8> of_code = {0, 1, 2, 4, 3, 6, 5, 7};
         const Id code = fields.id(4);

@@ -89,6 +89,18 @@ double UnitSystem::in_si(double value, const Dimension& dimension) const {
   return name.empty() ? value : units::convert(value, name, si_unit(dimension));
 }
 
+namespace {
+
+/// Sets the unit of a dimension. @throws InputError if the text has named another one
+template <class Unit>
+void take(std::string& unit, const Unit& found, std::string_view text) {
+  if (!unit.empty() && unit != found)
+    throw InputError(fmt::format("units \"{}\" contradict each other: {} and {}", text, unit, found));
+  unit = found;
+}
+
+}  // namespace
+
 std::optional<UnitSystem> parse_unit_system(std::string_view text) {
   std::string words(text);
   std::ranges::replace_if(
@@ -101,12 +113,12 @@ std::optional<UnitSystem> parse_unit_system(std::string_view text) {
       derived.emplace_back(word, Dimension{.length = 1, .mass = 1, .time = -2});
     } else if (std::ranges::find(pressures, word) != pressures.end()) {
       derived.emplace_back(word, dimension::pressure);
-    } else if (const auto length = found_in(lengths, word); length && system.length.empty()) {
-      system.length = *length;
-    } else if (const auto mass = found_in(masses, word); mass && system.mass.empty()) {
-      system.mass = *mass;
-    } else if (const auto time = found_in(times, word); time && system.time.empty()) {
-      system.time = *time;
+    } else if (const auto length = found_in(lengths, word)) {
+      take(system.length, *length, text);
+    } else if (const auto mass = found_in(masses, word)) {
+      take(system.mass, *mass, text);
+    } else if (const auto time = found_in(times, word)) {
+      take(system.time, *time, text);
     }
   }
   if (system.length.empty() || system.mass.empty() || system.time.empty()) return std::nullopt;

@@ -347,8 +347,19 @@ TEST_F(Jets, TheErrorOfAProfileIsWeightedByMassWithinTheTable) {
   EXPECT_DOUBLE_EQ(take("profile_error.strip.velocity" + table), 20.0 / 100.0);
   EXPECT_THAT(refusal("profile_error.strip.density" + table), HasSubstr("has no column \"density\""));
   EXPECT_THAT(refusal("profile_error.strip.pressure table=" + path("none.csv")), HasSubstr("no such table"));
-  EXPECT_TRUE(std::isnan(take("profile_error.copper.pressure" + table)));
   EXPECT_TRUE(std::isnan(take("profile_error.air.pressure" + table)));
+  EXPECT_THAT(refusal("profile_error.copper.pressure" + table),
+              HasSubstr("there is no body \"copper\"; there are air, strip"));
+  const auto of_table = [&](const std::string& text) {
+    file("other.csv") << text;
+    return "profile_error.strip.pressure table=" + path("other.csv");
+  };
+  EXPECT_DOUBLE_EQ(take(of_table("x [mm],pressure [kPa]\n0,0.01\n1000,0.02\n")), 1.0 / 40.0);
+  EXPECT_THAT(refusal(of_table("x,pressure\n0,10\n1,20\n")), HasSubstr("column \"x\" has no unit"));
+  EXPECT_THAT(refusal(of_table("x [m],pressure [K]\n0,10\n1,20\n")), HasSubstr("wrong dimension"));
+  EXPECT_THAT(refusal(of_table("x [m],pressure [Pa]\n1,10\n0,20\n")), HasSubstr("x must increase"));
+  EXPECT_THAT(refusal(of_table("x [m],pressure [Pa]\n0,10\n")), HasSubstr("two or more complete rows"));
+  EXPECT_THAT(refusal("profile_error.strip.colour" + table), HasSubstr("accepted are pressure, density"));
 }
 
 TEST_F(Jets, TheSpeedIsExceededByTheFraction) {

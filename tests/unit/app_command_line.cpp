@@ -117,6 +117,8 @@ TEST_F(CommandLine, WrongWordsAndQuantitiesNameTheirOption) {
            {"export run -o out --format xml", "--format: xml not in {vtu,csv}"},
            {"run case.toml --device card", "--device: card not in {cpu,reference,emulated,gpu}"},
            {"run case.toml --device 1", "--device: 1 not in {cpu,reference,emulated,gpu}"},
+           {"sweep study.toml --slurm ''", "--slurm: is empty"},
+           {"shield shots.toml --most-across nan", "--most-across: is not a number"},
            {"run case.toml --wall-time 5", "--wall-time: is 5 without a unit"},
            {"run case.toml --wall-time '-5 s'", "--wall-time: is -5 s, but must be > 0 s"},
            {"analyse run --witness '5 s'", "--witness: unit 's' has the wrong dimension"},

@@ -93,6 +93,13 @@ TEST(Units, WrongDimensionNamesBothUnits) {
             "unit 'GPa' has the wrong dimension: expected a unit of the kind '1 (no unit)'");
 }
 
+// UDUNITS2 converts between a unit and its reciprocal.
+TEST(Units, ReciprocalsAreNotConverted) {
+  EXPECT_EQ(message_of("1 1/s", "s"),
+            "unit '1/s' is the reciprocal of what is expected: a unit of the kind 's'");
+  EXPECT_NE(message_of("3 GPa-1", "Pa"), "accepted");
+}
+
 TEST(Units, ABareNumberIsNoQuantity) {
   EXPECT_EQ(message_of("42", "m/s"), "is 42 without a unit; in SI units that would be \"42 m/s\"");
   EXPECT_EQ(message_of("-0.0", "m/s"), "accepted");
@@ -120,9 +127,12 @@ TEST(Units, InfinityAndNanAreRefused) {
 
 // A unit with a number in front of it ("3 2 m") is a typing error, not three times two metres.
 TEST(Units, SecondNumberIsRefused) {
-  for (const char* text : {"3 2 m", "1,5 m", "1.5.5 m", "3 * 2", "1e3e3 m", "5 1e3 m"}) {
+  for (const char* text : {"3 2 m", "1,5 m", "1.5.5 m", "3 * 2", "1e3e3 m", "5 1e3 m", "1 m^1.5", "1 m1.5",
+                           "1 -1m", "1 m/-1", "1 m)"}) {
     EXPECT_NE(message_of(text, "m"), "accepted") << text;
   }
+  for (const char* text : {"1 m^2", "1 m2", "1 1/m-2", "1 (m)2", "1 m+2", "1 m^4/m^+2", "1 m^10 m^-8"})
+    EXPECT_EQ(message_of(text, "m^2"), "accepted") << text;
 }
 
 TEST(Units, WrittenQuantityReadsBackToTheSameBits) {

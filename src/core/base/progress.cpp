@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string>
 #include <utility>
 
 #include "src/core/base/text.hpp"
@@ -46,14 +47,17 @@ void Progress::print(double done, const std::string& remark, bool last) {
   const std::string left = last         ? "in " + format_duration(elapsed)
                            : rate > 0.0 ? format_duration((total_ - done) / rate) + " left"
                                         : "time left unknown";
+  // Written without a check: a full disk or a closed terminal does not end the work.
+  std::string line;
   if (terminal_) {
     const int filled = static_cast<int>(std::lround(share * bar_width));
     const std::string bar(static_cast<std::size_t>(filled), '#');
-    fmt::print(stderr, "\r{} [{:-<{}}] {:5.1f} %  {}  {}\033[K{}", label_, bar, bar_width, 100 * share, left,
-               remark, last ? "\n" : "");
+    line = fmt::format("\r{} [{:-<{}}] {:5.1f} %  {}  {}\033[K{}", label_, bar, bar_width, 100 * share, left,
+                       remark, last ? "\n" : "");
   } else {
-    fmt::print(stderr, "{} {:5.1f} %  {}  {}\n", label_, 100 * share, left, remark);
+    line = fmt::format("{} {:5.1f} %  {}  {}\n", label_, 100 * share, left, remark);
   }
+  std::fputs(line.c_str(), stderr);
   std::fflush(stderr);
 }
 

@@ -59,23 +59,26 @@ class UnitSystem {
 UnitPtr parse_unit(const UnitSystem& system, std::string_view text, std::string_view kind) {
   // The scanner of UDUNITS2 copies unknown characters to standard output.
   const bool printable = std::ranges::none_of(text, [](unsigned char c) { return c < 0x20 || c == 0x7f; });
-  UnitPtr unit = printable ? system.parse(std::string(text)) : UnitPtr(nullptr, &ut_free);
+  // ... and it passes over a parenthesis that closes none.
+  const bool paired = std::ranges::count(text, '(') == std::ranges::count(text, ')');
+  UnitPtr unit = printable && paired ? system.parse(std::string(text)) : UnitPtr(nullptr, &ut_free);
   if (!unit) throw InputError(fmt::format("unknown unit '{}': expected a unit of the kind '{}'", text, kind));
   return unit;
 }
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// Returns whether a unit contains a number other than an exponent: UDUNITS2 multiplies by it, so that "3 2 m" would be
-/// six metres. A leading one is allowed, as in "1/Pa".
+/// Returns whether a unit contains a number other than a whole exponent: UDUNITS2 multiplies by it, so that "3 2 m" would
+/// be six metres, and "m^1.5" five. A leading one is allowed, as in "1/Pa".
 bool has_factor(std::string_view unit) {
+  const auto may_carry = [&](std::size_t end) {  // what stands before `end` takes an exponent
+    const char last = end == 0 ? ' ' : unit[end - 1];
+    return std::isalpha(static_cast<unsigned char>(last)) != 0 || last == ')' || last == '^';
+  };
   for (std::size_t i = unit.starts_with("1/") ? 1 : 0; i < unit.size(); ++i) {
-    if (!is_digit(unit[i])) continue;
-    const char before = i == 0 ? ' ' : unit[i - 1];
-    const bool exponent = std::isalpha(static_cast<unsigned char>(before)) != 0 || is_digit(before) ||
-                          std::string_view(")^-+").find(before) != std::string_view::npos;
-    const bool decimals = before == '.' && i >= 2 && is_digit(unit[i - 2]);
-    if (!exponent && !decimals) return true;
+    if (!is_digit(unit[i]) || (i > 0 && is_digit(unit[i - 1]))) continue;
+    const bool has_sign = i > 0 && (unit[i - 1] == '-' || unit[i - 1] == '+');
+    if (!may_carry(has_sign ? i - 1 : i)) return true;
   }
   return false;
 }
@@ -125,6 +128,10 @@ Conversion conversion(std::string_view unit, std::string_view si_unit) {
   }
   const ConverterPtr converter(ut_get_converter(from.get(), to.get()), &cv_free);
   const double offset = cv_convert_double(converter.get(), 0.0);
+  if (!std::isfinite(offset)) {  // UDUNITS2 converts between a unit and its reciprocal, too
+    throw InputError(
+        fmt::format("unit '{}' is the reciprocal of what is expected: a unit of the kind '{}'", unit, kind));
+  }
   return {cv_convert_double(converter.get(), 1.0) - offset, offset};
 }
 
