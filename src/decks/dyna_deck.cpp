@@ -73,6 +73,7 @@ class BlockReader {
       } else if (!block.keyword.empty()) {
         block.cards.push_back({line, with_plain_minus(std::move(content))});
       } else if (depth > 0 && !trimmed(content).empty()) {
+        block.keyword = "INCLUDE";
         block.file = file.string();
         fail(block, line, "an included file begins with a keyword, such as *NODE");
       }
@@ -122,8 +123,6 @@ class BlockReader {
     if (block.keyword != "INCLUDE")
       fail(block, "of the keywords *INCLUDE_... none is read: put its file into the deck");
     if (depth >= deepest_include) fail(block, "files include one another too deeply");
-    if (std::ranges::all_of(block.cards, [](const Card& card) { return trimmed(card.text).empty(); }))
-      fail(block, "names no file");
     for (const Card& card : block.cards) {
       const std::string name = trimmed(card.text);
       if (name.empty()) continue;

@@ -463,22 +463,21 @@ TEST_F(DynaImport, FilesThatAreIncludedAreLimitedInTheirSum) {
               HasSubstr("deck.k:2:1: error: *INCLUDE: files of more than "));
 }
 
-TEST_F(DynaImport, WhatIsStatedTwiceOrNotAtAllIsRefused) {
+TEST_F(DynaImport, WhatIsStatedTwiceIsRefused) {
   const auto fault = [](const std::string& keyword) {
     return message_of<InputError>([&] { static_cast<void>(with_keyword(keyword)); });
   };
   EXPECT_THAT(fault("*CONTROL_TERMINATION\n     0.002\n"),
               HasSubstr("another *CONTROL_TERMINATION has the end time 0.0005"));
   EXPECT_THAT(fault("*EOS_GRUNEISEN\n         1      3940\n"),
-              HasSubstr("equation of state 1 is defined at line 24, too"));
+              HasSubstr("equation of state 1 is defined at line 29, too"));
   EXPECT_THAT(fault("*MAT_ELASTIC\n         2       1.0\n"),
-              HasSubstr("material 2 is defined at line 19, too"));
+              HasSubstr("material 2 is defined at line 23, too"));
   EXPECT_THAT(fault("*NODE\n       1            -7.5\n"), HasSubstr("node 1 lies at another place, too"));
-  EXPECT_THAT(fault("*INCLUDE\n\n"), HasSubstr("names no file"));
   std::ofstream(folder_ / "words") << "root:x:0:0\n";
   EXPECT_THAT(message_of<InputError>(
                   [&] { static_cast<void>(dyna::parse(folder_ / "deck.k", "*KEYWORD\n*INCLUDE\nwords\n")); }),
-              HasSubstr("words:1:1: error: : an included file begins with a keyword"));
+              HasSubstr("words:1:1: error: *INCLUDE: an included file begins with a keyword"));
 }
 
 }  // namespace
