@@ -126,7 +126,8 @@ std::vector<char*> arguments_of(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   if (argc > 1 && has_threads(argv[1])) wait_passively(argv);
-  if (argc > 1 && has_threads(argv[1])) std::signal(SIGPIPE, SIG_IGN);  // whoever read the progress has left
+  // A run goes on when whoever read its messages has left.
+  if (argc > 1 && argv[1] == std::string_view("run")) std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ,
               SIG_IGN);  // the maximum file size is reported as a write error, like a full disk
   // Large arrays are returned to the system when they are freed. By default, glibc raises this threshold up to 32 MB
