@@ -8,6 +8,7 @@ The compiler inlines such a function into the entry of a kernel (`Wide::run`, sr
 function between them is inlined by force; otherwise it calls it, without a warning, and the kernel becomes slow.
 Exit code 1 if an object holds such a function.
 """
+import pathlib
 import re
 import subprocess
 import sys
@@ -24,7 +25,10 @@ def left_over(library):
 
 
 def main():
-    if len(sys.argv) < 2:
+    if sys.argv[1:] in (["--help"], ["-h"]):
+        print(__doc__)
+        return 0
+    if len(sys.argv) < 2 or not all(pathlib.Path(name).is_file() for name in sys.argv[1:]):
         print(__doc__, file=sys.stderr)
         return 2
     functions = [(library, name) for library in sys.argv[1:] for name in left_over(library)]

@@ -13,7 +13,9 @@ import subprocess
 import sys
 
 if len(sys.argv) != 4:
-    sys.exit(__doc__)
+    asked = sys.argv[1:] in (["--help"], ["-h"])
+    print(__doc__, file=sys.stdout if asked else sys.stderr)
+    sys.exit(0 if asked else 2)
 clang, cuda, work = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
 root = pathlib.Path(__file__).resolve().parent.parent
 (work / "include").mkdir(parents=True, exist_ok=True)

@@ -29,7 +29,9 @@ def label(quantity, unit):
 
 def main():
     if len(sys.argv) != 3:
-        sys.exit(__doc__)
+        asked = sys.argv[1:] in (["--help"], ["-h"])
+        print(__doc__, file=sys.stdout if asked else sys.stderr)
+        sys.exit(0 if asked else 2)
     with open(sys.argv[1], encoding="utf-8") as file:
         panels = json.load(file)
     plt.rcParams.update({"font.size": 9, "axes.spines.top": False, "axes.spines.right": False})

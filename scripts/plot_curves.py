@@ -62,7 +62,9 @@ def legend_entries(curves):
 
 def main():
     if len(sys.argv) != 3:
-        sys.exit(__doc__)
+        asked = sys.argv[1:] in (["--help"], ["-h"])
+        print(__doc__, file=sys.stdout if asked else sys.stderr)
+        sys.exit(0 if asked else 2)
     with open(sys.argv[1], encoding="utf-8") as file:
         description = json.load(file)
     plt.rcParams.update({

@@ -172,7 +172,9 @@ MOST_COLUMNS = 3  # of panels: more cannot be read at the width of a page
 
 def main():
     if len(sys.argv) != 3:
-        sys.exit(__doc__)
+        asked = sys.argv[1:] in (["--help"], ["-h"])
+        print(__doc__, file=sys.stdout if asked else sys.stderr)
+        sys.exit(0 if asked else 2)
     with open(sys.argv[1], encoding="utf-8") as file:
         data = json.load(file)
     plt.rcParams.update({"font.size": 9, "axes.spines.top": False, "axes.spines.right": False})

@@ -49,6 +49,10 @@ def panel(axes, rows, variable, quantity, limits):
 
 
 def main():
+    if len(sys.argv) != 3:
+        asked = sys.argv[1:] in (["--help"], ["-h"])
+        print(__doc__, file=sys.stdout if asked else sys.stderr)
+        sys.exit(0 if asked else 2)
     study, folder = json.loads(pathlib.Path(sys.argv[1]).read_text(encoding="utf-8")), pathlib.Path(sys.argv[2])
     rows, units = study["points"]["rows"], study["points"]["units"]
     limits = study.get("limits", {"rows": []})["rows"]

@@ -128,7 +128,7 @@ void add_materials_command(CLI::App& app) {
       "--markdown", *markdown,
       "Tables of values computed from the equations of state (docs/manual/materials.md), in Markdown");
   const auto json = std::make_shared<bool>(false);
-  command->add_flag("--json", *json, "The list for programs");
+  command->add_flag("--json", *json, "The list for programs")->excludes("--markdown");
   command->callback([command, markdown, json] {
     if (!command->get_subcommands().empty()) return;
     if (*json) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -85,7 +86,6 @@ void write_slurm(const SweepArguments& arguments, const sweep::Plan& plan, const
   if (plan.study.find)
     throw InputError(
         "--slurm: the points of [find] depend on each other: run whipple sweep in one job instead");
-  if (arguments.slurm.find('\n') != std::string::npos) throw InputError("--slurm: options are one line");
   const fs::path file = folder / "array.sh";
   const std::string text = fmt::format(
       "#!/bin/sh\n#SBATCH --array=0-{}\n#SBATCH --cpus-per-task={}\n#SBATCH {}\n"
@@ -229,14 +229,19 @@ void add_sweep_command(CLI::App& app) {
   command->add_flag("--retry", arguments->retry, "Compute failed points once more");
   command->add_flag("--json", arguments->json, "The tables for programs, to standard output");
   command->add_flag("--no-figures", arguments->no_figures, "Tables only");
-  command
-      ->add_option("--slurm", arguments->slurm,
-                   "Write the script of a Slurm job array with these options, e.g. '--time=1:00:00', and "
-                   "compute nothing")
-      ->type_name("OPTIONS");
+  CLI::Option* const slurm =
+      command
+          ->add_option("--slurm", arguments->slurm,
+                       "Write the script of a Slurm job array with these options, e.g. '--time=1:00:00', and "
+                       "compute nothing")
+          ->type_name("OPTIONS")
+          ->check([](const std::string& options) {
+            return options.find('\n') == std::string::npos ? "" : "options are one line";
+          });
   command->add_option("--point", arguments->point, "Compute this point alone: a task of the job array")
       ->type_name("NUMBER")
-      ->check(CLI::NonNegativeNumber);
+      ->excludes(slurm)
+      ->check(CLI::Range(0, std::numeric_limits<int>::max()));
   command->footer(
       "Example:\n  whipple sweep study.toml -o run/study\n"
       "Interrupted, the same command goes on: finished points are found by the digest of their input.\n"

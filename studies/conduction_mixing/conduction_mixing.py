@@ -8,6 +8,7 @@ particles and of those away from the interface.
 
     python -m studies.conduction_mixing.conduction_mixing
 """
+import argparse
 import math
 
 import numpy as np
@@ -100,4 +101,5 @@ def main():
 
 
 if __name__ == "__main__":
+    argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter).parse_args()
     main()

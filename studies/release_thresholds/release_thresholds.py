@@ -8,6 +8,7 @@ Entropy on the measured Hugoniot, T dS = dE + P dV with E = P (V0 - V)/2, agains
 liquid at the melting point. The temperature follows from S and V: Debye crystal, theta = theta0 (V/V0)^-(gamma0 - a) exp(a (1 - V/V0))
 of gamma = gamma0 - a (1 - V/V0), and electrons, g (V/V0)^(2/3) T. Needs numpy.
 """
+import argparse
 import dataclasses
 
 import numpy as np
@@ -120,4 +121,5 @@ def main():
 
 
 if __name__ == "__main__":
+    argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter).parse_args()
     main()
