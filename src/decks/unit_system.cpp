@@ -92,8 +92,7 @@ double UnitSystem::in_si(double value, const Dimension& dimension) const {
 namespace {
 
 /// Sets the unit of a dimension. @throws InputError if the text has named another one
-template <class Unit>
-void take(std::string& unit, const Unit& found, std::string_view text) {
+void take(std::string& unit, std::string_view found, std::string_view text) {
   if (!unit.empty() && unit != found)
     throw InputError(fmt::format("units \"{}\" contradict each other: {} and {}", text, unit, found));
   unit = found;
