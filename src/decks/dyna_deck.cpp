@@ -130,7 +130,8 @@ class BlockReader {
         fail(block, fmt::format("more than {} files are included", limits_.files));
       const std::filesystem::path path = std::filesystem::path(block.file).parent_path() / name;
       const std::string text = included_text(block, card, path);
-      if ((included_bytes_ += text.size()) > limits_.bytes)
+      included_bytes_ += text.size();
+      if (included_bytes_ > limits_.bytes)
         fail(block, fmt::format("files of more than {} bytes are included", limits_.bytes));
       read(path, text, depth + 1);
     }
